@@ -1,0 +1,332 @@
+"""Bodies as data: named, cited, frozen; plain SI floats, or arrays with named dimensions.
+
+The Earth is one of them and the default of a scene; nothing outside this file and the
+scenes knows it by name. A body that spins needs its figure (`j2`, `dynamical_flattening`,
+`radius`), its `spin_period` and its `pole`; a body that only pulls needs `gm` and `naif`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from dataclasses import replace as _replace
+from typing import Any
+
+from earthspin import constants as c
+from earthspin.errors import BodyError, SceneError, nearest
+
+#: A float, or an array with named dimensions (anything numpy can read element by element).
+Numeric = Any
+
+#: Word for a pole of date and an ecliptic that follow the IAU 2006 models.
+IAU_2006 = "iau2006"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Body:
+    """A body that spins, pulls, or both.
+
+    Attributes
+    ----------
+    name : str
+        Label in results.
+    gm : float
+        Gravitational parameter, m3 s-2.
+    naif : tuple of int
+        Codes by which kernels know it, the preferred one first.
+    radius : float
+        Equatorial radius a, m; the one that `j2` refers to.
+    j2 : float
+        (C - (A + B)/2) / (M a2); geodesy's J2, not the source text's (I.9.25).
+    dynamical_flattening : float
+        H = (C - (A + B)/2) / C. At most 1/2, the thin disc; negative if prolate.
+    triaxiality : float
+        (B - A) / (M a2).
+    flattening : float
+        (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
+    spin_period : float
+        One turn relative to the stars, s; negative if retrograde.
+    pole : str or tuple of float
+        ``"iau2006"``, or right ascension and declination of the spin axis (ICRF, J2000.0, rad).
+    orbit_pole : tuple of float or None
+        Right ascension and declination of the orbit's normal (ICRF, rad); not used with
+        ``"iau2006"``, which brings its own ecliptic.
+    orbital_period : float
+        Sidereal, s.
+    cycle : float
+        For a satellite: the slowest cycle of its pull (the turn of the node), s.
+    relative_uncertainty : mapping
+        One standard deviation over value, by field name.
+    reference : str
+        Where the numbers come from.
+
+    Raises
+    ------
+    BodyError
+        If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
+    """
+
+    name: str
+    gm: Numeric
+    naif: tuple[int, ...] = ()
+    radius: Numeric | None = None
+    j2: Numeric | None = None
+    dynamical_flattening: Numeric | None = None
+    triaxiality: Numeric = 0.0
+    flattening: Numeric | None = None
+    spin_period: Numeric | None = None
+    pole: str | tuple[float, float] | None = None
+    orbit_pole: tuple[float, float] | None = None
+    orbital_period: float | None = None
+    cycle: float | None = None
+    relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
+    reference: str = ""
+
+    def __post_init__(self) -> None:
+        for name in _NUMBERS:
+            value = getattr(self, name)
+            if value is not None and not _all(_is_finite(value)):
+                raise BodyError(self.name, name, value, "it must be a finite number")
+        self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
+        self._require("radius", lambda a: a > 0, "a radius is greater than zero")
+        self._require("spin_period", lambda p: p != 0, "a period is not zero")
+        self._require("flattening", lambda f: f < 1, "a flattening is less than 1")
+        self._require(
+            "dynamical_flattening",
+            lambda h: h <= 0.5,
+            "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
+        )
+        self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
+        if self.j2 is not None and self.dynamical_flattening is not None:
+            same_sign = _all(self.j2 * self.dynamical_flattening >= 0)
+            if not same_sign:
+                raise BodyError(
+                    self.name,
+                    "j2",
+                    self.j2,
+                    f"it has the sign of dynamical_flattening = {self.dynamical_flattening!r}",
+                )
+
+    def _require(self, name: str, holds: Any, allowed: str) -> None:
+        value = getattr(self, name)
+        if value is not None and not _all(holds(value)):
+            raise BodyError(self.name, name, value, allowed)
+
+    # --- what follows from the fields --------------------------------------------------------
+
+    @property
+    def mass(self) -> Numeric:
+        """Mass, kg; no better known than G."""
+        return self.gm / c.G.value
+
+    @property
+    def spin_rate(self) -> Numeric:
+        """Angular velocity, rad/s; negative if retrograde."""
+        return 2 * math.pi / self.needed("spin_period")
+
+    def relative_uncertainty_of_bulge(self) -> float:
+        """One standard deviation of C - A = J2 M a2, over its value; G is the worst known."""
+        u = self.relative_uncertainty
+        return math.hypot(
+            u.get("j2", 0.0),
+            u.get("gm", 0.0),
+            2 * u.get("radius", 0.0),
+            c.G.relative_uncertainty,
+        )
+
+    def needed(self, name: str) -> Numeric:
+        """Return a field, or say that this body lacks it.
+
+        Raises
+        ------
+        BodyError
+            If the field is not set.
+        """
+        value = getattr(self, name)
+        if value is None:
+            raise BodyError(self.name, name, None, f"this question needs it; set {name}")
+        return value
+
+    def replace(self, **changes: Any) -> Body:
+        """Return a body with some fields changed, the rest kept consistent.
+
+        Parameters
+        ----------
+        **changes
+            Fields of `Body`, and besides ``mass`` (kg) for `gm`, and ``moments`` (three
+            principal moments, kg m2, the polar one last) for `j2`, `dynamical_flattening`
+            and `triaxiality`. `j2` given without `dynamical_flattening` keeps C / (M a2).
+
+        Raises
+        ------
+        BodyError
+            If the changes contradict each other or make an impossible body.
+        """
+        if "mass" in changes:
+            changes["gm"] = c.G.value * changes.pop("mass")
+        if "moments" in changes:
+            changes |= self._figure_from_moments(changes)
+        elif "j2" in changes and "dynamical_flattening" not in changes and self.j2:
+            changes["dynamical_flattening"] = (
+                self.needed("dynamical_flattening") * changes["j2"] / self.j2
+            )
+        unknown = set(changes) - {f.name for f in fields(self)}
+        if unknown:
+            word = sorted(unknown)[0]
+            raise BodyError(self.name, word, changes[word], nearest(word, BODY_KEYS))
+        # A changed number is the user's own: what was known about the old one no longer holds.
+        known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
+        return _replace(self, **({"relative_uncertainty": known} | changes))
+
+    def _figure_from_moments(self, changes: dict[str, Any]) -> dict[str, Any]:
+        moments = changes.pop("moments")
+        clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
+        if clash:
+            raise BodyError(
+                self.name, "moments", moments, f"moments already give {sorted(clash)[0]}; set one"
+            )
+        small, middle, polar = moments
+        if not _all((small > 0) & (middle > 0) & (polar > 0)):
+            raise BodyError(self.name, "moments", moments, "each moment is greater than zero")
+        if not _all(abs(small - middle) <= polar):
+            raise BodyError(self.name, "moments", moments, "no moment exceeds the other two's sum")
+        difference = polar - (small + middle) / 2
+        gm = changes.get("gm", self.gm)
+        radius = changes.get("radius", self.needed("radius"))
+        scale = gm / c.G.value * radius**2
+        return {
+            "j2": difference / scale,
+            "dynamical_flattening": difference / polar,
+            "triaxiality": abs(middle - small) / scale,
+        }
+
+
+_NUMBERS = (
+    "gm",
+    "radius",
+    "j2",
+    "dynamical_flattening",
+    "triaxiality",
+    "flattening",
+    "spin_period",
+    "orbital_period",
+    "cycle",
+)
+
+#: What a scene's body table may set, beside `from`.
+BODY_KEYS = (
+    "mass",
+    "radius",
+    "moments",
+    "j2",
+    "dynamical_flattening",
+    "flattening",
+    "spin_period",
+    "pole",
+)
+
+
+def _is_finite(value: Numeric) -> Numeric:
+    """Elementwise: a real number that is neither infinite nor NaN."""
+    return (value == value) & (abs(value) != math.inf)
+
+
+def _all(condition: Any) -> bool:
+    """Truth of a bool, or of every element of an array."""
+    return bool(condition.all()) if hasattr(condition, "all") else bool(condition)
+
+
+EARTH = Body(
+    name="earth",
+    gm=c.GM_EARTH.value,
+    naif=(399,),
+    radius=c.EARTH_RADIUS.value,
+    j2=c.EARTH_J2.value,
+    dynamical_flattening=c.EARTH_H.value,
+    triaxiality=c.EARTH_TRIAXIALITY.value,
+    flattening=c.EARTH_FLATTENING.value,
+    spin_period=c.EARTH_SPIN_PERIOD.value,
+    pole=IAU_2006,
+    orbital_period=c.SIDEREAL_YEAR.value,
+    relative_uncertainty={
+        "gm": c.GM_EARTH.relative_uncertainty,
+        "radius": c.EARTH_RADIUS.relative_uncertainty,
+        "j2": c.EARTH_J2.relative_uncertainty,
+        "dynamical_flattening": c.EARTH_H.relative_uncertainty,
+        "flattening": c.EARTH_FLATTENING.relative_uncertainty,
+    },
+    reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
+)
+
+MARS = Body(
+    name="mars",
+    gm=c.GM_MARS.value,
+    naif=(499, 4),
+    radius=c.MARS_RADIUS.value,
+    j2=c.MARS_J2.value,
+    dynamical_flattening=c.MARS_J2.value / c.MARS_POLAR_MOMENT.value,
+    flattening=c.MARS_FLATTENING.value,
+    spin_period=c.MARS_SPIN_PERIOD.value,
+    # Archinal et al. 2011, Celest. Mech. 109, 101, at J2000.0
+    pole=(math.radians(317.68143), math.radians(52.88650)),
+    # from i = 1.84969142, node = 49.55953891 deg to the ecliptic (Standish & Williams)
+    orbit_pole=(math.radians(273.37323), math.radians(65.32299)),
+    orbital_period=c.MARS_ORBITAL_PERIOD.value,
+    relative_uncertainty={
+        "j2": c.MARS_J2.relative_uncertainty,
+        "dynamical_flattening": c.MARS_POLAR_MOMENT.relative_uncertainty,
+        "flattening": c.MARS_FLATTENING.relative_uncertainty,
+    },
+    reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
+)
+
+SUN = Body(
+    name="sun",
+    gm=c.GM_SUN.value,
+    naif=(10,),
+    relative_uncertainty={"gm": c.GM_SUN.relative_uncertainty},
+    reference=c.GM_SUN.source,
+)
+
+MOON = Body(
+    name="moon",
+    gm=c.GM_MOON.value,
+    naif=(301,),
+    cycle=c.MOON_NODE_PERIOD.value,
+    relative_uncertainty={"gm": c.GM_MOON.relative_uncertainty},
+    reference=c.GM_MOON.source,
+)
+
+_PLANETS = (
+    Body(name="mercury", gm=c.GM_MERCURY.value, naif=(199, 1), reference=c.GM_MERCURY.source),
+    Body(name="venus", gm=c.GM_VENUS.value, naif=(299, 2), reference=c.GM_VENUS.source),
+    Body(name="jupiter", gm=c.GM_JUPITER.value, naif=(599, 5), reference=c.GM_JUPITER.source),
+    Body(name="saturn", gm=c.GM_SATURN.value, naif=(699, 6), reference=c.GM_SATURN.source),
+    Body(name="uranus", gm=c.GM_URANUS.value, naif=(799, 7), reference=c.GM_URANUS.source),
+    Body(name="neptune", gm=c.GM_NEPTUNE.value, naif=(899, 8), reference=c.GM_NEPTUNE.source),
+)
+
+#: Every named body.
+BODIES: dict[str, Body] = {b.name: b for b in (EARTH, MARS, SUN, MOON, *_PLANETS)}
+
+
+def body(name: str, *, key: str = "body", source: str = "scene") -> Body:
+    """Look a body up by name.
+
+    Parameters
+    ----------
+    name : str
+        One of `BODIES`, in any case.
+    key, source : str
+        What asked, for the message.
+
+    Raises
+    ------
+    SceneError
+        If the name is unknown; it names the nearest valid one.
+    """
+    found = BODIES.get(name.lower()) if isinstance(name, str) else None
+    if found is None:
+        raise SceneError(key, name, nearest(name, BODIES), source=source)
+    return found

@@ -1,0 +1,1 @@
+"""Our pole beside the IAU's."""

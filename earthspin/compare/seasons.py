@@ -1,0 +1,59 @@
+"""What a rate of precession means in the sky and in the calendar (I.8).
+
+Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic itself.
+The seasons slide by the sum, the general precession. The calendar drifts against the
+*tropical* year, which already contains it: one day in 128 years, where the source text's
+129.4 divides the sidereal turn by the days of the year.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, CHI_A_RATE, DAY, EPSILON_0, JULIAN_YEAR
+
+Numeric = Any
+
+
+def general_precession(rate: Numeric) -> Numeric:
+    """General precession in longitude, rad/s: ours less the motion of the ecliptic.
+
+    p_A = psi_A - chi_A cos(epsilon_0), Capitaine et al. 2003, with their chi_A.
+
+    Parameters
+    ----------
+    rate : float
+        Precession of the equator in longitude, rad/s.
+    """
+    chi = CHI_A_RATE.value * ARCSEC_PER_YEAR
+    return rate - chi * math.cos(EPSILON_0.value * ARCSEC)
+
+
+def time_per_degree(rate: Numeric) -> Numeric:
+    """Time in which a rate in rad/s adds up to a degree, s."""
+    return math.radians(1.0) / rate
+
+
+def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
+    """Time from one season to the same season, s.
+
+    Parameters
+    ----------
+    rate : float
+        General precession, rad/s; the equinox comes to meet the Sun.
+    sidereal_year : float
+        s.
+    """
+    return 2 * math.pi / (2 * math.pi / sidereal_year + rate)
+
+
+def time_per_day_of_drift(tropical: Numeric) -> Numeric:
+    """Time in which a calendar of 365.25 days drifts by one day against the seasons, s.
+
+    Parameters
+    ----------
+    tropical : float
+        Tropical year, s.
+    """
+    return DAY / (JULIAN_YEAR - tropical) * JULIAN_YEAR

@@ -1,0 +1,177 @@
+"""Every error a user can meet, each carrying its data.
+
+A message is one line: what was given, what is allowed, what to do. Each class
+keeps the same facts as attributes, so that a program can act on them.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
+
+
+class EarthspinError(Exception):
+    """Anything that a user can put right; the command line prints it and exits with 2."""
+
+
+class SceneError(EarthspinError, ValueError):
+    """A scene says something that it cannot say.
+
+    Attributes
+    ----------
+    source : str
+        The file, or ``"scene"`` when it was built in Python.
+    key : str
+        The offending key.
+    given : object
+        What was read.
+    """
+
+    def __init__(
+        self, key: str, given: Any, problem: str, *, source: str = "scene", remedy: str = ""
+    ) -> None:
+        self.source, self.key, self.given, self.problem = source, key, given, problem
+        self.remedy = remedy
+        super().__init__(_sentence(f"{source}: {key} = {given!r}", problem, remedy))
+
+
+class BodyError(EarthspinError, ValueError):
+    """A body that cannot exist.
+
+    Attributes
+    ----------
+    body : str
+        Its name.
+    field : str
+        The field that is wrong.
+    given : object
+        The value of that field.
+    """
+
+    def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
+        self.body, self.field, self.given, self.allowed = body, field, given, allowed
+        super().__init__(f"body '{body}': {field} = {given!r} is not possible; {allowed}")
+
+
+class UnitsError(EarthspinError, ValueError):
+    """A value whose unit is missing, unknown, or of another kind.
+
+    Attributes
+    ----------
+    given : object
+        The value as it was read.
+    wanted : str
+        The unit that it must convert to.
+    """
+
+    def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
+        self.what, self.given, self.wanted = what, given, wanted
+        super().__init__(
+            f"{what} = {given!r} is not a value in units of {wanted}; write it like {example!r}"
+        )
+
+
+class KernelError(EarthspinError, OSError):
+    """An ephemeris kernel that cannot be used.
+
+    Attributes
+    ----------
+    path : str
+        The kernel, as named.
+    """
+
+    def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
+        self.path = str(path)
+        super().__init__(_sentence(f"kernel '{path}'", problem, remedy))
+
+
+class CoverageError(EarthspinError, ValueError):
+    """Times outside what a kernel covers.
+
+    Attributes
+    ----------
+    kernel : str
+        Name of the kernel.
+    asked, coverage : tuple of str
+        First and last date, TDB.
+    """
+
+    def __init__(self, kernel: str, asked: tuple[str, str], coverage: tuple[str, str]) -> None:
+        self.kernel, self.asked, self.coverage = kernel, asked, coverage
+        super().__init__(
+            f"span {asked[0]} to {asked[1]} is outside kernel '{kernel}', which covers "
+            f"{coverage[0]} to {coverage[1]} (TDB); choose a span inside it or a longer kernel"
+        )
+
+
+class UndefinedError(EarthspinError, ValueError):
+    """A quantity that has no value here, with the reason."""
+
+
+class AccuracyError(EarthspinError, ValueError):
+    """An accuracy that was asked for and cannot be given.
+
+    Attributes
+    ----------
+    asked, best : float
+        Half-widths, in the same unit.
+    """
+
+    def __init__(self, asked: float, best: float, unit: str, remedy: str) -> None:
+        self.asked, self.best, self.unit = asked, best, unit
+        super().__init__(
+            f"accuracy of {asked:.3g} {unit} was asked for, the error estimate is "
+            f"{best:.3g} {unit}; {remedy}"
+        )
+
+
+class OutputError(EarthspinError, OSError):
+    """A result that cannot be written.
+
+    Attributes
+    ----------
+    path : str
+        Where it should have gone.
+    """
+
+    def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
+        self.path = str(path)
+        super().__init__(_sentence(f"output '{path}'", problem, remedy))
+
+
+class MissingExtraError(EarthspinError, ImportError):
+    """An optional package that this question needs is not installed."""
+
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
+        self.package, self.extra = package, extra
+        super().__init__(
+            f"{purpose} needs the package '{package}'; install it with "
+            f"pip install 'earthspin[{extra}]'"
+        )
+
+
+def nearest(word: object, allowed: Iterable[str]) -> str:
+    """Say what is allowed, the word nearest to the given one first.
+
+    Parameters
+    ----------
+    word : object
+        What was read.
+    allowed : iterable of str
+        The valid words.
+
+    Returns
+    -------
+    str
+        ``"did you mean 'torque'? allowed: precession, torque, wobble"``.
+    """
+    words = sorted(allowed)
+    close = difflib.get_close_matches(str(word), words, n=1, cutoff=0.5)
+    hint = f"did you mean '{close[0]}'? " if close else ""
+    return f"{hint}allowed: {', '.join(words)}"
+
+
+def _sentence(subject: str, problem: str, remedy: str) -> str:
+    """Join the parts of a message, leaving out an empty remedy."""
+    return f"{subject}: {problem}" + (f"; {remedy}" if remedy else "")

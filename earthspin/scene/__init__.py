@@ -1,0 +1,1 @@
+"""What is asked for, and only that: scenes, plans, parts."""

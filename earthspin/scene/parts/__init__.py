@@ -1,0 +1,42 @@
+"""One small adapter per part: what it needs, gives and calls, and the schema of what it gives.
+
+Adapters carry data across the border between labelled data and physics; they do no
+arithmetic of their own. These files import nothing heavy: what a part calls is imported
+when it runs.
+"""
+
+from __future__ import annotations
+
+from earthspin.scene.part import Part
+from earthspin.scene.parts import (
+    averaging,
+    earth_models,
+    free_wobble,
+    iau_comparison,
+    kernel,
+    ladder,
+    nutation_nodes,
+    seasons,
+    standstills,
+    torque_at_times,
+)
+
+#: Every part there is, by name.
+PARTS: dict[str, Part] = {
+    part.name: part
+    for part in (
+        kernel.EPHEMERIS,
+        nutation_nodes.NUTATION,
+        averaging.TORQUE_SAMPLES,
+        averaging.MEAN_RATES,
+        averaging.CONVERGENCE,
+        earth_models.EARTH_MODELS,
+        free_wobble.FREE_WOBBLE,
+        free_wobble.OBSERVED_WOBBLE,
+        seasons.SEASONS,
+        iau_comparison.IAU_2006_COMPARISON,
+        standstills.STANDSTILLS,
+        torque_at_times.TORQUE_SERIES,
+        ladder.WOBBLE_LADDER,
+    )
+}

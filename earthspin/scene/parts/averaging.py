@@ -1,0 +1,244 @@
+"""Torques sampled over a window, and averaged over orbits to rates of precession."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from earthspin.dataset import Variable, with_error
+from earthspin.scene.part import Part
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from earthspin.scene.spec import Scene
+    from earthspin.torque.average import Window
+
+#: A day apart is dense enough: torques have no strong period under four days (two days give
+#: the same rate to 1e-12, four days are off by 3e-6).
+SAMPLING = 86400.0  # s
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Torques per unit of C - A, evenly sampled about the reference epoch.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        s from J2000.0 TDB.
+    labels : list of str
+        The perturbers, and their total if there are several.
+    longitude_rate : ndarray, shape (n, label)
+        Rate of the node per H/Omega, s-2.
+    torque : ndarray, shape (n, label, 3)
+        Torque per C - A, along equator and equinox of date, s-2.
+    window : Window
+        The window that converges fastest on this span; its centre is the epoch.
+    obliquity : float
+        Of the axis to the orbit at the epoch, rad.
+    """
+
+    times: NDArray[np.float64]
+    labels: list[str]
+    longitude_rate: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    window: Window
+    obliquity: float
+
+
+def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
+    """Sample the torque of each perturber over the widest window about the epoch."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
+    from earthspin.torque.average import best_window, longitude_rate, with_total
+    from earthspin.torque.gravity import torque_from_position
+
+    sky, body = given["ephemeris"], scene.body
+    start, end = (day * DAY for day in sky.span)
+    cycle = max(p.cycle or body.needed("orbital_period") for p in scene.perturbers)
+    window = best_window(start, end, cycle)
+    times = window.sample_times(SAMPLING)
+    days = times / DAY
+
+    equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
+    axis, normal = equator[..., 2, :], orbit_normal(body.pole, body.orbit_pole)
+    positions = sky.ephemeris.positions(sky.targets, sky.centre, days)
+    torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in scene.perturbers]
+    names = [p.name for p in scene.perturbers]
+    return Samples(
+        times=times,
+        labels=names + ["total"] * (len(names) > 1),
+        longitude_rate=with_total(
+            np.stack([longitude_rate(torque, axis, normal) for torque in torques], axis=1)
+        ),
+        torque=with_total(np.stack([rotate(equator, torque) for torque in torques], axis=1)),
+        window=window,
+        obliquity=angle(np.atleast_2d(axis)[axis.size // 6], normal),
+    )
+
+
+def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Average, and turn the averages into rates, periods and torques, each with its error."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.constants import DAY
+    from earthspin.dataset import build
+    from earthspin.torque import precession as p
+    from earthspin.torque.average import window_mean_and_error
+    from earthspin.units import datetime64
+
+    samples, body = given["torque-samples"], scene.body
+    u, h = body.relative_uncertainty, body.needed("dynamical_flattening")
+    figure = body.needed("j2"), body.mass, body.needed("radius")
+
+    def along(values: Any) -> xr.DataArray:
+        return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
+
+    u_gm = along(_with_largest([q.relative_uncertainty.get("gm", 0.0) for q in scene.perturbers]))
+    geometry, geometry_error = window_mean_and_error(
+        samples.window, samples.times, samples.longitude_rate
+    )
+    rate = p.precession_rate(along(geometry), h, body.spin_rate)
+    rate_method = abs(p.precession_rate(along(geometry_error), h, body.spin_rate))
+    rate_input = p.rate_input_error(rate, u.get("dynamical_flattening", 0.0), u_gm)
+    rate_error = np.hypot(rate_method, rate_input)
+    _check_accuracy(scene, rate, rate_error)
+
+    vector, vector_error = window_mean_and_error(samples.window, samples.times, samples.torque)
+    torque = p.mean_torque(along(np.linalg.norm(vector, axis=-1)), *figure)
+    torque_method = p.mean_torque(along(np.linalg.norm(vector_error, axis=-1)), *figure)
+    torque_input = p.torque_input_error(torque, body.relative_uncertainty_of_bulge(), u_gm)
+    window = samples.window
+    result = build(
+        "mean-rates",
+        MEAN_RATES.gives,
+        {
+            "precession_rate": rate,
+            "precession_rate_error": rate_error,
+            "precession_rate_error_method": rate_method,
+            "precession_rate_error_input": rate_input,
+            "precession_period": p.period(rate),
+            "precession_period_error": p.period_error(rate, rate_error),
+            "rate_ratio": rate / rate.isel(perturber=0),
+            "mean_torque": torque,
+            "mean_torque_error": np.hypot(torque_method, torque_input),
+            "obliquity": samples.obliquity,
+            "reference_epoch": datetime64(np.array(window.centre / DAY)),
+        },
+    )
+    result["precession_rate"].attrs["window"] = (
+        f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
+    )
+    return result
+
+
+def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Averaged rate of all perturbers against the length of the window, for each taper."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.dataset import build
+    from earthspin.torque import precession as p
+    from earthspin.torque.average import convergence_curve
+
+    samples, body = given["torque-samples"], scene.body
+    window = samples.window
+    cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
+    curves = convergence_curve(window, samples.times, samples.longitude_rate[:, -1], cycles)
+    geometry = xr.DataArray(
+        np.stack(list(curves.values())),
+        {"window": list(curves), "window_cycles": cycles},
+        ("window", "window_cycles"),
+    )
+    rate = p.precession_rate(geometry, body.needed("dynamical_flattening"), body.spin_rate)
+    length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
+    return build(
+        "convergence", CONVERGENCE.gives, {"rate_by_window": rate, "window_length": length}
+    )
+
+
+def _with_largest(values: list[float]) -> list[float]:
+    """Add, for the total, the largest of several values."""
+    return values + [max(values)] * (len(values) > 1)
+
+
+def _check_accuracy(scene: Scene, rate: xr.DataArray, error: xr.DataArray) -> None:
+    """Refuse a relative accuracy that the total does not reach."""
+    from earthspin.errors import AccuracyError, SceneError
+
+    if scene.accuracy is None:
+        return
+    if not isinstance(scene.accuracy, float):
+        raise SceneError(
+            "accuracy",
+            scene.accuracy,
+            "a rate takes a relative error, like 1e-6",
+            source=scene.source,
+        )
+    best = float((error / abs(rate)).isel(perturber=-1).max())
+    if best > scene.accuracy:
+        raise AccuracyError(scene.accuracy, best, "(relative)", "give a longer span or better H")
+
+
+_PERTURBER = ("perturber",)
+_OVER_WINDOW = (("cell_methods", "time: mean (weighted by the taper)"),)
+
+TORQUE_SAMPLES = Part(
+    name="torque-samples",
+    does="torque of each perturber, daily, through the window that converges fastest",
+    function="earthspin.scene.parts.averaging:sample_torques",
+    needs=("ephemeris",),
+    keys=("body", "perturbers", "ephemeris", "span"),
+)
+
+MEAN_RATES = Part(
+    name="mean-rates",
+    does="averages over orbits: rate, period, mean torque, with errors",
+    function="earthspin.scene.parts.averaging:mean_rates",
+    needs=("torque-samples",),
+    keys=("accuracy",),
+    gives={
+        **with_error(
+            "precession_rate",
+            Variable(
+                _PERTURBER,
+                "arcsec/yr",
+                "rate of precession in longitude along the fixed orbit",
+                _OVER_WINDOW,
+            ),
+            split=True,
+        ),
+        **with_error(
+            "precession_period", Variable(_PERTURBER, "yr", "time for one turn of precession")
+        ),
+        "rate_ratio": Variable(_PERTURBER, "1", "rate over that of the first perturber"),
+        **with_error(
+            "mean_torque",
+            Variable(_PERTURBER, "N m", "magnitude of the mean torque vector", _OVER_WINDOW),
+        ),
+        "obliquity": Variable((), "deg", "angle between spin axis and orbit normal at the epoch"),
+        "reference_epoch": Variable((), "", "epoch that the averages refer to (TDB)"),
+    },
+)
+
+CURVE_POINTS = 161
+
+CONVERGENCE = Part(
+    name="convergence",
+    does="averaged rate against the length of the window, plain mean and tapers",
+    function="earthspin.scene.parts.averaging:convergence",
+    needs=("torque-samples",),
+    gives={
+        "rate_by_window": Variable(
+            ("window", "window_cycles"), "arcsec/yr", "rate of precession of all perturbers"
+        ),
+        "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
+    },
+)

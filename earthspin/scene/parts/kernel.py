@@ -1,0 +1,59 @@
+"""Open the kernel and find in it the bodies of the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from earthspin.scene.part import Part
+
+if TYPE_CHECKING:
+    from earthspin.scene.spec import Scene
+    from earthspin.sky.ephemeris import Ephemeris
+
+
+@dataclass(frozen=True)
+class Sky:
+    """An open kernel, and the codes by which it knows the bodies of a scene.
+
+    Attributes
+    ----------
+    ephemeris : Ephemeris
+    centre : int
+        NAIF code of the body that spins.
+    targets : dict of str to int
+        NAIF code of each perturber.
+    span : tuple of float
+        First and last day that may be used, from J2000.0 TDB: the scene's span, or all that
+        the kernel covers.
+    """
+
+    ephemeris: Ephemeris
+    centre: int
+    targets: dict[str, int]
+    span: tuple[float, float]
+
+
+def open_sky(scene: Scene, given: Mapping[str, Any]) -> Sky:
+    """Open the scene's kernel; refuse it if it lacks a body or does not cover the span."""
+    from earthspin.sky.ephemeris import open_ephemeris
+    from earthspin.units import span_days
+
+    ephemeris = open_ephemeris(scene.ephemeris)
+    centre = ephemeris.code(scene.body.naif, scene.body.name)
+    targets = {p.name: ephemeris.code(p.naif, p.name) for p in scene.perturbers}
+    codes = {*targets.values(), centre}
+    span = ephemeris.coverage(codes)
+    if scene.span is not None:
+        span = span_days(scene.span, scene.source)
+        ephemeris.check_times(span, codes)
+    return Sky(ephemeris, centre, targets, span)
+
+
+EPHEMERIS = Part(
+    name="ephemeris",
+    does="open the kernel; check that it holds the bodies and covers the span",
+    function="earthspin.scene.parts.kernel:open_sky",
+    keys=("ephemeris", "body", "perturbers", "span"),
+)

@@ -1,0 +1,161 @@
+"""Where the perturbers stand and what they pull, at many times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from earthspin.dataset import Variable, with_error
+from earthspin.scene.part import Part
+from earthspin.units import TimeGrid, days, time_grid
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from earthspin.scene.spec import Scene
+
+#: What `step` is if the scene does not say, and how long a span without one is.
+DEFAULT_STEP = "6 h"
+DEFAULT_SPAN = ("2000-01-01T12:00:00", "2001-01-01T12:00:00")
+
+
+@dataclass(frozen=True)
+class SeriesTimes:
+    """The times of a series: a grid that is made as needed, or a list.
+
+    Attributes
+    ----------
+    grid : TimeGrid or None
+    listed : ndarray or None
+        Days from J2000.0 TDB.
+    """
+
+    grid: TimeGrid | None
+    listed: NDArray[np.float64] | None
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return self.grid.size if self.grid is not None else len(self.listed)  # type: ignore[arg-type]
+
+    def days(self, first: int, last: int) -> NDArray[np.float64]:
+        """Times from `first` up to `last`, days from J2000.0 TDB."""
+        if self.grid is not None:
+            return self.grid.days(first, last)
+        assert self.listed is not None
+        return self.listed[first:last]
+
+    @property
+    def first(self) -> float:
+        """Earliest, days from J2000.0 TDB."""
+        return float(self.days(0, 1)[0] if self.listed is None else self.listed.min())
+
+    @property
+    def last(self) -> float:
+        """Latest, days from J2000.0 TDB."""
+        return float(
+            self.days(self.size - 1, self.size)[0] if self.listed is None else self.listed.max()
+        )
+
+
+def series_times(scene: Scene) -> SeriesTimes:
+    """Times at which a scene wants its series."""
+    if scene.times is not None:
+        return SeriesTimes(None, days(scene.times))
+    span = scene.span or DEFAULT_SPAN
+    return SeriesTimes(time_grid(*span, scene.step or DEFAULT_STEP, scene.source), None)
+
+
+def torque_series(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Series at every time of the scene."""
+    return torque_block(scene, given, 0, series_times(scene).size)
+
+
+def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) -> xr.Dataset:
+    """Series from the time numbered `first` up to `last`.
+
+    Raises
+    ------
+    CoverageError
+        If the kernel does not cover a time.
+    """
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.dataset import build
+    from earthspin.mass.inertia import moment_difference
+    from earthspin.sky.equator import equator_of_date, rotate, spherical
+    from earthspin.torque.gravity import torque_error, torque_from_declination
+    from earthspin.units import datetime64
+
+    sky, body = given["ephemeris"], scene.body
+    now = series_times(scene).days(first, last)
+    equator = equator_of_date(body.needed("pole"), body.orbit_pole, now, given.get("nutation"))
+    positions = sky.ephemeris.positions(sky.targets, sky.centre, now)
+    names = list(sky.targets)
+    seen = {name: spherical(rotate(equator, positions[name])) for name in names}
+    kernel_error = {name: sky.ephemeris.error(sky.targets[name]) for name in names}
+
+    def stack(values: list[Any], *dims: str) -> xr.DataArray:
+        return xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
+
+    bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
+    u_bulge = body.relative_uncertainty_of_bulge()
+    per_bulge = [torque_from_declination(p.gm, 1.0, *seen[p.name]) for p in scene.perturbers]
+    error = [
+        torque_error(p.gm, 1.0, *seen[p.name][1:], *kernel_error[p.name], u_bulge)
+        for p in scene.perturbers
+    ]
+    return build(
+        "torque-series",
+        TORQUE_SERIES.gives,
+        {
+            "right_ascension": stack([seen[name][0] for name in names]),
+            "declination": stack([seen[name][1] for name in names]),
+            "distance": stack([seen[name][2] for name in names]),
+            "torque": stack(per_bulge, "component") * bulge,
+            "torque_magnitude": stack([_norm(t) for t in per_bulge]) * abs(bulge),
+            "torque_magnitude_error": stack(error) * abs(bulge),
+            "direction_error": [kernel_error[name][0] for name in names],
+            "distance_error": [kernel_error[name][1] for name in names],
+        },
+        coords={
+            "time": ("time", datetime64(now), dict(TIME)),
+            "perturber": names,
+            "component": ["x", "y", "z"],
+        },
+        frame=f"{scene.equator} equator and equinox of date of {body.name}",
+    )
+
+
+def _norm(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    import numpy as np
+
+    return np.asarray(np.linalg.norm(vectors, axis=-1))
+
+
+TIME = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
+_SERIES = ("time", "perturber")
+
+TORQUE_SERIES = Part(
+    name="torque-series",
+    does="declination, distance and torque of each perturber at every time",
+    function="earthspin.scene.parts.torque_at_times:torque_series",
+    needs=("ephemeris",),
+    uses=("nutation",),
+    keys=("body", "perturbers", "ephemeris", "span", "step", "times", "equator"),
+    gives={
+        "right_ascension": Variable(_SERIES, "deg", "right ascension, geometric"),
+        "declination": Variable(_SERIES, "deg", "declination, geometric"),
+        "distance": Variable(_SERIES, "m", "distance between the centres"),
+        "torque": Variable((*_SERIES, "component"), "N m", "torque on the bulge"),
+        **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
+        "direction_error": Variable(
+            ("perturber",), "deg", "bound on right ascension and declination from the kernel"
+        ),
+        "distance_error": Variable(("perturber",), "m", "bound on the distance from the kernel"),
+    },
+)

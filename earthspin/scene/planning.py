@@ -1,0 +1,96 @@
+"""From a question back to the parts that it needs, in order, and what was left out and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from graphlib import TopologicalSorter
+
+from earthspin.errors import SceneError
+from earthspin.scene.part import Part
+from earthspin.scene.parts import PARTS
+from earthspin.scene.questions import QUESTIONS
+from earthspin.scene.spec import Scene
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What will run for a scene, and what will not.
+
+    Attributes
+    ----------
+    scene : Scene
+    parts : tuple of Part
+        In the order in which they run.
+    left_out : dict of str to str
+        Reason by name, for every other part that there is.
+    """
+
+    scene: Scene
+    parts: tuple[Part, ...]
+    left_out: dict[str, str]
+
+    def __str__(self) -> str:
+        width = max(len(name) for name in PARTS)
+        lines = [f"{self.scene.title}: compute = {self.scene.compute}", "", "runs, in this order"]
+        lines += [f"  {p.name:<{width}}  {p.does}" for p in self.parts]
+        lines += ["", "left out"]
+        lines += [f"  {name:<{width}}  {why}" for name, why in self.left_out.items()]
+        return "\n".join(lines)
+
+
+def plan(scene: Scene) -> Plan:
+    """Work out which parts a scene needs.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Raises
+    ------
+    SceneError
+        If nothing that answers the question can run; it gives the reason.
+    """
+    wanted = QUESTIONS[scene.compute].wants
+    reasons: dict[str, str] = {}
+    chosen: dict[str, tuple[str, ...]] = {}
+    for name in wanted:
+        _choose(name, scene, chosen, reasons)
+    if not any(name in chosen for name in wanted):
+        raise SceneError(
+            "compute", scene.compute, f"nothing to do: {reasons[wanted[0]]}", source=scene.source
+        )
+    order = TopologicalSorter(chosen).static_order()
+    left_out = {
+        name: reasons.get(name, "nothing that is asked for needs it")
+        for name in PARTS
+        if name not in chosen
+    }
+    return Plan(scene, tuple(PARTS[name] for name in order), left_out)
+
+
+def _choose(
+    name: str, scene: Scene, chosen: dict[str, tuple[str, ...]], reasons: dict[str, str]
+) -> bool:
+    """Choose a part and all that it stands on, or note why it is left out."""
+    if name in chosen:
+        return True
+    if name in reasons:
+        return False
+    part = PARTS[name]
+    why = part.left_out(scene)
+    if why is None:
+        missing = _first_missing(part.needs, scene, chosen, reasons)
+        why = missing and f"it needs {missing}, which is left out: {reasons[missing]}"
+    if why is not None:
+        reasons[name] = why
+        return False
+    used = tuple(other for other in part.uses if _choose(other, scene, chosen, reasons))
+    chosen[name] = part.needs + used
+    return True
+
+
+def _first_missing(
+    names: Iterable[str], scene: Scene, chosen: dict[str, tuple[str, ...]], reasons: dict[str, str]
+) -> str | None:
+    return next((n for n in names if not _choose(n, scene, chosen, reasons)), None)

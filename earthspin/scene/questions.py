@@ -1,0 +1,60 @@
+"""The questions that a scene can ask, and the words of its grammar.
+
+A new question is one row here and its parts in `earthspin.scene.parts`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Question:
+    """What one word after ``compute =`` stands for.
+
+    Attributes
+    ----------
+    wants : tuple of str
+        The parts whose results make up the answer.
+    effects : tuple of str
+        The effects that it can switch on.
+    tables : tuple of str
+        Tables of settings that belong to it.
+    """
+
+    wants: tuple[str, ...]
+    effects: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+
+
+#: Words for physical effects, in the grammar of scenes.
+EFFECTS = (
+    "planets",
+    "j3",
+    "j4",
+    "triaxiality",
+    "geodesic",
+    "j2-rate",
+    "second-order",
+    "nonrigid",
+)
+
+QUESTIONS: dict[str, Question] = {
+    "precession": Question(
+        wants=(
+            "mean-rates",
+            "convergence",
+            "earth-models",
+            "free-wobble",
+            "observed-wobble",
+            "seasons",
+            "iau-2006",
+            "standstills",
+        )
+    ),
+    "torque": Question(wants=("torque-series",)),
+    "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
+}
+
+#: Every table that some question has.
+TABLES = tuple(sorted({table for question in QUESTIONS.values() for table in question.tables}))

@@ -1,0 +1,1 @@
+"""What others have computed or observed: kernels, IAU models, standstills of the Moon."""

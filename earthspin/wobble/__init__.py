@@ -1,0 +1,1 @@
+"""The free wobble, from a rigid Earth to the observed one."""
