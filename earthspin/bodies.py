@@ -192,8 +192,8 @@ class Body:
         if not _all(abs(small - middle) <= polar):
             raise BodyError(self.name, "moments", moments, "no moment exceeds the other two's sum")
         difference = polar - (small + middle) / 2
-        gm = changes.get("gm", self.gm)
-        radius = changes.get("radius", self.needed("radius"))
+        gm: Numeric = changes.get("gm", self.gm)
+        radius: Numeric = changes.get("radius", self.radius)
         scale = gm / c.G.value * radius**2
         return {
             "j2": difference / scale,

@@ -73,8 +73,8 @@ class Scene:
 
     compute: str
     title: str = ""
-    body: Body | str = "earth"
-    perturbers: Sequence[Body | str] = ("sun", "moon")
+    body: Any = "earth"  # a Body once checked
+    perturbers: Any = ("sun", "moon")  # a tuple of Body once checked
     effects: Sequence[str] | None = None
     equator: str = "mean"
     ephemeris: Any = "de421"
