@@ -102,7 +102,10 @@ def read(path: str | Path) -> xr.Dataset:
     coder = xr.coders.CFDatetimeCoder(time_unit="us")
     try:
         if Path(path).suffix == ".zarr":
-            return xr.open_zarr(path, decode_times=coder, consolidated=False, chunks=None)
+            result: xr.Dataset = xr.open_zarr(
+                path, decode_times=coder, consolidated=False, chunks=None
+            )
+            return result
         with xr.open_dataset(path, decode_times=coder, engine="netcdf4") as file:
             return file.load()
     except (OSError, ValueError, KeyError) as error:

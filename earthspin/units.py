@@ -109,7 +109,7 @@ def microseconds(value: Any, key: str = "date", source: str = "scene") -> int:
         raise SceneError(key, value, "there is no such date", source=source) from None
     if np.isnat(stamp):
         raise SceneError(key, value, "NaT is no date", source=source)
-    return int((stamp - J2000).astype(np.int64))
+    return int((stamp - J2000) / np.timedelta64(1, "us"))
 
 
 def span_days(span: tuple[Any, Any], source: str = "scene") -> FloatArray:
@@ -160,11 +160,6 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
     """Days from J2000.0 TDB as ``datetime64[us]``, the time coordinate of every dataset."""
     counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
     return J2000 + counts.astype("timedelta64[us]")
-
-
-def iso_date(days_tdb: float) -> str:
-    """Calendar date (TDB) of a count of days from J2000.0, to the second, for messages."""
-    return str(np.datetime64(datetime64(np.array(float(days_tdb))), "s"))
 
 
 @dataclass(frozen=True)

@@ -135,7 +135,7 @@ def _merge(
 ) -> xr.Dataset:
     import xarray as xr
 
-    result = xr.merge(pieces, join="exact", combine_attrs="drop")
+    result = xr.merge(pieces, join="exact", combine_attrs="override")
     names = [*seconds, *planned.left_out]
     result = result.assign_coords(part=("part", names, {"long_name": "part of the plan"}))
     result["part_run_time"] = (

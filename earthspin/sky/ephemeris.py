@@ -291,3 +291,13 @@ def _date(days: float) -> str:
         return str(days)
     micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
     return str(np.datetime64("2000-01-01T12:00:00", "us") + micro)[:19]
+
+
+def describe_kernel(name: str) -> str:
+    """Coverage and place of a named kernel, or why it cannot be used, in one line."""
+    try:
+        ephemeris = open_ephemeris(name)
+    except (MissingExtraError, KernelError) as error:
+        return str(error)
+    start, end = ephemeris.coverage(ephemeris.targets - {0})
+    return f"{_date(start)[:10]} to {_date(end)[:10]} TDB, {ephemeris.path}"

@@ -75,7 +75,7 @@ class Window:
     def sample_times(self, step: float) -> FloatArray:
         """Times `step` s apart over the window, one of them at its centre, s."""
         half = math.floor(self.length / 2 / step)
-        return self.centre + step * np.arange(-half, half + 1)
+        return np.asarray(self.centre + step * np.arange(-half, half + 1.0))
 
     def weights(self, times: FloatArray) -> FloatArray:
         """Weights of evenly spaced times, adding up to 1.

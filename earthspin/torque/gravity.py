@@ -72,7 +72,7 @@ def torque_from_position(
     """
     direction, distance = _direction(position)
     size = 3 * gm * moment_difference / distance**3 * np.sum(direction * axis, axis=-1)
-    return size[..., np.newaxis] * np.cross(direction, axis)
+    return np.asarray(size[..., np.newaxis] * np.cross(direction, axis))
 
 
 def torque_error(
@@ -104,7 +104,9 @@ def torque_error(
     size = scale * np.abs(np.sin(declination) * np.cos(declination))
     from_direction = scale * np.abs(np.cos(2 * declination)) * angle_error
     from_distance = size * 3 * distance_error / distance
-    return np.sqrt((NORMAL_95 * size * u_bulge) ** 2 + from_direction**2 + from_distance**2)
+    return np.asarray(
+        np.sqrt((NORMAL_95 * size * u_bulge) ** 2 + from_direction**2 + from_distance**2)
+    )
 
 
 def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:

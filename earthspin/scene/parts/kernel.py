@@ -46,8 +46,9 @@ def open_sky(scene: Scene, given: Mapping[str, Any]) -> Sky:
     codes = {*targets.values(), centre}
     span = ephemeris.coverage(codes)
     if scene.span is not None:
-        span = span_days(scene.span, scene.source)
-        ephemeris.check_times(span, codes)
+        asked = span_days(scene.span, scene.source)
+        ephemeris.check_times(asked, codes)
+        span = float(asked[0]), float(asked[1])
     return Sky(ephemeris, centre, targets, span)
 
 

@@ -66,7 +66,7 @@ def series_times(scene: Scene) -> SeriesTimes:
     if scene.times is not None:
         return SeriesTimes(None, days(scene.times))
     span = scene.span or DEFAULT_SPAN
-    return SeriesTimes(time_grid(*span, scene.step or DEFAULT_STEP, scene.source), None)
+    return SeriesTimes(time_grid(span[0], span[1], scene.step or DEFAULT_STEP, scene.source), None)
 
 
 def torque_series(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
@@ -106,7 +106,15 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
     u_bulge = body.relative_uncertainty_of_bulge()
     per_bulge = [torque_from_declination(p.gm, 1.0, *seen[p.name]) for p in scene.perturbers]
     error = [
-        torque_error(p.gm, 1.0, *seen[p.name][1:], *kernel_error[p.name], u_bulge)
+        torque_error(
+            p.gm,
+            1.0,
+            declination=seen[p.name][1],
+            distance=seen[p.name][2],
+            angle_error=kernel_error[p.name][0],
+            distance_error=kernel_error[p.name][1],
+            u_bulge=u_bulge,
+        )
         for p in scene.perturbers
     ]
     return build(

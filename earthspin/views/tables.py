@@ -1,0 +1,348 @@
+"""Tables: a result in plain words, for the terminal and for the page alike."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+WIDTH = 100
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table and the words around it.
+
+    Attributes
+    ----------
+    title : str
+    headers : tuple of str
+        The first column is text, the others are set to the right.
+    rows : sequence of tuple of str
+    note : str
+        A sentence or two below it.
+    parts : tuple of str
+        The parts that made its numbers.
+    """
+
+    title: str
+    headers: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+    note: str = ""
+    parts: tuple[str, ...] = field(default=())
+
+
+def tables_for(result: xr.Dataset) -> list[Table]:
+    """Tables of a result, in the order in which they are read.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `run` gives it.
+    """
+    makers: dict[str, Callable[[xr.Dataset], Table]] = {
+        "precession_rate": rates,
+        "general_precession": sky_and_calendar,
+        "period_by_model": models,
+        "free_wobble_period": free_wobble,
+        "iau_rate": iau,
+        "standstill_declination": standstills,
+        "torque_magnitude": torque_summary,
+        "period_solar": ladder,
+    }
+    tables = [make(_first_of_draws(result)) for name, make in makers.items() if name in result]
+    return [table for table in tables if table.rows]
+
+
+def with_error(value: Any, error: Any, unit: str = "") -> str:
+    """Write a value and its half-width to two digits of the half-width.
+
+    Parameters
+    ----------
+    value, error : float
+    unit : str
+        Put behind.
+    """
+    value, error = float(value), float(error)
+    if not math.isfinite(value):
+        return "none (no motion)"
+    if error <= 0 or not math.isfinite(error):
+        return f"{value:.6g}{_space(unit)}"
+    power = math.floor(math.log10(abs(value))) if value else 0
+    if abs(power) >= 7:  # mantissas with a common power of ten
+        mantissa = with_error(value / 10.0**power, error / 10.0**power)
+        return f"({mantissa}) x 10^{power}{_space(unit)}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}{_space(unit)}"
+
+
+def _space(unit: str) -> str:
+    return f" {unit}" if unit else ""
+
+
+def _first_of_draws(result: xr.Dataset) -> xr.Dataset:
+    """The first of many bodies, where a body has labelled arrays: tables show one."""
+    known = {"perturber", "earth_model", "effect", "standstill", "window", "window_cycles"}
+    known |= {"part", "time", "component", "rung"}
+    return result.isel({dim: 0 for dim in result.dims if dim not in known})
+
+
+def _value(result: xr.Dataset, name: str) -> str:
+    return with_error(result[name], result[f"{name}_error"])
+
+
+def _date(time: Any) -> str:
+    return str(np.datetime64(time, "D"))
+
+
+def rates(result: xr.Dataset) -> Table:
+    """Rates, periods and torques by perturber."""
+    rows = []
+    for label in result.perturber.values:
+        of = result.sel(perturber=label)
+        rows.append(
+            (
+                str(label),
+                _value(of, "precession_rate"),
+                _value(of, "precession_period"),
+                _value(of, "mean_torque"),
+                f"{float(of.rate_ratio):.5f}",
+            )
+        )
+    first = str(result.perturber.values[0])
+    epoch = str(np.datetime64(result.reference_epoch.values, "m"))
+    return Table(
+        "Precession",
+        ("pulled by", "rate, arcsec/yr", "period, yr", "mean torque, N m", f"rate / {first}"),
+        rows,
+        f"In longitude along the fixed orbit, referred to {epoch} TDB; obliquity "
+        f"{float(result.obliquity):.6f} deg. Averaged with the "
+        f"{result.precession_rate.attrs['window']}. Errors are 95 % half-widths; of the rate's "
+        f"last one, averaging has {_mas(result.precession_rate_error_method)} mas/cy, the given "
+        f"numbers {_mas(result.precession_rate_error_input)}.",
+        ("ephemeris", "torque-samples", "mean-rates"),
+    )
+
+
+def _mas(rate: xr.DataArray) -> str:
+    """arcsec/yr of the last perturber in mas per century."""
+    return f"{float(rate.isel(perturber=-1)) * 1e5:.2g}"
+
+
+def sky_and_calendar(result: xr.Dataset) -> Table:
+    """What the rate means in the sky and in the calendar."""
+    return Table(
+        "What it means in the sky",
+        ("", "ours", "for comparison"),
+        [
+            (
+                "general precession, arcsec/yr",
+                _value(result, "general_precession"),
+                "50.28796 (IAU 2006)",
+            ),
+            (
+                "once round, yr",
+                _value(result, "general_precession_period"),
+                "25,800 (I.8)",
+            ),
+            ("years per degree", f"{float(result.time_per_degree):.3f}", "72 (I.8)"),
+            ("tropical year, d", f"{float(result.tropical_year):.6f}", "365.242190"),
+            (
+                "years per day of calendar drift",
+                f"{float(result.time_per_day_of_drift):.2f}",
+                "129.4 (I.8)",
+            ),
+        ],
+        "Ours less the motion of the ecliptic (IAU 2006). A calendar of 365.25 days drifts against "
+        "the tropical year, which already holds the precession; the text's 129.4 divides the turn "
+        "among the stars by the days of the year.",
+        ("seasons",),
+    )
+
+
+def models(result: xr.Dataset) -> Table:
+    """Three ways to H."""
+    words = {
+        "mccullough": "flattening stands for (I3-I1)/I1",
+        "homogeneous": "J2, with C = 0.4 M a2",
+        "measured": "H as measured",
+    }
+    rows = []
+    for model in result.earth_model.values:
+        of = result.sel(earth_model=model)
+        rows.append(
+            (
+                f"{model}: {words[str(model)]}",
+                f"{float(of.h_by_model):.7f}",
+                f"{float(of.period_by_model):,.0f}",
+                f"{float(of.wobble_by_model):.2f}",
+            )
+        )
+    return Table(
+        "Three models of the figure",
+        ("model", "H = (C-A)/C", "precession, yr", "wobble, d"),
+        rows,
+        f"C - A = {float(result.moment_difference):.5e} kg m2 from J2 (and back: "
+        f"{float(result.j2_from_moment_difference):.7e}); C = "
+        f"{float(result.polar_moment_factor):.6f} M a2. The Earth is denser inside, so neither "
+        "formula for an even density holds."
+        if result.attrs["body"] == "earth"
+        else f"C - A = {float(result.moment_difference):.5e} kg m2 from J2; C = "
+        f"{float(result.polar_moment_factor):.6f} M a2.",
+        ("earth-models",),
+    )
+
+
+def free_wobble(result: xr.Dataset) -> Table:
+    """The rigid wobble beside the observed one."""
+    rows = [
+        (
+            "rigid body, A/(C-A)",
+            _value(result, "free_wobble_period"),
+            f"{float(result.free_wobble_period_sidereal):.4f}",
+        )
+    ]
+    note = "A rigid body; the real one yields, has a fluid core and oceans."
+    if "observed_period" in result:
+        rows.append(("observed (Nastula & Gross 2015)", _value(result, "observed_period"), ""))
+    return Table(
+        "Free wobble",
+        ("", "days of 86400 s", "sidereal days"),
+        rows,
+        note,
+        ("free-wobble",),
+    )
+
+
+def iau(result: xr.Dataset) -> Table:
+    """IAU 2006 beside ours."""
+    total = result.isel(perturber=-1)
+    rows = [
+        ("ours", _value(total, "precession_rate")),
+        ("IAU 2006, psi_A", f"{float(result.iau_rate):.8f}"),
+        ("difference", _value(result, "difference_from_iau")),
+    ]
+    rows += [
+        (f"  left out: {effect}", f"{float(result.neglected_effect.sel(effect=effect)):+.6f}")
+        for effect in result.effect.values
+    ]
+    rows.append(("difference after the published effects", _value(result, "closure")))
+    return Table(
+        "Beside IAU 2006",
+        ("rate at J2000.0", "arcsec/yr"),
+        rows,
+        "Published sizes: Capitaine, Wallace & Chapront 2003, table 3. H itself comes from "
+        "observed precession, so the closure tests consistency, not the theory.",
+        ("iau-2006",),
+    )
+
+
+def standstills(result: xr.Dataset) -> Table:
+    """Lunar standstills, two to a row of text."""
+    text = {"major": "28.58", "minor": "18.30"}
+    rows = [
+        (
+            _date(time),
+            str(of.standstill_kind.values),
+            f"{float(of.standstill_declination):+.4f}",
+            text[str(of.standstill_kind.values)],
+        )
+        for time, of in ((t, result.sel(standstill=t)) for t in result.standstill.values)
+    ]
+    return Table(
+        "Lunar standstills",
+        ("date (TDB)", "kind", "extreme declination, deg", "I.8, deg"),
+        rows,
+        "Extremes of single months, from the centre of the Earth. The text adds 5.14 to 23.44 "
+        "degrees; the Sun swings the orbit's tilt between 5.0 and 5.3, so the widest month reaches "
+        "28.7 and the narrowest stays near 18.1. Interpolation is good to "
+        f"{float(result.standstill_declination_error.max()) if result.standstill.size else 0:.1e} "
+        "deg.",
+        ("standstills",),
+    )
+
+
+def torque_summary(result: xr.Dataset) -> Table:
+    """Extremes of a torque series."""
+    rows = []
+    for label in result.perturber.values:
+        of = result.sel(perturber=label)
+        rows.append(
+            (
+                str(label),
+                f"{float(of.declination.min()):+.4f} to {float(of.declination.max()):+.4f}",
+                f"{float(of.distance.min()):.6e} to {float(of.distance.max()):.6e}",
+                f"{float(of.torque_magnitude.max()):.4e}",
+                f"{float(of.torque_magnitude_error.max()):.1e}",
+            )
+        )
+    first, last = result.time.values[0], result.time.values[-1]
+    return Table(
+        "Torque",
+        ("pulled by", "declination, deg", "distance, m", "largest torque, N m", "its error"),
+        rows,
+        f"{result.time.size} times from {first} to {last} TDB, {result.torque.attrs['frame']}.",
+        ("torque-series",),
+    )
+
+
+def ladder(result: xr.Dataset) -> Table:
+    """The wobble ladder."""
+    rows = [
+        (
+            str(rung),
+            f"{float(of.period_solar):.3f}",
+            f"{float(of.period_sidereal):.3f}",
+            f"{float(of.factor):.6f}",
+        )
+        for rung, of in ((r, result.sel(rung=r)) for r in result.rung.values)
+    ]
+    note = ""
+    if "observed_period" in result:
+        note = f"Observed: {_value(result, 'observed_period')} d (Nastula & Gross 2015)."
+    return Table(
+        "Free wobble, rung by rung",
+        ("rung", "days of 86400 s", "sidereal days", "factor"),
+        rows,
+        note,
+        ("wobble-ladder",),
+    )
+
+
+def run_times(result: xr.Dataset, parts: tuple[str, ...]) -> str:
+    """Say which parts made something, and how long each took."""
+    known = [p for p in parts if p in result.part.values]
+    return ", ".join(
+        f"{name} {float(result.part_run_time.sel(part=name)) * 1e3:.0f} ms" for name in known
+    )
+
+
+def print_tables(result: xr.Dataset) -> None:
+    """Print the tables of a result, and what each cost, to the terminal."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table as RichTable
+
+    console = Console(width=None if _is_terminal() else WIDTH, highlight=False)
+    for table in tables_for(result):
+        shown = RichTable(
+            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+        )
+        for number, header in enumerate(table.headers):
+            shown.add_column(header, justify="right" if number else "left")
+        for row in table.rows:
+            shown.add_row(*row)
+        console.print(shown)
+        if table.note:
+            console.print(table.note, style="dim")
+        console.print(f"[{run_times(result, table.parts)}]\n", style="dim", markup=False)
+
+
+def _is_terminal() -> bool:
+    import sys
+
+    return sys.stdout.isatty()
