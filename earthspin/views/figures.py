@@ -22,6 +22,9 @@ from earthspin.views.stars import STARS
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
 _CYCLE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
+#: Longer series are drawn with thin lines.
+DENSE = 4000
+
 STYLE: Any = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -58,6 +61,15 @@ def _axes(ax: Axes | None, **size: Any) -> Axes:
     return Figure(layout="constrained", **size).add_subplot()
 
 
+def _legend_above(ax: Axes) -> None:
+    """Legend outside the data, above the right corner."""
+    legend = ax.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, borderaxespad=0.1, fontsize=8
+    )
+    for line in legend.get_lines():
+        line.set_linewidth(1.4)
+
+
 def _colour(label: str, number: int) -> str:
     return COLOURS.get(label, _CYCLE[number % len(_CYCLE)])
 
@@ -78,11 +90,12 @@ def plot_declination(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
             result.time,
             result.declination.sel(perturber=label),
             color=_colour(str(label), number),
-            lw=0.8,
+            lw=0.8 if result.time.size < DENSE else 0.3,
+            zorder=3 - 0.1 * number,
             label=str(label),
         )
     ax.set_ylabel("declination (deg)")
-    ax.legend(loc="upper right", ncols=len(result.perturber))
+    _legend_above(ax)
     return ax
 
 
@@ -104,7 +117,8 @@ def plot_torque(
     for number, label in enumerate(result.perturber.values):
         colour = _colour(str(label), number)
         one = torque.sel(perturber=label)
-        ax.plot(result.time, one, color=colour, lw=0.8, alpha=0.35 if smooth_days else 1.0)
+        thin = result.time.size >= DENSE
+        ax.plot(result.time, one, color=colour, lw=0.3 if thin else 0.8, alpha=0.5 if thin else 1)
         if smooth_days:
             step = float((result.time[1] - result.time[0]) / np.timedelta64(1, "D"))
             width = max(1, round(smooth_days / step))
@@ -113,6 +127,7 @@ def plot_torque(
                 one.rolling(time=width, center=True).mean(),
                 color=colour,
                 lw=1.4,
+                zorder=4 - 0.1 * number,
                 label=f"{label}, mean over {smooth_days:g} d",
             )
         else:
@@ -120,7 +135,7 @@ def plot_torque(
     ax.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
     ax.set_xlabel("TDB")
     if smooth_days:
-        ax.legend(loc="upper right", ncols=len(result.perturber))
+        _legend_above(ax)
     return ax
 
 
@@ -183,7 +198,13 @@ def plot_pole_circle(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         x, y = _on_the_chart(np.radians(ra), np.radians(dec), obliquity)
         ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
         ax.annotate(
-            name, (x, y), xytext=(5, 3), textcoords="offset points", fontsize=8, color="0.35"
+            name,
+            (x, y),
+            xytext=(5, 3) if x > -1 else (-5, 3),
+            ha="left" if x > -1 else "right",
+            textcoords="offset points",
+            fontsize=8,
+            color="0.35",
         )
 
     rate = float(si(result.precession_rate.isel(perturber=-1)))
@@ -197,7 +218,7 @@ def plot_pole_circle(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ax.annotate(
             label,
             (x, y),
-            xytext=(-9 * np.sin(back), 9 * np.cos(back)),
+            xytext=(20 * np.sin(back), -13 * np.cos(back)),
             textcoords="offset points",
             ha="center",
             va="center",
@@ -209,6 +230,7 @@ def plot_pole_circle(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax.set_xlim(-34, 34)
     ax.set_ylim(-34, 34)
     ax.set_xlabel("degrees from the pole of the ecliptic")
+    ax.set_ylabel("degrees")
     return ax
 
 
@@ -234,8 +256,8 @@ def torque_through(result: xr.Dataset, title: str, smooth_days: float | None = N
         plot_torque(result, smooth_days=smooth_days, ax=lower)
         caption = (
             f"Above: declination, {result.torque.attrs['frame']}. Below: the component of the "
-            "torque towards the equinox; it never changes sign, so the axis is always pushed the "
-            "same way. "
+            "torque towards the equinox; it hardly ever changes sign, so the axis is pushed "
+            "the same way all the time. "
         )
         caption += (
             f"Thin: once a day; thick: mean over {smooth_days:g} days, which swings with the "

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from earthspin.views.tables import run_times, tables_for
+from earthspin.views.tables import run_times, tables_for, with_error
 
 
 def page(result: xr.Dataset, drawings: Sequence[object] = ()) -> str:
@@ -35,8 +35,7 @@ def page(result: xr.Dataset, drawings: Sequence[object] = ()) -> str:
     total = result.isel(perturber=-1)
     return environment.get_template("report.html.j2").render(
         result=result,
-        period=float(total.precession_period),
-        period_error=float(total.precession_period_error),
+        period=with_error(total.precession_period, total.precession_period_error, "years"),
         tables=[(table, run_times(result, table.parts)) for table in tables_for(result)],
         drawings=drawings,
         parts=[

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from earthspin.constants import DAY, P_A_RATE, TROPICAL_YEAR
+
 WIDTH = 100
 
 
@@ -72,11 +74,10 @@ def with_error(value: Any, error: Any, unit: str = "") -> str:
         return "none (no motion)"
     if error <= 0 or not math.isfinite(error):
         return f"{value:.6g}{_space(unit)}"
-    power = math.floor(math.log10(abs(value))) if value else 0
-    if abs(power) >= 7:  # mantissas with a common power of ten
-        mantissa = with_error(value / 10.0**power, error / 10.0**power)
-        return f"({mantissa}) x 10^{power}{_space(unit)}"
     digits = max(0, 1 - math.floor(math.log10(error)))
+    if abs(value) >= 1e9:
+        significant = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1
+        return f"{value:.{max(significant, 0)}e} ± {error:.1e}{_space(unit)}".replace("e+", "e")
     return f"{value:.{digits}f} ± {error:.{digits}f}{_space(unit)}"
 
 
@@ -142,7 +143,7 @@ def sky_and_calendar(result: xr.Dataset) -> Table:
             (
                 "general precession, arcsec/yr",
                 _value(result, "general_precession"),
-                "50.28796 (IAU 2006)",
+                f"{P_A_RATE.value:.5f} (IAU 2006)",
             ),
             (
                 "once round, yr",
@@ -150,7 +151,11 @@ def sky_and_calendar(result: xr.Dataset) -> Table:
                 "25,800 (I.8)",
             ),
             ("years per degree", f"{float(result.time_per_degree):.3f}", "72 (I.8)"),
-            ("tropical year, d", f"{float(result.tropical_year):.6f}", "365.242190"),
+            (
+                "tropical year, d",
+                f"{float(result.tropical_year):.6f}",
+                f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)",
+            ),
             (
                 "years per day of calendar drift",
                 f"{float(result.time_per_day_of_drift):.2f}",
@@ -236,7 +241,8 @@ def iau(result: xr.Dataset) -> Table:
         ("rate at J2000.0", "arcsec/yr"),
         rows,
         "Published sizes: Capitaine, Wallace & Chapront 2003, table 3. H itself comes from "
-        "observed precession, so the closure tests consistency, not the theory.",
+        "observed precession, so the closure tests consistency, not the theory: what is left is "
+        f"{abs(float(result.closure / result.iau_rate)) * 1e6:.1f} millionths of the rate.",
         ("iau-2006",),
     )
 

@@ -228,7 +228,7 @@ MEAN_RATES = Part(
     },
 )
 
-CURVE_POINTS = 161
+CURVE_POINTS = 81
 
 CONVERGENCE = Part(
     name="convergence",

@@ -135,7 +135,7 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
             "perturber": names,
             "component": ["x", "y", "z"],
         },
-        frame=f"{scene.equator} equator and equinox of date of {body.name}",
+        frame=f"{scene.equator} equator and equinox of date",
     )
 
 
