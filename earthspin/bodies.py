@@ -86,7 +86,7 @@ class Body:
     def __post_init__(self) -> None:
         for name in _NUMBERS:
             value = getattr(self, name)
-            if value is not None and not _all(_is_finite(value)):
+            if value is not None and not all_of(_is_finite(value)):
                 raise BodyError(self.name, name, value, "it must be a finite number")
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
         self._require("radius", lambda a: a > 0, "a radius is greater than zero")
@@ -99,7 +99,7 @@ class Body:
         )
         self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
         if self.j2 is not None and self.dynamical_flattening is not None:
-            same_sign = _all(self.j2 * self.dynamical_flattening >= 0)
+            same_sign = all_of(self.j2 * self.dynamical_flattening >= 0)
             if not same_sign:
                 raise BodyError(
                     self.name,
@@ -110,7 +110,7 @@ class Body:
 
     def _require(self, name: str, holds: Any, allowed: str) -> None:
         value = getattr(self, name)
-        if value is not None and not _all(holds(value)):
+        if value is not None and not all_of(holds(value)):
             raise BodyError(self.name, name, value, allowed)
 
     # --- what follows from the fields --------------------------------------------------------
@@ -187,9 +187,9 @@ class Body:
                 self.name, "moments", moments, f"moments already give {sorted(clash)[0]}; set one"
             )
         small, middle, polar = moments
-        if not _all((small > 0) & (middle > 0) & (polar > 0)):
+        if not all_of((small > 0) & (middle > 0) & (polar > 0)):
             raise BodyError(self.name, "moments", moments, "each moment is greater than zero")
-        if not _all(abs(small - middle) <= polar):
+        if not all_of(abs(small - middle) <= polar):
             raise BodyError(self.name, "moments", moments, "no moment exceeds the other two's sum")
         difference = polar - (small + middle) / 2
         gm: Numeric = changes.get("gm", self.gm)
@@ -232,7 +232,7 @@ def _is_finite(value: Numeric) -> Numeric:
     return (value == value) & (abs(value) != math.inf)
 
 
-def _all(condition: Any) -> bool:
+def all_of(condition: Any) -> bool:
     """Truth of a bool, or of every element of an array."""
     return bool(condition.all()) if hasattr(condition, "all") else bool(condition)
 

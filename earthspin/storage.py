@@ -77,7 +77,11 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
         for number, block in enumerate(blocks):
             if number == 0:
                 block.to_zarr(
-                    draft, mode="w", consolidated=False, encoding=_encoding(block, chunked=True)
+                    draft,
+                    mode="w",
+                    consolidated=False,
+                    zarr_format=2,  # version 3 has no settled way to keep words
+                    encoding=_encoding(block, chunked=True),
                 )
             else:
                 grows = block.drop_vars([n for n in block.variables if "time" not in block[n].dims])

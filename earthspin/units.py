@@ -48,7 +48,8 @@ def quantity(value: Any, unit: str, what: str, example: str) -> Any:
     """
     if isinstance(value, bool):
         raise UnitsError(what, value, unit, example)
-    if isinstance(value, (int, float, np.ndarray)) or hasattr(value, "dims"):
+    is_quantity = hasattr(value, "to_value")  # a Quantity is an ndarray too
+    if not is_quantity and (isinstance(value, (int, float, np.ndarray)) or hasattr(value, "dims")):
         return value
     import astropy.units as u
 
@@ -212,7 +213,7 @@ def time_grid(start: Any, stop: Any, step: Any, source: str = "scene") -> TimeGr
             "it ends before it starts; put the earlier date first",
             source=source,
         )
-    length = seconds(step, "step")
+    length = seconds(step, f"{source}: step")
     spacing = round(length * 1e6) if np.isfinite(length) else 0
     if spacing < 1:
         raise SceneError(

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import hashlib
 import os
+import weakref
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -67,7 +69,9 @@ class Ephemeris:
         self.path = Path(path)
         self.name = name or self.path.name
         self.evaluations: Counter[tuple[int, int]] = Counter()
-        self._segments = _read_segments(self.path)
+        kernel = _open_spk(self.path)
+        weakref.finalize(self, kernel.close)
+        self._segments = {(s.center, s.target): s for s in kernel.segments}
 
     @property
     def sha256(self) -> str:
@@ -256,8 +260,9 @@ def find_kernel(name: str) -> Path:
     return Path(de440)
 
 
-def _read_segments(path: Path) -> dict[tuple[int, int], Any]:
-    """Open a kernel file and list its segments, refusing what is no whole kernel."""
+def _open_spk(path: Path) -> Any:
+    """Open a kernel file, refusing what is no whole kernel."""
+    from jplephem.daf import DAF
     from jplephem.spk import SPK
 
     if not path.exists():
@@ -269,20 +274,23 @@ def _read_segments(path: Path) -> dict[tuple[int, int], Any]:
     size = path.stat().st_size
     if size == 0:
         raise KernelError(path, "the file is empty", "fetch it again")
-    try:
-        kernel = SPK.open(path)
-    except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
-        raise KernelError(
-            path, "it is not an SPK kernel", f"give a .bsp file ({error.__class__.__name__})"
-        ) from None
-    segments = {}
-    for segment in kernel.segments:
-        if segment.end_i * 8 > size:
+    with ExitStack() as close_on_error:
+        try:
+            file = close_on_error.enter_context(path.open("rb"))
+        except OSError as error:
+            raise KernelError(path, f"it cannot be read: {error.strerror}") from None
+        try:
+            kernel = SPK(DAF(file))
+        except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
+            raise KernelError(
+                path, "it is not an SPK kernel", f"give a .bsp file ({error.__class__.__name__})"
+            ) from None
+        if not kernel.segments:
+            raise KernelError(path, "it holds no segments", "fetch it again")
+        if max(segment.end_i for segment in kernel.segments) * 8 > size:
             raise KernelError(path, "the file is cut short", "fetch it again")
-        segments[(segment.center, segment.target)] = segment
-    if not segments:
-        raise KernelError(path, "it holds no segments", "fetch it again")
-    return segments
+        close_on_error.pop_all()
+    return kernel
 
 
 def _date(days: float) -> str:

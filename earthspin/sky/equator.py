@@ -83,12 +83,12 @@ def equator_of_date(
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
     """Matrix from the ICRF to the equator of a spin axis that does not move, shape (3, 3).
 
-    An axis along the orbit's normal has no equinox; right ascension then counts from where
-    the equator meets the plane of the ICRF's first and third axes.
+    An axis along the orbit's normal has no equinox; right ascension then counts from an
+    arbitrary point of the equator.
     """
     node = np.cross(axis, normal)
     if np.linalg.norm(node) < 1e-12:
-        node = np.array([axis[2], 0.0, -axis[0]])
+        node = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     x = node / np.linalg.norm(node)
     return np.stack([x, np.cross(axis, x), axis])
 

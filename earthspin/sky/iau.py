@@ -57,14 +57,21 @@ class Nutation:
     ----------
     start, end : float
         Days from J2000.0 TDB between which angles will be asked for.
+    size : int, optional
+        How many epochs there will be; where they are fewer than the nodes, nothing is
+        interpolated.
     """
 
-    def __init__(self, start: float, end: float) -> None:
+    def __init__(self, start: float, end: float, size: int | None = None) -> None:
+        if size is not None and size * NUTATION_NODE_STEP < end - start:
+            self._angles = _nutation_angles
+            return
         margin = _MARGIN * NUTATION_NODE_STEP
         count = int(np.ceil((end - start + 2 * margin) / NUTATION_NODE_STEP)) + 1
         nodes = start - margin + NUTATION_NODE_STEP * np.arange(count)
-        angles = np.stack(erfa.nut06a(J2000_JD, nodes), axis=-1)
-        self._angles = make_interp_spline(nodes, angles, k=_SPLINE_DEGREE)
+        self._angles = make_interp_spline(
+            nodes, _nutation_angles(np.asarray(nodes)), k=_SPLINE_DEGREE
+        )
 
     def true_equator(self, days: FloatArray) -> FloatArray:
         """GCRS to true equator and equinox of date.
@@ -81,3 +88,8 @@ class Nutation:
         mean_obliquity = erfa.obl06(J2000_JD, days)
         nutation = erfa.numat(mean_obliquity, dpsi, deps)
         return np.asarray(erfa.rxr(nutation, mean_equator(days)))
+
+
+def _nutation_angles(days: FloatArray) -> FloatArray:
+    """Nutation in longitude and obliquity, rad, shape (n, 2) (`erfa.nut06a`)."""
+    return np.stack(erfa.nut06a(J2000_JD, days), axis=-1)

@@ -193,11 +193,8 @@ def models(result: xr.Dataset) -> Table:
         rows,
         f"C - A = {float(result.moment_difference):.5e} kg m2 from J2 (and back: "
         f"{float(result.j2_from_moment_difference):.7e}); C = "
-        f"{float(result.polar_moment_factor):.6f} M a2. The Earth is denser inside, so neither "
-        "formula for an even density holds."
-        if result.attrs["body"] == "earth"
-        else f"C - A = {float(result.moment_difference):.5e} kg m2 from J2; C = "
-        f"{float(result.polar_moment_factor):.6f} M a2.",
+        f"{float(result.polar_moment_factor):.6f} M a2. Both formulas for an even density fail a "
+        "body that is denser inside.",
         ("earth-models",),
     )
 
@@ -263,11 +260,10 @@ def standstills(result: xr.Dataset) -> Table:
         "Lunar standstills",
         ("date (TDB)", "kind", "extreme declination, deg", "I.8, deg"),
         rows,
-        "Extremes of single months, from the centre of the Earth. The text adds 5.14 to 23.44 "
+        "Extremes of single months, from the centre of the body. The text adds 5.14 to 23.44 "
         "degrees; the Sun swings the orbit's tilt between 5.0 and 5.3, so the widest month reaches "
-        "28.7 and the narrowest stays near 18.1. Interpolation is good to "
-        f"{float(result.standstill_declination_error.max()) if result.standstill.size else 0:.1e} "
-        "deg.",
+        "28.7 and the narrowest stays near 18.1. Errors: at most "
+        f"{float(result.standstill_declination_error[0]) if rows else 0:.0e} deg, the kernel's.",
         ("standstills",),
     )
 

@@ -90,7 +90,7 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
     from earthspin.constants import DAY
     from earthspin.dataset import build
-    from earthspin.torque import precession as p
+    from earthspin.torque import rates
     from earthspin.torque.average import window_mean_and_error
     from earthspin.units import datetime64
 
@@ -105,16 +105,16 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     geometry, geometry_error = window_mean_and_error(
         samples.window, samples.times, samples.longitude_rate
     )
-    rate = p.precession_rate(along(geometry), h, body.spin_rate)
-    rate_method = abs(p.precession_rate(along(geometry_error), h, body.spin_rate))
-    rate_input = p.rate_input_error(rate, u.get("dynamical_flattening", 0.0), u_gm)
+    rate = rates.precession_rate(along(geometry), h, body.spin_rate)
+    rate_method = abs(rates.precession_rate(along(geometry_error), h, body.spin_rate))
+    rate_input = rates.rate_input_error(rate, u.get("dynamical_flattening", 0.0), u_gm)
     rate_error = np.hypot(rate_method, rate_input)
     _check_accuracy(scene, rate, rate_error)
 
     vector, vector_error = window_mean_and_error(samples.window, samples.times, samples.torque)
-    torque = p.mean_torque(along(np.linalg.norm(vector, axis=-1)), *figure)
-    torque_method = p.mean_torque(along(np.linalg.norm(vector_error, axis=-1)), *figure)
-    torque_input = p.torque_input_error(torque, body.relative_uncertainty_of_bulge(), u_gm)
+    torque = rates.mean_torque(along(np.linalg.norm(vector, axis=-1)), *figure)
+    torque_method = rates.mean_torque(along(np.linalg.norm(vector_error, axis=-1)), *figure)
+    torque_input = rates.torque_input_error(torque, body.relative_uncertainty_of_bulge(), u_gm)
     window = samples.window
     result = build(
         "mean-rates",
@@ -124,9 +124,9 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
             "precession_rate_error": rate_error,
             "precession_rate_error_method": rate_method,
             "precession_rate_error_input": rate_input,
-            "precession_period": p.period(rate),
-            "precession_period_error": p.period_error(rate, rate_error),
-            "rate_ratio": rate / rate.isel(perturber=0),
+            "precession_period": rates.period(rate),
+            "precession_period_error": rates.period_error(rate, rate_error),
+            "rate_ratio": rates.rate_ratio(geometry),
             "mean_torque": torque,
             "mean_torque_error": np.hypot(torque_method, torque_input),
             "obliquity": samples.obliquity,
@@ -145,7 +145,7 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     import xarray as xr
 
     from earthspin.dataset import build
-    from earthspin.torque import precession as p
+    from earthspin.torque import rates
     from earthspin.torque.average import convergence_curve
 
     samples, body = given["torque-samples"], scene.body
@@ -157,7 +157,7 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         {"window": list(curves), "window_cycles": cycles},
         ("window", "window_cycles"),
     )
-    rate = p.precession_rate(geometry, body.needed("dynamical_flattening"), body.spin_rate)
+    rate = rates.precession_rate(geometry, body.needed("dynamical_flattening"), body.spin_rate)
     length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
     return build(
         "convergence", CONVERGENCE.gives, {"rate_by_window": rate, "window_length": length}

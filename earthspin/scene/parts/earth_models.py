@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from earthspin.bodies import all_of
 from earthspin.dataset import Variable
 from earthspin.scene.part import Part
 
@@ -23,7 +24,7 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     from earthspin.dataset import build
     from earthspin.mass import inertia
     from earthspin.rotor.axisymmetric import free_wobble_period
-    from earthspin.torque import precession as p
+    from earthspin.torque import rates
 
     body, samples = scene.body, given["torque-samples"]
     j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
@@ -43,7 +44,7 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         EARTH_MODELS.gives,
         {
             "h_by_model": h,
-            "period_by_model": p.period(p.precession_rate(geometry, h, body.spin_rate)),
+            "period_by_model": rates.period(rates.precession_rate(geometry, h, body.spin_rate)),
             "wobble_by_model": free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
             "moment_difference": difference,
             "polar_moment_factor": inertia.polar_moment_factor(j2, measured),
@@ -56,7 +57,11 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
 def _why_not(scene: Scene) -> str | None:
     missing = [k for k in ("j2", "flattening", "radius") if getattr(scene.body, k) is None]
-    return f"{scene.body.name} has no {missing[0]}" if missing else None
+    if missing:
+        return f"{scene.body.name} has no {missing[0]}"
+    if not all_of(scene.body.needed("dynamical_flattening") != 0):
+        return "with H = 0 the polar moment does not follow from J2"
+    return None
 
 
 _MODEL = ("earth_model",)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from earthspin.bodies import IAU_2006
+from earthspin.bodies import IAU_2006, all_of
 from earthspin.dataset import Variable, with_error
 from earthspin.scene.part import Part
 
@@ -57,6 +57,11 @@ FREE_WOBBLE = Part(
     does="period of the free wobble of the rigid body",
     function="earthspin.scene.parts.free_wobble:free_wobble",
     keys=("body",),
+    left_out=lambda scene: (
+        None
+        if all_of(scene.body.needed("dynamical_flattening") != 0)
+        else "a sphere does not wobble"
+    ),
     gives={
         **with_error(
             "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")

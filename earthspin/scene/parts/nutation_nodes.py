@@ -19,7 +19,7 @@ def nutation(scene: Scene, given: Mapping[str, Any]) -> Nutation:
     from earthspin.sky.iau import Nutation
 
     times = series_times(scene)
-    return Nutation(times.first, times.last)
+    return Nutation(times.first, times.last, times.size)
 
 
 def _why_not(scene: Scene) -> str | None:

@@ -19,7 +19,7 @@ def seasons(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """General precession, and the slide of the seasons."""
     from earthspin.compare import seasons as s
     from earthspin.dataset import build, si
-    from earthspin.torque import precession as p
+    from earthspin.torque import rates
 
     total = given["mean-rates"].isel(perturber=-1, drop=True)
     general = s.general_precession(si(total.precession_rate))
@@ -31,8 +31,8 @@ def seasons(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         {
             "general_precession": general,
             "general_precession_error": error,
-            "general_precession_period": p.period(general),
-            "general_precession_period_error": p.period_error(general, error),
+            "general_precession_period": rates.period(general),
+            "general_precession_period_error": rates.period_error(general, error),
             "time_per_degree": s.time_per_degree(general),
             "tropical_year": year,
             "time_per_day_of_drift": s.time_per_day_of_drift(year),

@@ -32,6 +32,7 @@ def standstills(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
         return spherical(rotate(equator, position))[1]
 
+    kernel_error, _ = sky.ephemeris.error(sky.targets["moon"])
     found = find_standstills(declination, *sky.span)
     return build(
         "standstills",
@@ -39,7 +40,7 @@ def standstills(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         {
             "standstill_kind": np.array([s.kind for s in found], dtype=str),
             "standstill_declination": np.array([s.declination for s in found], dtype=float),
-            "standstill_declination_error": np.array([s.error for s in found], dtype=float),
+            "standstill_declination_error": np.full(len(found), kernel_error),
         },
         coords={
             "standstill": (

@@ -66,7 +66,8 @@ def series_times(scene: Scene) -> SeriesTimes:
     if scene.times is not None:
         return SeriesTimes(None, days(scene.times))
     span = scene.span or DEFAULT_SPAN
-    return SeriesTimes(time_grid(span[0], span[1], scene.step or DEFAULT_STEP, scene.source), None)
+    step = DEFAULT_STEP if scene.step is None else scene.step
+    return SeriesTimes(time_grid(span[0], span[1], step, scene.source), None)
 
 
 def torque_series(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:

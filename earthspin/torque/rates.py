@@ -47,7 +47,15 @@ def period(rate: Numeric) -> Numeric:
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
     """Half-width of the period, to first order; infinite at rest."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return period(rate) * (rate_error / np.abs(rate))
+        # fmax takes the other where 0/0 leaves no number, so that infinity stays infinity
+        return period(rate) * np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
+
+
+def rate_ratio(geometry: Numeric) -> Numeric:
+    """Each rate over that of the first; 1 where they are equal, be they both nothing."""
+    first = geometry[0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(geometry == first, 1.0, geometry / first)
 
 
 def rate_input_error(rate: Numeric, u_h: float, u_gm: Numeric) -> Numeric:

@@ -1,0 +1,64 @@
+"""The budget against ERFA's own polynomial, and against the published sum."""
+
+import erfa
+import numpy as np
+import pytest
+import xarray as xr
+
+from earthspin.compare import budget
+from earthspin.constants import (
+    ARCSEC,
+    ARCSEC_PER_YEAR,
+    CHI_A_RATE,
+    EPSILON_0,
+    OMEGA_A_RATE,
+    P_A_RATE,
+    PSI_A_RATE,
+)
+from earthspin.scene.questions import EFFECTS
+
+#: Place of each angle in what erfa.p06e returns.
+PLACE = {"psi_a": 1, "omega_a": 2, "chi_a": 8, "p_a": 12}
+
+
+def rate_at_j2000(angle: str) -> float:
+    """Derivative of an angle of IAU 2006, arcsec/yr, by central differences over +-0.01 cy."""
+    step = 0.01
+    forward, backward = (erfa.p06e(2451545.0, s * step * 36525)[PLACE[angle]] for s in (1, -1))
+    return (forward - backward) / (2 * step * 100) / ARCSEC
+
+
+@pytest.mark.parametrize(
+    ("angle", "constant"),
+    [("psi_a", PSI_A_RATE), ("omega_a", OMEGA_A_RATE), ("chi_a", CHI_A_RATE), ("p_a", P_A_RATE)],
+)
+def test_rates_are_erfas(angle: str, constant: object) -> None:
+    # The cubic term of omega_A adds 8e-9 arcsec/yr at a hundredth of a century.
+    assert abs(rate_at_j2000(angle) - constant.value) < 2e-8  # type: ignore[attr-defined]
+
+
+def test_identity_of_the_general_precession() -> None:
+    sum_ = PSI_A_RATE.value - CHI_A_RATE.value * np.cos(EPSILON_0.value * ARCSEC)
+    assert abs(sum_ - P_A_RATE.value) < 1e-8
+
+
+def test_effects_are_words_of_the_grammar_the_largest_first() -> None:
+    effects = budget.published_effects()
+    assert set(effects) <= set(EFFECTS)
+    sizes = [abs(v) for v in effects.values()]
+    assert sizes == sorted(sizes, reverse=True)
+    assert next(iter(effects)) == "geodesic"
+
+
+def test_the_published_effects_close_the_difference(precession_result: xr.Dataset) -> None:
+    """To 5 mas a century, which is 1 ppm of H."""
+    assert abs(float(precession_result.closure)) < 5e-5
+    # Without them the difference is four hundred times larger.
+    assert float(precession_result.difference_from_iau) > 1.9e-2
+
+
+def test_difference_and_closure_are_sums() -> None:
+    rate = 50.4 * ARCSEC_PER_YEAR
+    assert budget.difference_from_iau(rate) == rate - PSI_A_RATE.value * ARCSEC_PER_YEAR
+    total = sum(budget.published_effects().values())
+    assert budget.closure(rate) == budget.difference_from_iau(rate) + total

@@ -1,0 +1,139 @@
+"""Running: only what a scene needs, shared between scenes, and the same every time."""
+
+from pathlib import Path
+
+import astropy.units as u
+import numpy as np
+import pytest
+import xarray as xr
+from astropy.time import Time
+
+import earthspin
+from earthspin import AccuracyError, CoverageError, Scene, SceneError, load_scene
+from earthspin.scene.running import Session, run, run_blocks
+
+
+def test_the_moon_is_never_evaluated_under_the_sun_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    from earthspin.sky import ephemeris
+
+    opened = []
+    original = ephemeris.open_ephemeris
+
+    def remember(kernel: object) -> ephemeris.Ephemeris:
+        opened.append(original(kernel))
+        return opened[-1]
+
+    monkeypatch.setattr(ephemeris, "open_ephemeris", remember)
+    run("sun-only")
+    (kernel,) = opened
+    assert (3, 301) not in kernel.evaluations
+    assert kernel.evaluations[(0, 10)] > 0
+
+
+def test_scenes_share_their_parts() -> None:
+    session = Session()
+    run("precession", session=session)
+    again = run("precession", session=session)
+    apart = run(load_scene("precession", {"perturbers": ["sun"]}), session=session)
+    assert list(apart.perturber.values) == ["sun"]
+    assert list(again.perturber.values) == ["sun", "moon", "total"]
+
+
+def test_a_thousand_bodies_evaluate_the_kernel_once() -> None:
+    h = xr.DataArray(np.linspace(0.003, 0.0034, 1000), dims="draw")
+    one = earthspin.precession()
+    many = earthspin.precession(body=earthspin.EARTH.replace(dynamical_flattening=h))
+    assert many.attrs["ephemeris_sha256"] == one.attrs["ephemeris_sha256"]
+    assert many.sizes["draw"] == 1000
+
+
+def test_dates_of_every_kind_give_the_same_series() -> None:
+    by_text = earthspin.torque_series("2000-01-01", "2000-01-03", "12 h")
+    by_time = earthspin.torque_series(
+        Time("2000-01-01", scale="tdb"), Time("2000-01-03", scale="tdb"), 12 * u.h
+    )
+    by_list = earthspin.torque_series(times=by_text.time)
+    for other in (by_time, by_list):
+        assert np.array_equal(by_text.time, other.time)
+        assert np.array_equal(by_text.torque, other.torque)
+
+
+def test_times_need_not_be_sorted() -> None:
+    forth = earthspin.torque_series(times=["2000-01-01", "2000-02-01"])
+    back = earthspin.torque_series(times=["2000-02-01", "2000-01-01"], equator="true")
+    assert np.array_equal(back.time, forth.time[::-1])
+    assert np.allclose(back.declination, forth.declination[::-1], atol=0.01)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"start": "2000-01-01"},
+        {"start": "2000-01-01", "stop": "2000-01-02"},
+        {"start": "2000-01-01", "times": ["2000-01-01"]},
+        {"step": "1 h"},
+    ],
+)
+def test_half_a_question(given: dict) -> None:
+    with pytest.raises(SceneError):
+        earthspin.torque_series(**given)
+
+
+def test_spans_outside_the_kernel() -> None:
+    for span in (("1800-01-01", "1801-01-01"), ("2053-01-01", "2054-01-01")):
+        with pytest.raises(CoverageError, match="1899-07-29"):
+            earthspin.torque_series(*span, "1 d")
+        with pytest.raises(CoverageError):
+            earthspin.precession(span=span)
+    with pytest.raises(CoverageError):
+        earthspin.torque_series(times=["2000-01-01", "2060-01-01"])
+
+
+def test_the_first_and_last_epoch_of_the_kernel() -> None:
+    series = earthspin.torque_series(
+        times=["1899-07-29T00:00:00", "2053-10-09T00:00:00"], equator="true"
+    )
+    assert np.all(np.isfinite(series.torque))
+
+
+def test_both_forms_of_the_torque_agree_to_round_off() -> None:
+    """The series uses (I.8.7); here the vector form, from the kernel and ERFA directly."""
+    import erfa
+
+    from earthspin.sky.ephemeris import open_ephemeris
+    from earthspin.torque.gravity import torque_from_position
+
+    series = earthspin.torque_series("1950-01-01", "1951-01-01", "1 d")
+    days = (series.time.values - np.datetime64("2000-01-01T12")) / np.timedelta64(1, "D")
+    matrix = erfa.pmat06(2451545.0, days)
+    place = open_ephemeris("de421").positions({"sun": 10, "moon": 301}, 399, days)
+    body = earthspin.EARTH
+    bulge = body.j2 * body.mass * body.radius**2
+    for one in (earthspin.SUN, earthspin.MOON):
+        torque = torque_from_position(one.gm, bulge, place[one.name], matrix[:, 2])
+        along = np.einsum("nij,nj->ni", matrix, torque)
+        off = np.abs(series.torque.sel(perturber=one.name).values - along)
+        assert off.max() < 2e-15 * float(series.torque_magnitude.max())  # measured: 5e-16
+
+
+def test_blocks_are_the_series() -> None:
+    scene = Scene(compute="torque", span=("2000-01-01", "2000-03-01"), step="20 s")
+    blocks = list(run_blocks(scene))
+    assert len(blocks) == 2
+    whole = run(scene)
+    joined = np.concatenate([b.torque.values for b in blocks])
+    assert np.array_equal(joined, whole.torque.values)
+
+
+def test_an_accuracy_that_cannot_be_met() -> None:
+    assert earthspin.precession(accuracy=1e-5).precession_rate.size == 3
+    with pytest.raises(AccuracyError) as error:
+        earthspin.precession(accuracy=1e-12)
+    assert 1e-7 < error.value.best < 1e-5
+    with pytest.raises(SceneError, match="relative"):
+        run(load_scene("precession", {"accuracy": "1 mas"}))
+
+
+def test_a_scene_that_cannot_be_written_by_region(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="only a torque series"):
+        earthspin.write_series("wobble", tmp_path / "x.zarr")

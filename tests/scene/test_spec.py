@@ -1,0 +1,119 @@
+"""Scenes: what is read, and one clear line for whatever is wrong."""
+
+from pathlib import Path
+
+import pytest
+
+from earthspin import EARTH, MOON, EarthspinError, Scene, SceneError, load_scene
+from earthspin.scene.questions import QUESTIONS
+from earthspin.scene.spec import scene_from_table, shipped_scenes
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_shipped_scenes_load(name: str) -> None:
+    scene = load_scene(name)
+    assert scene.compute in QUESTIONS
+    assert scene.title != name
+
+
+def test_the_shipped_names() -> None:
+    assert {"precession", "torque", "sun-only", "wobble"} <= set(shipped_scenes())
+
+
+WRONG = [
+    ({}, "compute"),
+    ({"compute": "precesion"}, "did you mean 'precession'"),
+    ({"compute": 3}, "compute"),
+    ({"compute": "torque", "perturber": ["sun"]}, "did you mean 'perturbers'"),
+    ({"compute": "torque", "perturbers": ["sun", "mon"]}, "did you mean 'moon'"),
+    ({"compute": "torque", "perturbers": []}, "one body or more"),
+    ({"compute": "torque", "perturbers": ["sun", "sun"]}, "twice"),
+    ({"compute": "torque", "perturbers": ["earth"]}, "does not pull on itself"),
+    ({"compute": "torque", "perturbers": 7}, "one body or more"),
+    ({"compute": "torque", "equator": "men"}, "did you mean 'mean'"),
+    ({"compute": "torque", "span": ["2001-01-01", "2000-01-01"]}, "ends before it starts"),
+    ({"compute": "torque", "span": ["2001-01-01"]}, "two dates"),
+    ({"compute": "torque", "span": "2001"}, "two dates"),
+    ({"compute": "torque", "span": ["yesterday", "2001-01-01"]}, "write a date"),
+    ({"compute": "torque", "step": "0 h"}, "greater than zero"),
+    ({"compute": "torque", "step": "-6 h"}, "greater than zero"),
+    ({"compute": "torque", "step": "6 kg"}, "6 kg"),
+    ({"compute": "torque", "step": "6"}, "step"),
+    ({"compute": "torque", "step": float("nan")}, "greater than zero"),
+    ({"compute": "torque", "title": 5}, "line of text"),
+    ({"compute": "precession", "accuracy": 0}, "greater than zero"),
+    ({"compute": "precession", "accuracy": "fast"}, "accuracy"),
+    ({"compute": "precession", "effects": ["plants"]}, "did you mean 'planets'"),
+    ({"compute": "precession", "effects": ["planets"]}, "does not model it"),
+    ({"compute": "torque", "body": "pluto9"}, "body"),
+    ({"compute": "torque", "body": {"mass": "-1 kg"}}, "mass is zero or more"),
+    ({"compute": "torque", "body": {"mass": "6 h"}}, "body.mass"),
+    ({"compute": "torque", "body": {"mas": "6 kg"}}, "did you mean 'mass'"),
+    ({"compute": "torque", "body": {"from": "eart"}}, "did you mean 'earth'"),
+    ({"compute": "torque", "body": {"moments": ["1 kg m2"]}}, "three moments"),
+    ({"compute": "torque", "body": {"moments": ["1 kg m2", "1 kg m2", "3 kg m2"]}}, "C cannot"),
+    ({"compute": "torque", "body": {"pole": ["1 deg"]}}, "right ascension and declination"),
+    ({"compute": "torque", "body": {"dynamical_flattening": 0.6}}, "at most 0.5"),
+    ({"compute": "torque", "rotor": 3}, "unknown key"),
+    ({"compute": "torque", "step": True}, "step"),
+]
+
+
+@pytest.mark.parametrize(("table", "words"), WRONG, ids=[w for _, w in WRONG])
+def test_what_is_wrong_is_one_line(table: dict, words: str) -> None:
+    with pytest.raises(EarthspinError) as error:
+        scene_from_table(table, source="my.toml")
+    text = str(error.value)
+    assert words in text
+    assert "\n" not in text
+    assert "my.toml" in text
+
+
+def test_files(tmp_path: Path) -> None:
+    good, bad, binary = (tmp_path / f"{n}.toml" for n in ("good", "bad", "binary"))
+    good.write_text('compute = "torque"\nstep = "1 h"\n')
+    bad.write_text("compute = torque\n")
+    binary.write_bytes(b"\xff\xfe\x00")
+    assert load_scene(good).step == "1 h"
+    assert load_scene(good).title == "good"
+    for path, words in (
+        (bad, "not TOML"),
+        (binary, "cannot be read"),
+        (tmp_path, "cannot be read"),
+    ):
+        with pytest.raises(SceneError, match=words) as error:
+            load_scene(path)
+        assert str(path) in str(error.value)
+    with pytest.raises(SceneError, match="no such file"):
+        load_scene(tmp_path / "none.toml")
+    with pytest.raises(SceneError, match="did you mean 'torque'"):
+        load_scene("torqe")
+
+
+def test_changes_reach_into_tables() -> None:
+    scene = load_scene("torque", {"step": "1 h", "body.j2": 2e-3, "perturbers": "sun"})
+    assert scene.step == "1 h"
+    assert scene.body.j2 == 2e-3
+    assert [p.name for p in scene.perturbers] == ["sun"]
+    with pytest.raises(SceneError, match="not a table"):
+        load_scene("torque", {"step.size": 1})
+
+
+def test_a_body_with_units() -> None:
+    scene = scene_from_table(
+        {
+            "compute": "wobble",
+            "body": {"from": "mars", "spin_period": "20 h", "radius": "3000 km"},
+        }
+    )
+    assert scene.body.name == "mars"
+    assert scene.body.spin_period == 72000.0
+    assert scene.body.radius == 3e6
+
+
+def test_a_scene_in_python_takes_bodies_and_words() -> None:
+    scene = Scene(compute="torque", body=EARTH, perturbers=["sun", MOON])
+    assert scene.perturbers[1] is MOON
+    assert scene.replace(compute="precession").compute == "precession"
+    with pytest.raises(SceneError, match="either times"):
+        Scene(compute="torque", times=["2000-01-01"], step="1 h")

@@ -1,0 +1,109 @@
+"""Kernels: positions against Skyfield, coverage to the second, and files that are none."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from skyfield.api import load, load_file
+
+import earthspin
+from earthspin import CoverageError, KernelError, SceneError
+from earthspin.sky.ephemeris import Ephemeris, describe_kernel, find_kernel, open_ephemeris
+
+SECOND = 1 / 86400
+
+
+def test_positions_are_skyfields(de421: Ephemeris) -> None:
+    kernel = load_file(str(find_kernel("de421")))
+    days = np.linspace(-36000, 19000, 200)
+    t = load.timescale(builtin=True).tdb_jd(2451545.0, days)
+    ours = de421.positions({"sun": 10, "moon": 301, "mars": 499}, 399, days)
+    for name, position in ours.items():
+        theirs = (kernel[name] - kernel["earth"]).at(t).position.m.T
+        # Skyfield adds up all legs from the barycentre; ours cancel what is common.
+        off = np.abs(position - theirs).max()
+        assert off < 1e-3, name  # m; measured: 2e-4 for the Sun at 1.5e11 m
+    kernel.close()
+
+
+def test_what_two_bodies_share_is_evaluated_once(de421: Ephemeris) -> None:
+    before = de421.evaluations.copy()
+    de421.positions({"sun": 10, "moon": 301}, 399, np.linspace(0, 10, 7))
+    used = de421.evaluations - before
+    assert used == {(0, 10): 7, (0, 3): 7, (3, 399): 7, (3, 301): 7}
+
+
+def test_the_first_and_the_last_second(de421: Ephemeris) -> None:
+    start, end = de421.coverage({10, 301, 399})
+    inside = np.array([start, start + SECOND, end - SECOND, end])
+    assert np.all(np.isfinite(de421.positions({"moon": 301}, 399, inside)["moon"]))
+    for outside in (start - SECOND, end + SECOND, end + 3, np.nan):
+        with pytest.raises(CoverageError, match="1899-07-29T00:00:00 to 2053-10-09T00:00:00"):
+            de421.positions({"moon": 301}, 399, np.array([outside]))
+
+
+def test_a_body_that_the_kernel_lacks(de421: Ephemeris) -> None:
+    with pytest.raises(KernelError, match="does not hold 'phobos'"):
+        de421.code((401,), "phobos")
+
+
+def test_a_barycentre_stands_for_its_planet(de421: Ephemeris) -> None:
+    assert de421.code((599, 5), "jupiter") == 5
+    assert de421.error(499) == de421.error(4)
+    assert de421.error(999) == (max(de421.error(7), de421.error(8)))
+
+
+def bad_kernels(folder: Path) -> dict[str, Path]:
+    good = find_kernel("de421")
+    empty, text, cut, short = (folder / f"{n}.bsp" for n in ("empty", "text", "cut", "short"))
+    empty.touch()
+    text.write_text("this is no kernel\n" * 200)
+    with good.open("rb") as file:
+        cut.write_bytes(file.read(1 << 20))
+    with good.open("rb") as file:
+        short.write_bytes(file.read(100))
+    return {"empty": empty, "text": text, "cut": cut, "short": short}
+
+
+@pytest.mark.parametrize(
+    ("which", "words"),
+    [
+        ("empty", "the file is empty"),
+        ("text", "not an SPK kernel"),
+        ("cut", "cut short"),
+        ("short", "not an SPK kernel"),
+    ],
+)
+def test_files_that_are_no_kernel(tmp_path: Path, which: str, words: str) -> None:
+    path = bad_kernels(tmp_path)[which]
+    with pytest.raises(KernelError, match=words) as error:
+        Ephemeris(path)
+    assert str(path) in str(error.value)
+
+
+def test_places_where_there_is_no_kernel(tmp_path: Path) -> None:
+    with pytest.raises(KernelError, match="no such file"):
+        Ephemeris(tmp_path / "none.bsp")
+    with pytest.raises(KernelError, match="a folder"):
+        Ephemeris(tmp_path)
+    with pytest.raises(SceneError, match="did you mean 'de421'"):
+        open_ephemeris("de412")
+
+
+def test_a_kernel_by_path_name_and_skyfield_object(tmp_path: Path) -> None:
+    copy = tmp_path / "my.bsp"
+    shutil.copy(find_kernel("de421"), copy)
+    skyfield_kernel = load_file(str(copy))
+    series = [
+        earthspin.torque_series("2000-01-01", "2000-01-02", "6 h", ephemeris=kernel)
+        for kernel in ("de421", copy, str(copy), skyfield_kernel)
+    ]
+    skyfield_kernel.close()
+    assert len({s.attrs["ephemeris_sha256"] for s in series}) == 1
+    for one in series[1:]:
+        assert np.array_equal(one.torque, series[0].torque)
+
+
+def test_coverage_in_words() -> None:
+    assert describe_kernel("de421").startswith("1899-07-29 to 2053-10-09 TDB")

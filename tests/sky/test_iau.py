@@ -1,0 +1,43 @@
+"""Precession and nutation: the interpolated matrices against ERFA's own."""
+
+import erfa
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin.constants import ARCSEC, EPSILON_0
+from earthspin.sky import iau
+
+J2000 = 2451545.0
+
+
+@given(st.floats(-160_000, 230_000))
+def test_nutation_between_the_nodes(day: float) -> None:
+    days = np.array([day, day + 0.37])
+    ours = iau.Nutation(day, day + 1).true_equator(days)
+    # 7e-12 rad measured between nodes
+    assert np.max(np.abs(ours - erfa.pnm06a(J2000, days))) < 2e-11
+
+
+def test_few_epochs_far_apart_are_not_interpolated() -> None:
+    days = np.array([-36000.0, 0.25, 19000.0])
+    ours = iau.Nutation(days[0], days[-1], days.size).true_equator(days)
+    assert np.max(np.abs(ours - erfa.pnm06a(J2000, days))) < 1e-15
+
+
+def test_mean_equator_is_a_rotation() -> None:
+    matrix = iau.mean_equator(np.linspace(-160_000, 230_000, 50))
+    assert np.allclose(matrix @ np.swapaxes(matrix, 1, 2), np.eye(3), rtol=0, atol=2e-15)
+
+
+def test_obliquity_of_the_ecliptic_pole() -> None:
+    pole = iau.mean_equator(np.array([0.0]))[0, 2]
+    tilt = np.arctan2(
+        np.linalg.norm(np.cross(pole, iau.ecliptic_pole())), pole @ iau.ecliptic_pole()
+    )
+    assert abs(tilt - EPSILON_0.value * ARCSEC) < 1e-14
+
+
+def test_the_node_goes_backwards() -> None:
+    node = np.unwrap(iau.mean_longitude_of_node(np.array([0.0, 100.0, 200.0])))
+    assert np.all(np.diff(node) < 0)

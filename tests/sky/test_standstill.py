@@ -1,0 +1,70 @@
+"""Standstills, against Skyfield and a minimiser."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.optimize import minimize_scalar
+from skyfield.api import load, load_file
+
+from earthspin.sky.ephemeris import find_kernel
+from earthspin.sky.standstill import find_standstills, node_passages
+
+
+@pytest.mark.parametrize("number", [0, 7, 11, 15])
+def test_each_extreme_is_one_of_skyfields(precession_result: xr.Dataset, number: int) -> None:
+    """Same month, same declination, by another library's kernel reading and a minimiser."""
+    import erfa
+
+    kernel, scale = load_file(str(find_kernel("de421"))), load.timescale(builtin=True)
+    moon = kernel["moon"] - kernel["earth"]
+    day = precession_result.standstill.values[number]
+    found = precession_result.isel(standstill=number)
+    sign = np.sign(float(found.standstill_declination))
+    centre = (day - np.datetime64("2000-01-01T12")) / np.timedelta64(1, "D")
+
+    def minus_swing(offset: float) -> float:
+        jd = 2451545.0 + centre + offset
+        x, y, z = erfa.pmat06(jd, 0.0) @ moon.at(scale.tdb_jd(jd)).position.km
+        return float(-sign * np.degrees(np.arctan2(z, np.hypot(x, y))))
+
+    best = minimize_scalar(minus_swing, bounds=(-3, 3), method="bounded", options={"xatol": 1e-8})
+    kernel.close()
+    assert abs(best.x) < 1e-3
+    off = abs(-sign * best.fun - float(found.standstill_declination))
+    assert off < 5e-8  # deg; measured: 1.3e-8, the second order of the error in time
+
+
+def test_they_alternate_every_nine_years(precession_result: xr.Dataset) -> None:
+    kinds = list(precession_result.standstill_kind.values)
+    assert kinds == ["minor", "major"] * 8
+    years = np.diff(precession_result.standstill.values) / np.timedelta64(365250, "h") * 1000 / 24
+    assert np.all((years > 8.3) & (years < 10.3))
+
+
+def test_they_are_beyond_the_textbooks_limits(precession_result: xr.Dataset) -> None:
+    swing = abs(precession_result.standstill_declination)
+    major = swing[precession_result.standstill_kind == "major"]
+    minor = swing[precession_result.standstill_kind == "minor"]
+    # 28.73 and 18.14: extremes of the envelope by an independent scan of the kernel
+    assert abs(float(major.max()) - 28.73) < 0.01
+    assert abs(float(minor.min()) - 18.14) < 0.01
+    assert float(major.min()) > 28.58
+    assert float(minor.max()) < 18.30
+
+
+def test_a_wave_of_known_swing() -> None:
+    """A made-up declination whose widest month is known."""
+    passage = next(day for kind, day in node_passages(0, 9000) if kind == "major")
+
+    def declination(days: np.ndarray) -> np.ndarray:
+        envelope = 0.4 + 0.1 * np.cos(2 * np.pi * (days - passage) / 6798.0)
+        return envelope * np.cos(2 * np.pi * (days - passage) / 27.32)
+
+    major = next(s for s in find_standstills(declination, 0, 9000) if s.kind == "major")
+    assert abs(major.declination) == pytest.approx(0.5, abs=1e-7)
+    assert abs(major.day - passage) < 14
+
+
+def test_a_span_too_short_to_hold_one() -> None:
+    assert find_standstills(np.sin, 0.0, 300.0) == []
+    assert find_standstills(np.sin, 0.0, 1.0) == []

@@ -1,0 +1,111 @@
+"""Bodies: what exists, what cannot, and what stays consistent when a number changes."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin import EARTH, MARS, SUN, BodyError, SceneError
+from earthspin.bodies import BODIES, body
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_every_body_is_cited(name: str) -> None:
+    assert BODIES[name].reference
+    assert BODIES[name].naif
+
+
+def test_a_body_is_frozen() -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        EARTH.j2 = 0.0  # type: ignore[misc]
+
+
+def test_a_name_that_is_nearly_right() -> None:
+    with pytest.raises(SceneError, match="did you mean 'earth'"):
+        body("erth")
+
+
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [
+        ({"gm": -1.0}, "gm"),
+        ({"mass": -5e24}, "gm"),
+        ({"gm": math.nan}, "gm"),
+        ({"radius": 0.0}, "radius"),
+        ({"radius": math.inf}, "radius"),
+        ({"spin_period": 0.0}, "spin_period"),
+        ({"dynamical_flattening": 0.6}, "dynamical_flattening"),
+        ({"flattening": 1.0}, "flattening"),
+        ({"j2": -1e-3, "dynamical_flattening": 1e-3}, "j2"),
+        ({"moments": (8e37, 8e37, -8e37)}, "moments"),
+        ({"moments": (1e37, 8e37, 1e37)}, "moments"),
+        ({"moments": (8e37, 8e37, 17e37)}, "dynamical_flattening"),
+        ({"moments": (8e37, 8e37, 8.1e37), "j2": 1e-3}, "moments"),
+        ({"colour": "blue"}, "colour"),
+    ],
+)
+def test_impossible_bodies_name_the_field(change: dict, field: str) -> None:
+    with pytest.raises(BodyError) as error:
+        EARTH.replace(**change)
+    assert error.value.field == field
+    assert "\n" not in str(error.value)
+
+
+def test_the_thin_disc_is_the_limit() -> None:
+    assert EARTH.replace(dynamical_flattening=0.5).dynamical_flattening == 0.5
+
+
+def test_j2_alone_keeps_the_polar_moment() -> None:
+    changed = EARTH.replace(j2=2 * EARTH.j2)
+    assert np.isclose(
+        changed.j2 / changed.dynamical_flattening,
+        EARTH.j2 / EARTH.dynamical_flattening,
+        rtol=1e-15,
+        atol=0,
+    )
+
+
+@given(
+    a=st.floats(1e30, 1e38),
+    stretch=st.floats(0.0, 0.5),
+    flat=st.floats(1e-6, 0.4),
+)
+def test_moments_give_the_figure_they_came_from(a: float, stretch: float, flat: float) -> None:
+    b = a * (1 + stretch)
+    c = (a + b) / 2 * (1 + flat)
+    body = EARTH.replace(moments=(a, b, c))
+    scale = body.mass * body.radius**2
+    mean = c - body.j2 * scale
+    assert np.isclose(mean, (a + b) / 2, rtol=1e-9, atol=0)
+    assert np.isclose(body.j2 * scale / body.dynamical_flattening, c, rtol=1e-9, atol=0)
+    assert np.isclose(body.triaxiality * scale, b - a, rtol=1e-6, atol=1e-9 * a)
+
+
+def test_what_is_changed_loses_its_uncertainty() -> None:
+    changed = EARTH.replace(dynamical_flattening=0.003)
+    assert "dynamical_flattening" not in changed.relative_uncertainty
+    assert "j2" in changed.relative_uncertainty
+
+
+def test_a_missing_field_is_asked_for() -> None:
+    with pytest.raises(BodyError, match="set dynamical_flattening"):
+        SUN.needed("dynamical_flattening")
+
+
+def test_fields_may_be_labelled_arrays() -> None:
+    h = xr.DataArray(np.linspace(0.003, 0.004, 5), dims="draw")
+    assert EARTH.replace(dynamical_flattening=h).dynamical_flattening.dims == ("draw",)
+    with pytest.raises(BodyError):
+        EARTH.replace(dynamical_flattening=h + 0.498)
+
+
+def test_obliquity_of_mars() -> None:
+    # 25.19 degrees: Folkner et al. 1997, Science 278, 1749
+    from earthspin.sky.equator import angle, direction
+
+    obliquity = math.degrees(angle(direction(*MARS.pole), direction(*MARS.orbit_pole)))
+    assert abs(obliquity - 25.19) < 0.005

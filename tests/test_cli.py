@@ -1,0 +1,184 @@
+"""The command line, as a process would be used: output, files, exit status."""
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from earthspin import storage
+from earthspin.cli import main
+from earthspin.scene.spec import shipped_scenes
+from tests.sky.test_ephemeris import bad_kernels
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    try:
+        status = main(words)
+    except SystemExit as end:
+        status = int(end.code or 0)
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, out, err = run(capsys, "report", "--out", str(tmp_path / "r"))
+    assert (status, err) == (0, "")
+    for word in ("sun", "moon", "total", "25712", "mccullough", "geodesic", "303.62", "2006-03-22"):
+        assert word in out, word
+    page = (tmp_path / "r" / "index.html").read_text()
+    assert page.count("<svg") == 4
+    assert "http" not in page.replace("http://www.w3.org", "").replace(
+        "http://purl.org", ""
+    ).replace("https://matplotlib.org", "").replace("http://creativecommons.org", "")
+    result = storage.read(tmp_path / "r" / "precession.nc")
+    assert result.precession_period.sizes == {"perturber": 3}
+    assert sorted(p.name for p in (tmp_path / "r").iterdir()) == ["index.html", "precession.nc"]
+
+
+def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, _out, _ = run(capsys, "report", "--no-figures", "--out", str(tmp_path))
+    assert status == 0
+    assert "<svg" not in (tmp_path / "index.html").read_text()
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_run_without_out_writes_nothing(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, scene: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, "run", scene)
+    assert (status, err) == (0, "")
+    assert out
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_run_with_a_changed_key(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    words = ("run", "torque", "--set", "step=12 h", "--set", 'perturbers=["sun"]')
+    status, out, _ = run(capsys, *words, "--out", str(tmp_path))
+    assert status == 0
+    result = storage.read(tmp_path / "torque.nc")
+    assert result.sizes["time"] == 2 * 366 + 1
+    assert list(result.perturber.values) == ["sun"]
+    assert f"wrote {tmp_path / 'torque.nc'}" in out
+
+
+def test_run_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "run", "precession", "--json")
+    assert status == 0
+    data = json.loads(out)
+    rates = data["data_vars"]["precession_rate"]
+    assert rates["attrs"]["units"] == "arcsec/yr"
+    assert np.isclose(rates["data"][2], 50.4043, atol=1e-4)
+
+
+def test_a_series_too_long_for_memory_goes_to_zarr(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from earthspin.scene import running
+
+    monkeypatch.setattr(running, "LONGEST_IN_MEMORY", 100)
+    status, _out, _ = run(capsys, "run", "torque", "--out", str(tmp_path))
+    assert status == 0
+    assert storage.read(tmp_path / "torque.zarr").sizes["time"] == 4 * 366 + 1
+
+
+def test_plan_scenes_info(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "plan", "wobble")
+    assert status == 0
+    assert "ephemeris" in out.split("left out")[1]
+    status, out, _ = run(capsys, "scenes")
+    assert {line.split()[0] for line in out.splitlines()} == set(shipped_scenes())
+    status, out, _ = run(capsys, "info")
+    assert "de421" in out
+    assert "1899-07-29 to 2053-10-09" in out
+
+
+def test_as_a_module() -> None:
+    out = subprocess.run(
+        [sys.executable, "-m", "earthspin", "run", "wobble"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "303.62" in out.stdout
+    assert out.stderr == ""
+
+
+def wrong_commands(folder: Path) -> list[tuple[list[str], str]]:
+    kernels = bad_kernels(folder)
+    (folder / "scene.toml").write_text("compute = torque")
+    (folder / "empty.toml").write_text('title = "no question"')
+    (folder / "blocker").write_text("")
+    blocked = str(folder / "blocker" / "out")
+    return [
+        (["run", "torqe"], "torque"),
+        (["run", str(folder / "scene.toml")], "scene.toml"),
+        (["run", str(folder / "empty.toml")], "compute"),
+        (["run", "torque", "--set", "stepp=1 h"], "step"),
+        (["run", "torque", "--set", "step=0 h"], "0 h"),
+        (["run", "torque", "--set", "step=1 kg"], "1 kg"),
+        (["run", "torque", "--set", "nonsense"], "KEY=VALUE"),
+        (["run", "torque", "--set", 'span=["1800-01-01", "1801-01-01"]'], "1899-07-29"),
+        (["run", "torque", "--out", blocked], "blocker"),
+        (["report", "--out", blocked], "blocker"),
+        (["report", "--ephemeris", "de999"], "de999"),
+        (["frobnicate"], "frobnicate"),
+        (["run"], "scene"),
+        *((["report", "--ephemeris", str(path), "--out", str(folder / "o")], str(path))
+          for path in kernels.values()),
+        (["run", "torque", "--set", 'body.mass="-1 kg"'], "mass"),
+        (["run", "precession", "--set", "body.dynamical_flattening=0.7"], "0.7"),
+        (["run", "precession", "--set", "body.j2=nan"], "j2"),
+    ]  # fmt: skip
+
+
+def test_every_mistake_is_one_line_and_status_two(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    for words, offender in wrong_commands(tmp_path):
+        status, out, err = run(capsys, *words)
+        assert status == 2, words
+        assert out == "", words
+        assert len(err.splitlines()) == 1, (words, err)
+        assert offender in err, (words, err)
+        assert "Traceback" not in err
+    assert not (tmp_path / "o" / "index.html").exists()
+
+
+def test_a_kernel_without_the_moon(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """An excerpt that holds the Sun and the Earth alone, made with jplephem's own tool."""
+    from earthspin.sky.ephemeris import find_kernel
+
+    path = tmp_path / "no-moon.bsp"
+    subprocess.run(
+        [
+            *(sys.executable, "-m", "jplephem", "excerpt", "--targets", "3,10,399"),
+            *("1990/1/1", "2010/1/1", str(find_kernel("de421")), str(path)),
+        ],
+        check=True,
+        capture_output=True,
+    )
+    status, _, err = run(capsys, "run", "torque", "--ephemeris", str(path))
+    assert status == 2
+    assert "moon" in err
+    assert str(path) in err
+    status, _out, _ = run(
+        capsys, "run", "torque", "--ephemeris", str(path), "--set", "perturbers=sun"
+    )
+    assert status == 0
+    status, _, err = run(capsys, "report", "--ephemeris", str(path), "--out", str(tmp_path / "o"))
+    assert status == 2
+    shutil.rmtree(tmp_path / "o", ignore_errors=True)
+
+
+def test_a_failed_report_leaves_the_old_one(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "index.html").write_text("old")
+    status, _, _ = run(capsys, "report", "--out", str(tmp_path), "--ephemeris", "none.bsp")
+    assert status == 2
+    assert (tmp_path / "index.html").read_text() == "old"

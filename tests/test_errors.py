@@ -1,0 +1,50 @@
+"""Every error is one line and carries its data."""
+
+import inspect
+
+import pytest
+
+from earthspin import errors
+
+EXAMPLES = [
+    errors.SceneError(
+        "step", "0 h", "a step is greater than zero", source="x.toml", remedy="try 1 h"
+    ),
+    errors.BodyError("earth", "gm", -1.0, "a mass is zero or more"),
+    errors.UnitsError("step", "6", "s", "6 h"),
+    errors.KernelError("x.bsp", "the file is empty", "fetch it again"),
+    errors.CoverageError("de421", ("1800-01-01", "1801-01-01"), ("1899-07-29", "2053-10-09")),
+    errors.UndefinedError("it has no longitude"),
+    errors.AccuracyError(1e-9, 6e-7, "(relative)", "give a longer span"),
+    errors.OutputError("/x", "it cannot be written"),
+    errors.MissingExtraError("zarr", "zarr", "a result in chunks"),
+]
+
+
+@pytest.mark.parametrize("error", EXAMPLES, ids=lambda e: type(e).__name__)
+def test_one_line_that_names_what_was_given(error: errors.EarthspinError) -> None:
+    text = str(error)
+    assert text
+    assert "\n" not in text
+    assert isinstance(error, errors.EarthspinError)
+
+
+def test_no_class_is_without_an_example() -> None:
+    classes = {
+        c
+        for c in vars(errors).values()
+        if inspect.isclass(c) and issubclass(c, errors.EarthspinError)
+    }
+    assert classes - {type(e) for e in EXAMPLES} == {errors.EarthspinError}
+
+
+def test_a_coverage_error_names_what_the_kernel_covers() -> None:
+    error = EXAMPLES[4]
+    assert isinstance(error, errors.CoverageError)
+    assert error.coverage == ("1899-07-29", "2053-10-09")
+    assert "1899-07-29 to 2053-10-09" in str(error)
+
+
+def test_the_nearest_word_comes_first() -> None:
+    assert errors.nearest("torqe", ["torque", "wobble"]).startswith("did you mean 'torque'?")
+    assert errors.nearest("xyz", ["torque", "wobble"]) == "allowed: torque, wobble"

@@ -1,0 +1,84 @@
+"""The house: its doors, its words, and that all of it is delivered."""
+
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import earthspin
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = Path(earthspin.__file__).parent
+MODULES = sorted(
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    for path in PACKAGE.rglob("*.py")
+    if path.name != "__main__.py"
+)
+
+
+def test_doors_are_one_way() -> None:
+    from importlinter.cli import lint_imports
+
+    assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), cache_dir=None) == 0
+
+
+def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
+    """Comments and docstrings may; code may not, save the default of the short calls."""
+    word = re.compile(r"[\"'](the )?earth[\"']|\bEARTH\b|\bEarth\b|\b399\b")
+    allowed = {"bodies.py", "constants.py", "spec.py", "calls.py", "__init__.py"}
+    for path in PACKAGE.rglob("*.py"):
+        if path.name in allowed:
+            continue
+        code = re.sub(r'""".*?"""|#[^\n]*', "", path.read_text(), flags=re.DOTALL)
+        assert not word.search(code), path
+
+
+def test_the_project_speaks_of_itself_alone() -> None:
+    files = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False
+    ).stdout.split()
+    # Put together so that this file does not hold what it looks for.
+    forbidden = re.compile("|".join(("/wo" + "rk/", "/ro" + "ot/", "/tm" + "p/", "index-" + "url")))
+    for name in files:
+        path = ROOT / name
+        if path.suffix in {".py", ".md", ".toml", ".json", ".yml", ".cfg", ".j2", ""} and (
+            path.is_file()
+        ):
+            assert not forbidden.search(path.read_text(encoding="utf-8")), name
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("wheel")
+    subprocess.run(
+        [
+            *(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps"),
+            *("--no-build-isolation", "--wheel-dir", str(folder), str(ROOT)),
+        ],
+        check=True,
+        capture_output=True,
+    )
+    return next(folder.glob("*.whl"))
+
+
+def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+        archive.extractall(tmp_path)
+    assert all(n.startswith(("earthspin/", f"earthspin-{earthspin.__version__}")) for n in names)
+    assert "earthspin/py.typed" in names
+    program = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+        "import importlib, earthspin\n"
+        f"assert earthspin.__file__.startswith({str(tmp_path)!r})\n"
+        f"for name in {MODULES!r}: importlib.import_module(name)\n"
+        "for name in earthspin.__all__: getattr(earthspin, name)\n"
+        "assert 'wobble' in earthspin.scene.spec.shipped_scenes()\n"
+        "from earthspin.views.page import PackageLoader\n"
+        "PackageLoader('earthspin.views').get_source(None or "
+        "__import__('jinja2').Environment(), 'report.html.j2')\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=tmp_path)

@@ -1,0 +1,145 @@
+"""On disk: what is read back, and what is left when a write goes wrong."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import OutputError, storage
+
+OLD_AND_NEW = np.array(["1550-01-01T00:00:00.000001", "2650-01-01"], "M8[us]")
+
+
+def small(value: float = 1.0, times: np.ndarray = OLD_AND_NEW) -> xr.Dataset:
+    return xr.Dataset(
+        {"x": ("time", np.full(times.size, value), {"units": "m", "long_name": "x"})},
+        {"time": ("time", times)},
+        {"title": "t"},
+    )
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_epochs_of_1550_and_2650_come_back(tmp_path: Path, kind: str) -> None:
+    path = storage.write(small(), tmp_path / f"r.{kind}")
+    xr.testing.assert_identical(storage.read(path), small())
+    assert storage.read(path).time.dtype == "M8[us]"
+
+
+@pytest.mark.parametrize("scene", ["precession", "torque", "wobble"])
+def test_results_come_back(tmp_path: Path, scene: str) -> None:
+    result = earthspin.run(scene)
+    xr.testing.assert_identical(storage.read(storage.write(result, tmp_path / "r.nc")), result)
+
+
+def test_infinity_is_kept(tmp_path: Path) -> None:
+    path = storage.write(small(np.inf), tmp_path / "r.nc")
+    assert np.all(np.isinf(storage.read(path).x))
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_a_second_write_replaces_the_first(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / f"r.{kind}"
+    storage.write(small(1.0), path)
+    storage.write(small(2.0), path)
+    assert np.all(storage.read(path).x == 2.0)
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    path = storage.write(small(1.0), tmp_path / "r.zarr")
+
+    def blocks() -> object:
+        yield small(2.0)
+        raise RuntimeError("half-way")
+
+    with pytest.raises(RuntimeError, match="half-way"):
+        storage.write_blocks(blocks(), path)
+    assert np.all(storage.read(path).x == 1.0)
+    assert [p.name for p in tmp_path.iterdir()] == ["r.zarr"]
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
+    """Kill the process in the middle of a write: the old file is still whole."""
+    path = storage.write(small(1.0), tmp_path / f"r.{kind}")
+    program = textwrap.dedent(
+        f"""
+        import sys, time
+        import earthspin.storage as s
+        from tests.test_storage import small
+        with s._replacing({str(path)!r}) as draft:
+            (s.write(small(2.0), draft) if {kind!r} == "zarr" else draft.write_bytes(b"half"))
+            print("writing", flush=True)
+            time.sleep(60)
+        """
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, cwd=Path(__file__).parents[1]
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"writing\n"
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+    assert np.all(storage.read(path).x == 1.0)
+
+
+def test_places_that_cannot_be_written(tmp_path: Path) -> None:
+    blocker = tmp_path / "file"
+    blocker.write_text("in the way")
+    with pytest.raises(OutputError, match="cannot be written"):
+        storage.check_writable(blocker / "folder")
+    with pytest.raises(OutputError):
+        storage.write(small(), blocker / "r.nc")
+
+
+def test_files_that_are_no_result(tmp_path: Path) -> None:
+    cut = tmp_path / "cut.nc"
+    whole = storage.write(small(), tmp_path / "r.nc").read_bytes()
+    cut.write_bytes(whole[: len(whole) // 2])
+    for path in (tmp_path / "none.nc", cut):
+        with pytest.raises(OutputError, match="cannot be read"):
+            storage.read(path)
+
+
+PEAK = """
+import resource, sys
+import earthspin
+scene = earthspin.load_scene("torque").replace(span=("1980-01-01", "2020-01-01"))
+def peak(step):
+    earthspin.write_series(scene.replace(step=step), sys.argv[1])
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+print(peak("210 min"), peak("21 min"))
+"""
+
+
+def test_a_million_epochs_need_no_more_memory_than_a_hundred_thousand(tmp_path: Path) -> None:
+    path = tmp_path / "series.zarr"
+    out = subprocess.run(
+        [sys.executable, "-c", PEAK, str(path)], check=True, capture_output=True, text=True
+    ).stdout
+    short, long = map(float, out.split())
+    # A million epochs are 120 MB; they may not stay. Measured: some 30 MB of growth.
+    assert long - short < 80, (short, long)
+    series = storage.read(path)
+    assert series.sizes["time"] == 1_001_829
+    assert series.torque.encoding["chunks"][0] < 200_000
+    some = series.isel(time=[0, 131_071, 131_072, -1])
+    again = earthspin.torque_series(times=some.time.values)
+    assert np.array_equal(some.torque, again.torque)
+    assert np.array_equal(some.declination, again.declination)
+
+
+def test_what_is_too_long_for_memory_is_refused_at_once() -> None:
+    begun = time.perf_counter()
+    with pytest.raises(earthspin.SceneError, match="write_series"):
+        earthspin.torque_series("1980-01-01", "2020-01-01", "10 s")
+    assert time.perf_counter() - begun < 5

@@ -1,0 +1,141 @@
+"""Averages: what the tapers remove, what the error claims, and how often it is right."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin import UndefinedError
+from earthspin.constants import JULIAN_YEAR
+from earthspin.torque.average import (
+    TAPERS,
+    Window,
+    best_window,
+    convergence_curve,
+    longitude_rate,
+    window_mean_and_error,
+    with_total,
+)
+
+CYCLE = 18.6 * JULIAN_YEAR
+
+
+@pytest.mark.parametrize("taper", TAPERS)
+def test_a_constant_is_its_own_mean(taper: str) -> None:
+    window = Window(3.0, 4, 100.0, taper)
+    times = window.sample_times(1.0)
+    assert np.isclose(window.mean(times, np.full(times.size, 7.0)), 7.0, rtol=1e-15)
+
+
+@given(
+    cycles=st.integers(3, 8),
+    harmonic=st.integers(1, 5),
+    phase=st.floats(0, 2 * np.pi),
+    centre=st.floats(-1e3, 1e3),
+)
+def test_sin4_removes_the_cycle_and_its_harmonics_exactly(
+    cycles: int, harmonic: int, phase: float, centre: float
+) -> None:
+    window = Window(centre, cycles, 100.0, "sin4")
+    times = window.sample_times(1.0)
+    wave = np.cos(2 * np.pi * harmonic * (times - centre) / 100.0 + phase)
+    assert abs(window.mean(times, wave)) < 1e-14  # measured: 2e-16
+
+
+def test_hann_needs_two_turns_and_sin4_three() -> None:
+    for taper, turns in (("plain", 1), ("hann", 2), ("sin4", 3), ("blackman-harris", 4)):
+        for cycles in range(1, 6):
+            window = Window(0.0, cycles, 100.0, taper)
+            times = window.sample_times(0.5)
+            left = abs(window.mean(times, np.cos(2 * np.pi * times / 100.0)))
+            # Blackman-Harris gives up exact zeros for low side lobes: 3e-5.
+            assert (left < 1e-4) == (cycles >= turns), (taper, cycles, left)
+
+
+def test_a_drift_does_not_move_the_middle() -> None:
+    window = Window(5.0, 3, 100.0, "sin4")
+    times = window.sample_times(1.0)
+    assert np.isclose(window.mean(times, 2.0 * times), 10.0, rtol=1e-13)
+
+
+def test_the_window_stays_inside_the_span() -> None:
+    window = best_window(-50 * JULIAN_YEAR, 53.8 * JULIAN_YEAR, CYCLE)
+    assert window.centre == 0.0
+    assert window.cycles == 5
+    assert window.taper == "sin4"
+    assert window.length / 2 <= 50 * JULIAN_YEAR
+
+
+def test_a_span_without_the_epoch_is_centred() -> None:
+    window = best_window(10 * JULIAN_YEAR, 110 * JULIAN_YEAR, CYCLE)
+    assert window.centre == 60 * JULIAN_YEAR
+
+
+def test_two_turns_get_a_hann_taper() -> None:
+    assert best_window(-20 * JULIAN_YEAR, 20 * JULIAN_YEAR, CYCLE).taper == "hann"
+
+
+def test_one_turn_is_refused() -> None:
+    with pytest.raises(UndefinedError, match="two turns"):
+        best_window(0.0, 30 * JULIAN_YEAR, CYCLE)
+
+
+def test_no_window_is_longer_than_the_drift_allows() -> None:
+    window = best_window(-500 * JULIAN_YEAR, 500 * JULIAN_YEAR, CYCLE)
+    assert window.length <= 150 * JULIAN_YEAR
+
+
+@given(
+    phases=st.lists(st.floats(0, 2 * np.pi), min_size=4, max_size=4),
+    turns=st.integers(3, 8),
+)
+def test_the_error_covers_incommensurable_waves(phases: list[float], turns: int) -> None:
+    """Four waves like those of the Moon's torque: half-month, month, year, node."""
+    window = Window(0.0, turns, 6798.38, "sin4")
+    times = window.sample_times(1.0)
+    periods, sizes = (13.66, 27.55, 365.25, 6798.38), (1.0, 0.1, 0.1, 0.2)
+    signal = 1.0 + sum(
+        size * np.cos(2 * np.pi * times / period + phase)
+        for size, period, phase in zip(sizes, periods, phases, strict=True)
+    )
+    mean, error = window_mean_and_error(window, times, signal)
+    assert abs(mean - 1.0) <= error + 1e-15
+    assert error < 1e-4
+
+
+def test_convergence_ends_where_the_window_does() -> None:
+    window = Window(0.0, 4, 100.0, "sin4")
+    times = window.sample_times(1.0)
+    values = 1 + np.cos(2 * np.pi * times / 37.0)
+    curves = convergence_curve(window, times, values, np.array([1.0, 2.5, 4.0]))
+    assert set(curves) == set(TAPERS)
+    assert curves["sin4"][-1] == window.mean(times, values)
+
+
+def test_the_total_is_the_sum_of_all() -> None:
+    values = np.arange(12.0).reshape(3, 2, 2)
+    assert np.array_equal(with_total(values)[:, 2], values.sum(axis=1))
+    assert with_total(values[:, :1]).shape == (3, 1, 2)
+
+
+@given(st.floats(0.05, np.pi - 0.05), st.floats(0, 2 * np.pi), st.floats(1e-9, 1e-5))
+def test_longitude_rate_against_a_small_turn(tilt: float, node: float, turn: float) -> None:
+    """Turn an axis about the normal by a known angle and ask for it back."""
+    normal = np.array([0.0, 0.0, 1.0])
+
+    def axis(longitude: float) -> np.ndarray:
+        return np.array(
+            [np.sin(tilt) * np.cos(longitude), np.sin(tilt) * np.sin(longitude), np.cos(tilt)]
+        )
+
+    # westward: longitude falls
+    change = axis(node - turn / 2) - axis(node + turn / 2)
+    rate = longitude_rate(change[np.newaxis], axis(node), normal)[0]
+    assert np.isclose(rate, turn, rtol=1e-6)
+
+
+def test_an_upright_axis_has_no_longitude() -> None:
+    up = np.array([0.0, 0.0, 1.0])
+    for axis in (up, -up):
+        with pytest.raises(UndefinedError, match="upright"):
+            longitude_rate(np.ones((1, 3)), axis, up)

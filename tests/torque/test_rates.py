@@ -1,0 +1,162 @@
+"""Rates and periods: against pins, closed forms, and bodies that are not the usual one."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EARTH, MARS, MOON, SUN, UndefinedError
+from earthspin.bodies import BODIES
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.torque.rates import circular_orbit_rate, period, period_error, precession_rate
+from tests.conftest import load_pins
+
+PINS = load_pins("precession")
+
+
+@pytest.mark.parametrize("label", ["sun", "moon", "total"])
+def test_rates_and_periods(precession_result: xr.Dataset, label: str) -> None:
+    of = precession_result.sel(perturber=label)
+    PINS[f"{label} rate"].check(of.precession_rate)
+    PINS[f"period {label}"].check(of.precession_period)
+
+
+def test_moon_over_sun(precession_result: xr.Dataset) -> None:
+    PINS["moon over sun"].check(precession_result.rate_ratio.sel(perturber="moon"))
+
+
+@pytest.mark.parametrize("label", ["sun", "moon"])
+def test_mean_torques(precession_result: xr.Dataset, label: str) -> None:
+    PINS[f"mean torque {label}"].check(precession_result.mean_torque.sel(perturber=label))
+
+
+def test_the_error_is_small_and_holds_the_reference(precession_result: xr.Dataset) -> None:
+    total = precession_result.sel(perturber="total")
+    assert float(total.precession_rate_error) <= 20e-5  # 20 mas a century
+    off = abs(float(total.precession_rate) - PINS["total rate"].value)
+    assert off <= float(total.precession_rate_error)
+    method, given = total.precession_rate_error_method, total.precession_rate_error_input
+    assert np.isclose(total.precession_rate_error, np.hypot(method, given), rtol=1e-12)
+
+
+def test_the_input_error_is_that_of_h(precession_result: xr.Dataset) -> None:
+    total = precession_result.sel(perturber="total")
+    from_h = NORMAL_95 * EARTH.relative_uncertainty["dynamical_flattening"] * total.precession_rate
+    assert np.isclose(total.precession_rate_error_input, from_h, rtol=1e-3)
+
+
+def test_the_closed_form_of_the_sun(precession_result: xr.Dataset) -> None:
+    eccentricity, axis = 0.016708634, 149598023e3  # mean orbit at J2000.0, Simon et al. 1994
+    geometry = circular_orbit_rate(SUN.gm, axis, EPSILON_0.value * ARCSEC)
+    geometry *= (1 - eccentricity**2) ** -1.5
+    rate = precession_rate(geometry, EARTH.dynamical_flattening, EARTH.spin_rate) / ARCSEC_PER_YEAR
+    PINS["sun closed form"].check(rate)
+    PINS["sun closed form"].check(precession_result.precession_rate.sel(perturber="sun"))
+
+
+def test_every_window_of_the_last_century_is_within_its_error() -> None:
+    """Averages about other epochs agree with a straight drift through all of them."""
+    spans = [(f"{1900 + 5 * k}-01-01", f"{1975 + 5 * k}-01-01") for k in range(16)]
+    results = [earthspin.precession(span=span).sel(perturber="total") for span in spans]
+    rates = np.array([float(r.precession_rate) for r in results]) * 1e5
+    errors = np.array([float(r.precession_rate_error_method) for r in results]) * 1e5
+    centuries = np.array(
+        [
+            (r.reference_epoch.values - np.datetime64("2000-01-01T12")) / np.timedelta64(36525, "D")
+            for r in results
+        ]
+    )
+    inside = centuries != 0  # spans that hold J2000.0 with two turns are referred to it
+    line = np.polynomial.Polynomial.fit(centuries[inside], rates[inside], 1)
+    off = np.abs(rates[inside] - line(centuries[inside]))
+    assert inside.sum() >= 8
+    assert np.mean(off <= errors[inside]) >= 0.8, (off, errors[inside])
+    assert off.max() < 4.0  # mas a century; measured: see the docs
+    # Lieske's t2 term of psi_A, -1.0790069 arcsec/cy2 (IAU 2006), twice
+    assert abs(line.deriv()(0.0) / 1e3 + 2.158) < 0.05
+
+
+def test_labels_of_the_sun_alone() -> None:
+    result = earthspin.run("sun-only")
+    assert list(result.perturber.values) == ["sun"]
+    PINS["sun rate"].check(result.precession_rate.sel(perturber="sun"))
+
+
+def test_mars_under_the_sun() -> None:
+    result = earthspin.precession(body=MARS, perturbers=["sun"])
+    PINS["mars rate"].check(result.precession_rate.sel(perturber="sun"))
+    assert abs(float(result.obliquity) - 25.19) < 0.01
+
+
+def test_ten_thousand_bodies_are_one_call() -> None:
+    h = xr.DataArray(EARTH.dynamical_flattening * np.linspace(0.9, 1.1, 10_000), dims="draw")
+    result = earthspin.precession(body=EARTH.replace(dynamical_flattening=h))
+    assert result.precession_rate.dims == ("perturber", "draw")
+    assert result.period_by_model.dims == ("earth_model", "draw")
+    total = result.precession_rate.sel(perturber="total")
+    assert np.allclose(total / total[0], h / h[0], rtol=1e-14)
+
+
+def test_mirror_and_rest() -> None:
+    flat = earthspin.precession()
+    prolate = earthspin.precession(
+        body=EARTH.replace(j2=-EARTH.j2, dynamical_flattening=-EARTH.dynamical_flattening)
+    )
+    assert np.array_equal(prolate.precession_rate, -flat.precession_rate)
+    sphere = earthspin.precession(body=EARTH.replace(j2=0.0, dynamical_flattening=0.0))
+    assert not np.any(sphere.precession_rate)
+    assert np.all(np.isinf(sphere.precession_period))
+    assert np.all(np.isinf(sphere.precession_period_error))
+    assert not np.any(sphere.mean_torque)
+
+
+def test_a_mass_of_nothing_and_a_thousandfold_one() -> None:
+    from dataclasses import replace
+
+    nothing = earthspin.precession(perturbers=[SUN, replace(MOON, gm=0.0)])
+    assert float(nothing.precession_rate.sel(perturber="moon")) == 0
+    much = earthspin.precession(perturbers=[SUN, replace(MOON, gm=1000 * MOON.gm)])
+    one = earthspin.precession()
+    assert np.isclose(
+        much.precession_rate.sel(perturber="moon"),
+        1000 * one.precession_rate.sel(perturber="moon"),
+        rtol=1e-13,
+    )
+
+
+def test_retrograde_spin_turns_the_precession_round() -> None:
+    one = earthspin.precession()
+    back = earthspin.precession(body=EARTH.replace(spin_period=-EARTH.spin_period))
+    assert np.allclose(back.precession_rate, -one.precession_rate, rtol=1e-14)
+    assert np.all(back.precession_rate_error > 0)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 180.0])
+def test_an_axis_upright_on_the_orbit_is_refused(tilt: float) -> None:
+    pole = MARS.orbit_pole if tilt == 0 else (MARS.orbit_pole[0] + np.pi, -MARS.orbit_pole[1])
+    with pytest.raises(UndefinedError, match="upright"):
+        earthspin.precession(body=MARS.replace(pole=pole), perturbers=["sun"])
+
+
+def test_an_axis_in_the_orbit_does_not_precess() -> None:
+    ra, dec = MARS.orbit_pole
+    flat = MARS.replace(pole=(ra, dec - np.pi / 2))
+    result = earthspin.precession(body=flat, perturbers=["sun"])
+    # cos(90 deg) of the mean orbit; its wobble in a century leaves 1e-4 of the usual rate
+    assert abs(float(result.precession_rate[0])) < 0.01
+
+
+def test_periods() -> None:
+    assert period(np.float64(2 * np.pi)) == 1.0
+    assert np.isinf(period(np.float64(0.0)))
+    assert period_error(np.float64(2.0), np.float64(0.02)) == pytest.approx(np.pi * 0.01)
+
+
+def test_planets_pull_a_little() -> None:
+    result = earthspin.precession(perturbers=["sun", "venus", "jupiter"])
+    assert float(result.precession_rate.sel(perturber="venus")) > 0
+    # Capitaine et al. 2003: all planets 31.367e-5 arcsec/yr
+    direct = result.precession_rate.sel(perturber=["venus", "jupiter"]).sum()
+    assert 2e-4 < float(direct) < 4e-4
+    assert set(BODIES) >= {"venus", "jupiter"}
+    assert JULIAN_YEAR == 31557600.0

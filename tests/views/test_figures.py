@@ -1,0 +1,60 @@
+"""Figures: labelled axes, units, and no global state."""
+
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+import earthspin
+from earthspin.views import figures
+
+
+@pytest.fixture(scope="module")
+def year() -> xr.Dataset:
+    return earthspin.run("torque")
+
+
+def test_pyplot_is_not_needed(year: xr.Dataset) -> None:
+    figures.plot_torque(year)
+    assert "matplotlib.pyplot" not in sys.modules
+
+
+def test_axes_are_labelled_with_units(year: xr.Dataset, precession_result: xr.Dataset) -> None:
+    assert figures.plot_declination(year).get_ylabel() == "declination (deg)"
+    assert "N m" in figures.plot_torque(year).get_ylabel()
+    assert "mas per century" in figures.plot_convergence(precession_result).get_ylabel()
+
+
+def test_given_axes_are_used(year: xr.Dataset) -> None:
+    ax = Figure().subplots()
+    assert figures.plot_declination(year, ax=ax) is ax
+
+
+def test_the_pole_passes_the_stars_that_it_should(precession_result: xr.Dataset) -> None:
+    """Thuban was the pole star of 2800 BC (within 10 arcmin), Polaris is at 0.7 degrees now."""
+    obliquity = np.radians(float(precession_result.obliquity))
+    radius = np.degrees(obliquity)
+    rate = float(precession_result.precession_rate[-1]) / 3600
+
+    def pole(year: float) -> np.ndarray:
+        back = np.radians(rate * (year - 2000))
+        return radius * np.array([-np.sin(back), np.cos(back)])
+
+    stars = {
+        name: np.array(figures._on_the_chart(np.radians(ra), np.radians(dec), obliquity))
+        for name, ra, dec, _ in figures.STARS
+    }
+    assert abs(np.linalg.norm(pole(2000) - stars["Polaris"]) - 0.74) < 0.05
+    years = np.arange(-4000, 14001, 10)
+
+    def nearest_year(star: str) -> tuple[float, float]:
+        away = [np.linalg.norm(pole(y) - stars[star]) for y in years]
+        return float(years[np.argmin(away)]), float(np.min(away))
+
+    year, away = nearest_year("Thuban")
+    assert -2900 < year < -2600
+    assert away < 0.4
+    year, _ = nearest_year("Vega")
+    assert 13000 < year < 14000
