@@ -5,6 +5,8 @@ from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
+CENTRED = "text-align: center; overflow-x: auto; margin: 1rem 0"
+
 
 def inline(translator: HTML5Translator, node: nodes.math) -> None:
     translator.body.append(convert(node.astext()))
@@ -12,9 +14,8 @@ def inline(translator: HTML5Translator, node: nodes.math) -> None:
 
 
 def block(translator: HTML5Translator, node: nodes.math_block) -> None:
-    translator.body.append(
-        f'<div class="math" style="text-align: center; overflow-x: auto">{convert(" ".join(node.astext().split()), display="block")}</div>'
-    )
+    formula = convert(" ".join(node.astext().split()), display="block")
+    translator.body.append(f'<div style="{CENTRED}">{formula}</div>')
     raise nodes.SkipNode
 
 
