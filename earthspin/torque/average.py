@@ -41,9 +41,9 @@ TAPERS: dict[str, tuple[float, ...]] = {
 #: 0.1 mas/cy over 150 years, 0.6 over 450, 4 over 870).
 LONGEST_WINDOW = 150 * JULIAN_YEAR
 
-#: Half-width of 95 per cent over the spread of neighbouring windows, from 161 windows
-#: centred between 1671 and 2328 in DE440.
-SPREAD_TO_ERROR = 2.0
+#: Swings of the rate that are slower than any window, which windows that agree may all miss:
+#: half-width of 95 per cent over the rate, by taper (measured: `python -m data_tools windows`).
+SLOW_SWING = {"plain": 3e-3, "hann": 1e-6, "sin4": 2e-7, "blackman-harris": 2e-7}
 
 
 @dataclass(frozen=True)
@@ -163,14 +163,14 @@ def window_mean_and_error(
     Returns
     -------
     mean, error : ndarray
-        The error is a 95 % half-width: twice the largest difference from the neighbouring
-        windows, and from the same window on every second sample.
+        The error is a 95 % half-width: the largest difference from the neighbouring windows
+        and from the same window on every second sample, and the slow swing of the rate.
     """
     mean = window.mean(times, values)
     others = [w.mean(times, values) for w in neighbours(window)]
     others.append(window.mean(times[::2], values[::2]))
     spread = np.max(np.abs(np.stack(others) - mean), axis=0)
-    return mean, SPREAD_TO_ERROR * spread
+    return mean, spread + SLOW_SWING[window.taper] * np.abs(mean)
 
 
 def with_total(values: FloatArray) -> FloatArray:

@@ -1,0 +1,35 @@
+"""`python -m data_tools VERB`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from data_tools import hashes, kernels, windows
+from earthspin.errors import EarthspinError
+
+VERBS = {
+    "verify": (hashes.main, "check the hashes of the kernels that are found"),
+    "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
+    "windows": (windows.main, "measure how far averages about many epochs scatter"),
+}
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run a verb; 0 if all is well, 1 if a check fails, 2 if something given is wrong."""
+    parser = argparse.ArgumentParser(prog="python -m data_tools", description=__doc__)
+    verbs = parser.add_subparsers(dest="verb", required=True)
+    for verb, (_, words_of) in VERBS.items():
+        one = verbs.add_parser(verb, help=words_of)
+        if verb != "verify":
+            one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
+    given = parser.parse_args(words)
+    try:
+        return VERBS[given.verb][0](given)
+    except EarthspinError as error:
+        print(f"data_tools: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
