@@ -11,7 +11,7 @@ from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.equator import equator_of_date, orbit_normal
-from earthspin.torque.average import Window, longitude_rate, window_mean_and_error
+from earthspin.torque.average import Window, precessing_push, window_mean_and_error
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import precession_rate
 
@@ -40,7 +40,7 @@ def rates(kernel: Ephemeris, half_span: float) -> tuple[np.ndarray, np.ndarray]:
     normal = orbit_normal(EARTH.pole or "", None)
     place = kernel.positions({"sun": 10, "moon": 301}, 399, days)
     torque = sum(torque_from_position(b.gm, 1.0, place[b.name], axis) for b in (SUN, MOON))
-    geometry = longitude_rate(np.asarray(torque), axis, normal)
+    geometry = precessing_push(np.asarray(torque), axis, normal)
     rate = precession_rate(geometry, EARTH.dynamical_flattening, EARTH.spin_rate)
     return np.asarray(rate) * MAS_PER_CENTURY, days * DAY
 

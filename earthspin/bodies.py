@@ -98,6 +98,10 @@ class Body:
             "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
         )
         self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
+        if isinstance(self.pole, str) and self.pole != IAU_2006:
+            raise BodyError(
+                self.name, "pole", self.pole, f"write '{IAU_2006}' or two angles of a direction"
+            )
         if self.j2 is not None and self.dynamical_flattening is not None:
             same_sign = all_of(self.j2 * self.dynamical_flattening >= 0)
             if not same_sign:
@@ -164,17 +168,24 @@ class Body:
             If the changes contradict each other or make an impossible body.
         """
         if "mass" in changes:
+            if "gm" in changes:
+                raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
             changes["gm"] = c.G.value * changes.pop("mass")
         if "moments" in changes:
             changes |= self._figure_from_moments(changes)
-        elif "j2" in changes and "dynamical_flattening" not in changes and self.j2:
+        elif "j2" in changes and "dynamical_flattening" not in changes and self.j2 is not None:
+            if not all_of(self.j2 != 0):
+                raise BodyError(
+                    self.name, "j2", changes["j2"], "set dynamical_flattening too: C is not known"
+                )
             changes["dynamical_flattening"] = (
                 self.needed("dynamical_flattening") * changes["j2"] / self.j2
             )
         unknown = set(changes) - {f.name for f in fields(self)}
         if unknown:
             word = sorted(unknown)[0]
-            raise BodyError(self.name, word, changes[word], nearest(word, BODY_KEYS))
+            words = {f.name for f in fields(self)} | {"mass", "moments"}
+            raise BodyError(self.name, word, changes[word], nearest(word, words))
         # A changed number is the user's own: what was known about the old one no longer holds.
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         return _replace(self, **({"relative_uncertainty": known} | changes))
@@ -193,7 +204,7 @@ class Body:
             raise BodyError(self.name, "moments", moments, "no moment exceeds the other two's sum")
         difference = polar - (small + middle) / 2
         gm: Numeric = changes.get("gm", self.gm)
-        radius: Numeric = changes.get("radius", self.radius)
+        radius: Numeric = changes["radius"] if "radius" in changes else self.needed("radius")
         scale = gm / c.G.value * radius**2
         return {
             "j2": difference / scale,

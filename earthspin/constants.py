@@ -145,7 +145,6 @@ CHANDLER_PERIOD = Constant(
 # --- conversions -----------------------------------------------------------------------------
 DAY = 86400.0
 JULIAN_YEAR = 365.25 * DAY
-SIDEREAL_DAY = 86164.09053  # s; the value that astropy gives its unit `sday`
 ARCSEC = math.pi / 648000.0
 ARCSEC_PER_YEAR = ARCSEC / JULIAN_YEAR  # rad/s
 J2000_JD = 2451545.0

@@ -143,11 +143,11 @@ class OutputError(EarthspinError, OSError):
 class MissingExtraError(EarthspinError, ImportError):
     """An optional package that this question needs is not installed."""
 
-    def __init__(self, package: str, extra: str, purpose: str) -> None:
+    def __init__(self, package: str, extra: str | None, purpose: str) -> None:
         self.package, self.extra = package, extra
+        what = f"'earthspin[{extra}]'" if extra else package
         super().__init__(
-            f"{purpose} needs the package '{package}'; install it with "
-            f"pip install 'earthspin[{extra}]'"
+            f"{purpose} needs the package '{package}'; install it with pip install {what}"
         )
 
 

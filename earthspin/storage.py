@@ -43,13 +43,28 @@ def write(result: xr.Dataset, path: str | Path) -> Path:
     Raises
     ------
     OutputError
-        If the place cannot be written; nothing is left there then.
+        If the place cannot be written, or its name has another ending.
+    MissingExtraError
+        If zarr is asked for and not installed.
     """
     if Path(path).suffix == ".zarr":
         return write_blocks([result], path)
-    with _replacing(path) as draft:
-        result.to_netcdf(draft, engine="netcdf4", encoding=_encoding(result))
+    with replacing(path) as draft:
+        write_netcdf(result, draft)
     return Path(path)
+
+
+def write_netcdf(result: xr.Dataset, path: Path) -> None:
+    """Write a result straight to a netCDF file; `write` does so whole or not at all.
+
+    Raises
+    ------
+    OutputError
+        If the name does not end in ``.nc``.
+    """
+    if path.suffix != ".nc":
+        raise OutputError(path, "it ends in neither .nc nor .zarr", "choose one of the two")
+    result.to_netcdf(path, engine="netcdf4", encoding=_encoding(result))
 
 
 def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
@@ -73,7 +88,7 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
         import zarr  # noqa: F401
     except ImportError:
         raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
-    with _replacing(path) as draft:
+    with replacing(path) as draft:
         for number, block in enumerate(blocks):
             if number == 0:
                 block.to_zarr(
@@ -95,6 +110,7 @@ def read(path: str | Path) -> xr.Dataset:
     Parameters
     ----------
     path : str or Path
+        NetCDF is read whole, Zarr as it is used.
 
     Raises
     ------
@@ -137,8 +153,14 @@ def check_writable(folder: str | Path) -> Path:
 
 
 @contextmanager
-def _replacing(path: str | Path) -> Iterator[Path]:
-    """Give a draft beside `path`, and put it in place if all goes well."""
+def replacing(path: str | Path) -> Iterator[Path]:
+    """Give a draft beside `path`, and put it in place if all goes well.
+
+    Raises
+    ------
+    OutputError
+        If the place cannot be written; it is then as it was.
+    """
     target = Path(path)
     folder = check_writable(target.parent)
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=folder))
@@ -154,22 +176,16 @@ def _replacing(path: str | Path) -> Iterator[Path]:
 
 
 def _put_in_place(draft: Path, target: Path, box: Path) -> None:
-    if target.is_dir():
-        os.replace(target, box / "old")  # a folder is not replaced in one step, but moved aside
-    os.replace(draft, target)
-
-
-def write_text(text: str, path: str | Path) -> Path:
-    """Write a text file, whole or not at all.
-
-    Raises
-    ------
-    OutputError
-        If the place cannot be written.
-    """
-    with _replacing(path) as draft:
-        draft.write_text(text, encoding="utf-8")
-    return Path(path)
+    if not target.is_dir():
+        os.replace(draft, target)
+        return
+    aside = box / "old"
+    os.replace(target, aside)  # a folder is not replaced in one step, but moved aside
+    try:
+        os.replace(draft, target)
+    except BaseException:
+        os.replace(aside, target)
+        raise
 
 
 def _encoding(result: xr.Dataset, chunked: bool = False) -> dict[str, dict[str, Any]]:

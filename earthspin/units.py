@@ -181,11 +181,41 @@ class TimeGrid:
     step: int
     size: int
 
+    def span(self) -> tuple[float, float]:
+        """Earliest and latest, days from J2000.0 TDB."""
+        return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
+
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
         """Days from J2000.0 TDB of the times from `first` up to `last`."""
         index = np.arange(first, self.size if last is None else last, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
+
+
+@dataclass(frozen=True, eq=False)
+class TimeList:
+    """Times as they were listed, in any order.
+
+    Attributes
+    ----------
+    listed : ndarray, shape (n,)
+        Days from J2000.0 TDB.
+    """
+
+    listed: FloatArray
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return int(self.listed.size)
+
+    def span(self) -> tuple[float, float]:
+        """Earliest and latest, days from J2000.0 TDB."""
+        return float(self.listed.min()), float(self.listed.max())
+
+    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
+        """Days from J2000.0 TDB of the times from `first` up to `last`."""
+        return self.listed[first:last]
 
 
 def time_grid(start: Any, stop: Any, step: Any, source: str = "scene") -> TimeGrid:

@@ -46,6 +46,8 @@ def test_a_name_that_is_nearly_right() -> None:
         ({"moments": (8e37, 8e37, 17e37)}, "dynamical_flattening"),
         ({"moments": (8e37, 8e37, 8.1e37), "j2": 1e-3}, "moments"),
         ({"colour": "blue"}, "colour"),
+        ({"mass": 6e24, "gm": 4e14}, "mass"),
+        ({"pole": "north"}, "pole"),
     ],
 )
 def test_impossible_bodies_name_the_field(change: dict, field: str) -> None:
@@ -109,3 +111,19 @@ def test_obliquity_of_mars() -> None:
 
     obliquity = math.degrees(angle(direction(*MARS.pole), direction(*MARS.orbit_pole)))
     assert abs(obliquity - 25.19) < 0.005
+
+
+def test_j2_of_a_sphere_needs_h_too() -> None:
+    sphere = EARTH.replace(j2=0.0, dynamical_flattening=0.0)
+    with pytest.raises(BodyError, match="set dynamical_flattening too"):
+        sphere.replace(j2=1e-3)
+    with pytest.raises(BodyError, match="radius"):
+        SUN.replace(moments=(1e47, 1e47, 1e47))
+    with pytest.raises(BodyError, match="did you mean 'triaxiality'"):
+        EARTH.replace(triaxialty=0.0)
+
+
+def test_j2_may_be_changed_where_it_is_an_array() -> None:
+    j2 = xr.DataArray([1e-3, 2e-3], dims="draw")
+    many = EARTH.replace(j2=j2)
+    assert many.replace(j2=2 * j2).dynamical_flattening.dims == ("draw",)

@@ -75,7 +75,7 @@ def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
         import sys, time
         import earthspin.storage as s
         from tests.test_storage import small
-        with s._replacing({str(path)!r}) as draft:
+        with s.replacing({str(path)!r}) as draft:
             (s.write(small(2.0), draft) if {kind!r} == "zarr" else draft.write_bytes(b"half"))
             print("writing", flush=True)
             time.sleep(60)
@@ -90,6 +90,30 @@ def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
     process.wait()
     process.stdout.close()
     assert np.all(storage.read(path).x == 1.0)
+
+
+def test_a_folder_that_cannot_be_replaced_is_put_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = storage.write(small(1.0), tmp_path / "r.zarr")
+    original = os.replace
+
+    def fail_on_the_draft(source: Path, target: Path) -> None:
+        if Path(target) == path and Path(source).name != "old":
+            raise OSError(5, "disk trouble")
+        original(source, target)
+
+    monkeypatch.setattr(os, "replace", fail_on_the_draft)
+    with pytest.raises(OutputError, match="disk trouble"):
+        storage.write(small(2.0), path)
+    monkeypatch.undo()
+    assert np.all(storage.read(path).x == 1.0)
+
+
+def test_other_endings_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"neither \.nc nor \.zarr"):
+        storage.write(small(), tmp_path / "r.txt")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_places_that_cannot_be_written(tmp_path: Path) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from earthspin.constants import ARCSEC_PER_YEAR, PSI_A_RATE, PUBLISHED_EFFECTS
+from earthspin.constants import ARCSEC_PER_YEAR, PUBLISHED_EFFECTS
 
 Numeric = Any
 
 
 def published_effects() -> dict[str, float]:
-    """Published contributions to the rate of psi_A at J2000.0, rad/s, the largest first.
+    """Published contributions to the rate of psi_A, rad/s, the largest first.
 
     Returns
     -------
@@ -21,16 +21,14 @@ def published_effects() -> dict[str, float]:
     return {effect: constant.value * ARCSEC_PER_YEAR for effect, constant in by_size}
 
 
-def iau_rate() -> float:
-    """Rate of psi_A at J2000.0 in IAU 2006, rad/s."""
-    return PSI_A_RATE.value * ARCSEC_PER_YEAR
+def closure(rate: Numeric, iau_rate: float) -> Numeric:
+    """What remains of the difference after every published effect is added to our rate.
 
-
-def difference_from_iau(rate: Numeric) -> Numeric:
-    """Our rate minus the IAU's, rad/s."""
-    return rate - iau_rate()
-
-
-def closure(rate: Numeric) -> Numeric:
-    """What remains of the difference after every published effect is added to our rate, rad/s."""
-    return difference_from_iau(rate) + sum(published_effects().values())
+    Parameters
+    ----------
+    rate : float
+        Ours, rad/s.
+    iau_rate : float
+        That of psi_A at the same epoch, rad/s.
+    """
+    return rate + sum(published_effects().values()) - iau_rate

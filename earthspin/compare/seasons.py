@@ -11,23 +11,26 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, CHI_A_RATE, DAY, EPSILON_0, JULIAN_YEAR
+from earthspin.constants import DAY, JULIAN_YEAR
 
 Numeric = Any
 
 
-def general_precession(rate: Numeric) -> Numeric:
+def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Numeric:
     """General precession in longitude, rad/s: ours less the motion of the ecliptic.
 
-    p_A = psi_A - chi_A cos(epsilon_0), Capitaine et al. 2003, with their chi_A.
+    p_A = psi_A - chi_A cos(epsilon), Capitaine et al. 2003, sect. 6.
 
     Parameters
     ----------
     rate : float
         Precession of the equator in longitude, rad/s.
+    chi_rate : float
+        Rate of the ecliptic along the equator, rad/s.
+    obliquity : float
+        rad.
     """
-    chi = CHI_A_RATE.value * ARCSEC_PER_YEAR
-    return rate - chi * math.cos(EPSILON_0.value * ARCSEC)
+    return rate - chi_rate * math.cos(obliquity)
 
 
 def time_per_degree(rate: Numeric) -> Numeric:

@@ -22,20 +22,22 @@ def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
     ellipticity : float
         (C - A)/A; a sphere does not wobble and gives infinity.
     spin_period : float
-        s; the result is in the same unit.
+        s; the result is in the same unit, and positive whichever way the wobble goes.
     """
     with np.errstate(divide="ignore"):
-        return np.divide(spin_period, ellipticity)
+        return np.abs(np.divide(spin_period, ellipticity))
 
 
-def free_wobble_error(period: Numeric, u_h: float) -> Numeric:
+def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
     """95 % half-width of the wobble's period from the uncertainty of H.
 
     Parameters
     ----------
     period : float
         s; the result is in the same unit.
+    h : float
+        Dynamical flattening; the period is (1 - H)/H turns, so dP/P = dH/H/(1 - H).
     u_h : float
         Relative standard uncertainty of the dynamical flattening.
     """
-    return NORMAL_95 * abs(period) * u_h
+    return NORMAL_95 * period * u_h / (1 - h)

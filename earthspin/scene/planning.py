@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from graphlib import TopologicalSorter
 
 from earthspin.errors import SceneError
@@ -30,12 +30,28 @@ class Plan:
     parts: tuple[Part, ...]
     left_out: dict[str, str]
 
+    def unused_keys(self) -> list[str]:
+        """Keys that the scene sets and no part of the plan depends on."""
+        used = set().union(*(part.keys for part in self.parts))
+        settings = ("perturbers", "equator", "ephemeris", "span", "step", "times")
+        plain = {f.name: f.default for f in fields(Scene)}
+        return [
+            key
+            for key in settings
+            if key not in used and not _is_default(getattr(self.scene, key), plain[key])
+        ]
+
     def __str__(self) -> str:
         width = max(len(name) for name in PARTS)
         lines = [f"{self.scene.title}: compute = {self.scene.compute}", "", "runs, in this order"]
         lines += [f"  {p.name:<{width}}  {p.does}" for p in self.parts]
         lines += ["", "left out"]
         lines += [f"  {name:<{width}}  {why}" for name, why in self.left_out.items()]
+        if self.unused_keys():
+            lines += [
+                "",
+                f"set in the scene, used by nothing here: {', '.join(self.unused_keys())}",
+            ]
         return "\n".join(lines)
 
 
@@ -94,3 +110,9 @@ def _first_missing(
     names: Iterable[str], scene: Scene, chosen: dict[str, tuple[str, ...]], reasons: dict[str, str]
 ) -> str | None:
     return next((n for n in names if not _choose(n, scene, chosen, reasons)), None)
+
+
+def _is_default(value: object, default: object) -> bool:
+    """Whether a key has been left alone; bodies stand for their names."""
+    names = tuple(getattr(v, "name", v) for v in value) if isinstance(value, tuple) else value
+    return names is default or (isinstance(names, (str, tuple)) and names == default)

@@ -20,11 +20,14 @@ class Question:
         The effects that it can switch on.
     tables : tuple of str
         Tables of settings that belong to it.
+    relative_accuracy : bool
+        Whether a relative accuracy can be asked of it.
     """
 
     wants: tuple[str, ...]
     effects: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    relative_accuracy: bool = False
 
 
 #: Words for physical effects, in the grammar of scenes.
@@ -50,7 +53,8 @@ QUESTIONS: dict[str, Question] = {
             "seasons",
             "iau-2006",
             "standstills",
-        )
+        ),
+        relative_accuracy=True,
     ),
     "torque": Question(wants=("torque-series",)),
     "wobble": Question(wants=("wobble-ladder", "observed-wobble")),

@@ -29,6 +29,7 @@ class Session:
 
     def __init__(self) -> None:
         self._done: dict[tuple[Any, ...], tuple[Any, float]] = {}
+        self._kept: list[Scene] = []  # so that no identity in a key is ever used again
 
     def result(self, part: Part, scene: Scene, given: Mapping[str, Any]) -> tuple[Any, float]:
         """What a part gives, and the seconds that it took when it ran."""
@@ -36,6 +37,7 @@ class Session:
         if key not in self._done:
             begun = time.perf_counter()
             value = part.run(scene, given)
+            self._kept.append(scene)
             self._done[key] = (value, time.perf_counter() - begun)
         return self._done[key]
 
@@ -85,13 +87,13 @@ def run_blocks(scene: Scene) -> Iterator[xr.Dataset]:
     Dataset
         Consecutive stretches of the series; the first also carries the plan.
     """
-    from earthspin.scene.parts.torque_at_times import series_times, torque_block
+    from earthspin.scene.parts.torque_at_times import torque_block
 
     planned = plan(scene)
     series = PARTS["torque-series"]
     before = Plan(scene, tuple(p for p in planned.parts if p is not series), planned.left_out)
     given, seconds = _run_parts(before, Session())
-    size = series_times(scene).size
+    size = given["times"].size
     for first in range(0, size, BLOCK):
         begun = time.perf_counter()
         block = torque_block(scene, given, first, min(first + BLOCK, size))
@@ -153,40 +155,41 @@ def _merge(
         [planned.left_out.get(name, PARTS[name].does) for name in names],
         {"long_name": "what the part does, or why it was left out"},
     )
-    result.attrs = _attributes(planned.scene, given)
+    result.attrs = _attributes(planned, given)
     return result
 
 
-def _attributes(scene: Scene, given: Mapping[str, Any]) -> dict[str, str | float]:
+def _attributes(planned: Plan, given: Mapping[str, Any]) -> dict[str, str | float]:
     """Global attributes: strings and numbers, the same from run to run."""
     from importlib.metadata import version
 
+    scene = planned.scene
+    used = set().union(*(part.keys for part in planned.parts))
+    bodies = [scene.body] * ("body" in used) + list(scene.perturbers) * ("perturbers" in used)
     attributes: dict[str, str | float] = {
         "Conventions": CONVENTIONS,
         "title": scene.title,
         "source": f"earthspin {__version__}",
         "history": f"earthspin {__version__}: compute = {scene.compute}",
-        "references": "; ".join(
-            dict.fromkeys(b.reference for b in (scene.body, *scene.perturbers) if b.reference)
-        ),
+        "references": "; ".join(dict.fromkeys(b.reference for b in bodies if b.reference)),
         "earthspin_version": __version__,
         "numpy_version": version("numpy"),
-        "pyerfa_version": version("pyerfa"),
         "compute": scene.compute,
         "body": scene.body.name,
-        "perturbers": " ".join(p.name for p in scene.perturbers),
         "effects": " ".join(scene.effects or ()),
     }
+    if "perturbers" in used:
+        attributes["perturbers"] = " ".join(p.name for p in scene.perturbers)
     if "ephemeris" in given:
         ephemeris = given["ephemeris"].ephemeris
         attributes |= {
             "ephemeris": ephemeris.name,
             "ephemeris_sha256": ephemeris.sha256,
             "jplephem_version": version("jplephem"),
-            "equator": scene.equator,
+            "pyerfa_version": version("pyerfa"),
         }
-    for key in ("span", "step", "accuracy"):
-        if getattr(scene, key) is not None:
+    for key in ("equator", "span", "step", "accuracy"):
+        if key in used and getattr(scene, key) is not None:
             attributes[key] = str(getattr(scene, key))
     return attributes
 

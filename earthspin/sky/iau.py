@@ -7,12 +7,14 @@ differ by 2 ms, 1e-10 arcsec of precession).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import erfa
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from earthspin.constants import J2000_JD
+from earthspin.constants import DAY, J2000_JD
 
 FloatArray = NDArray[np.float64]
 
@@ -40,6 +42,38 @@ def mean_equator(days: FloatArray) -> FloatArray:
 def ecliptic_pole() -> FloatArray:
     """Pole of the ecliptic of J2000.0 (IAU 2006) in the GCRS, shape (3,)."""
     return np.asarray(erfa.ecm06(J2000_JD, 0.0)[2])
+
+
+@dataclass(frozen=True)
+class PrecessionRates:
+    """Rates of the precession angles of IAU 2006 at an epoch, rad/s.
+
+    Attributes
+    ----------
+    psi_a, omega_a : float
+        Of the mean equator against the fixed ecliptic of J2000.0: longitude, obliquity.
+    chi_a : float
+        Of the ecliptic along the equator.
+    """
+
+    psi_a: float
+    omega_a: float
+    chi_a: float
+
+
+def precession_rates(day: float) -> PrecessionRates:
+    """Rates of the angles of IAU 2006, from `erfa.p06e` by central differences.
+
+    Parameters
+    ----------
+    day : float
+        Days from J2000.0 TDB.
+    """
+    step = 365.25  # the angles are polynomials in centuries: exact to 1e-13 of the rate
+    before, after = (np.array(erfa.p06e(J2000_JD, day + s * step)) for s in (-1, 1))
+    rates = (after - before) / (2 * step * DAY)
+    # p06e gives, in this order, eps0, psia, oma, bpa, bqa, pia, bpia, epsa, chia, ...
+    return PrecessionRates(psi_a=float(rates[1]), omega_a=float(rates[2]), chi_a=float(rates[8]))
 
 
 def mean_longitude_of_node(days: FloatArray) -> FloatArray:

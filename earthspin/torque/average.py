@@ -41,6 +41,9 @@ TAPERS: dict[str, tuple[float, ...]] = {
 #: 0.1 mas/cy over 150 years, 0.6 over 450, 4 over 870).
 LONGEST_WINDOW = 150 * JULIAN_YEAR
 
+#: Sine of the obliquity below which an axis has no longitude.
+UPRIGHT = 1e-12
+
 #: Swings of the rate that are slower than any window, which windows that agree may all miss:
 #: half-width of 95 per cent over the rate, by taper (measured: `python -m data_tools windows`).
 SLOW_SWING = {"plain": 3e-3, "hann": 1e-6, "sin4": 2e-7, "blackman-harris": 2e-7}
@@ -54,8 +57,8 @@ class Window:
     ----------
     centre : float
         Middle, s.
-    cycles : int
-        Whole turns of the slowest cycle that it holds.
+    cycles : float
+        Turns of the slowest cycle that it holds; whole ones remove it.
     cycle : float
         Length of one turn, s.
     taper : str
@@ -93,7 +96,7 @@ class Window:
         return np.asarray(w / np.sum(w))
 
     def mean(self, times: FloatArray, values: FloatArray) -> FloatArray:
-        """Weighted mean of values over the last axis but those after time.
+        """Weighted mean of values over time, their first axis.
 
         Parameters
         ----------
@@ -104,7 +107,7 @@ class Window:
         return np.tensordot(self.weights(times), values, axes=(0, 0))
 
 
-def best_window(start: float, end: float, cycle: float, preferred: float = 0.0) -> Window:
+def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
     """Choose the window that converges fastest on the span there is.
 
     Parameters
@@ -113,7 +116,7 @@ def best_window(start: float, end: float, cycle: float, preferred: float = 0.0) 
         The span that the data allow, s.
     cycle : float
         The slowest cycle to be averaged out, s.
-    preferred : float
+    epoch : float
         Where the middle should be, s; taken if two cycles fit about it, else the middle of
         the span.
 
@@ -123,14 +126,14 @@ def best_window(start: float, end: float, cycle: float, preferred: float = 0.0) 
         If fewer than two cycles are available: with one the mean is good to 0.3 per cent
         only, and nothing tells by how much it is off.
     """
-    room = 2 * min(preferred - start, end - preferred)
-    centre, room = (preferred, room) if room >= 2 * cycle else ((start + end) / 2, end - start)
+    room = 2 * min(epoch - start, end - epoch)
+    centre, room = (epoch, room) if room >= 2 * cycle else ((start + end) / 2, end - start)
     turns = math.floor(min(room, LONGEST_WINDOW) / cycle)
     if turns < 2:
         raise UndefinedError(
             f"an average over orbits needs two turns of the slowest cycle, "
-            f"{2 * cycle / JULIAN_YEAR:.2f} years; the span has {room / JULIAN_YEAR:.2f}; "
-            f"choose a longer span or kernel"
+            f"{2 * cycle / JULIAN_YEAR:.2f} years; the span has {room / JULIAN_YEAR:.2f}, and no "
+            f"more than {LONGEST_WINDOW / JULIAN_YEAR:.0f} are used; choose a longer span or kernel"
         )
     return Window(centre, turns, cycle, "sin4" if turns >= 3 else "hann")
 
@@ -170,7 +173,8 @@ def window_mean_and_error(
     others = [w.mean(times, values) for w in neighbours(window)]
     others.append(window.mean(times[::2], values[::2]))
     spread = np.max(np.abs(np.stack(others) - mean), axis=0)
-    return mean, spread + SLOW_SWING[window.taper] * np.abs(mean)
+    size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
+    return mean, spread + SLOW_SWING[window.taper] * size
 
 
 def with_total(values: FloatArray) -> FloatArray:
@@ -208,24 +212,25 @@ def convergence_curve(
     }
 
 
-def longitude_rate(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Rate of the node along a fixed orbit that a torque gives an axis, per angular momentum.
+def precessing_push(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
+    """Share of a torque that turns an axis along a fixed orbit: N . (k x n)/sin2(obliquity).
 
-    The axis moves by N/(C Omega); its longitude along the plane with that normal falls, and
-    the rate of the fall is counted positive, as the precession in longitude is.
+    Divided by the angular momentum it is the rate at which the axis's longitude falls, counted
+    positive as the precession in longitude is.
 
     Parameters
     ----------
     torque : ndarray, shape (n, 3)
-        Torque per unit of angular momentum, rad/s, or in any unit that the result shares.
+        N m, or per unit of C - A, s-2.
     axis : ndarray, shape (3,) or (n, 3)
-        Unit vector of the spin axis.
+        Unit vector of the spin axis k.
     normal : ndarray, shape (3,)
-        Unit normal of the orbit.
+        Unit normal n of the orbit.
 
     Returns
     -------
     ndarray, shape (n,)
+        In the unit of the torque.
 
     Raises
     ------
@@ -234,7 +239,7 @@ def longitude_rate(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> 
     """
     across = np.cross(axis, normal)  # towards the equinox, of length sin(obliquity)
     sine_squared = np.sum(across * across, axis=-1)
-    if np.any(sine_squared < 1e-24):
+    if np.any(sine_squared < UPRIGHT**2):
         raise UndefinedError(
             "the spin axis stands upright on the orbit: it has no longitude, "
             "so a rate of precession is not defined"

@@ -1,9 +1,10 @@
 """From mean torques to rates and periods of precession, each with its error.
 
-With N the mean torque per unit of C - A, turned into a rate of the node by
-`earthspin.torque.average.longitude_rate`,
+With N the torque per unit of C - A, k the axis and n the normal of the orbit,
 
-    psi' = (H/Omega) <N . (k x n)> / sin2(obliquity)
+    psi' = (H/Omega) < N . (k x n)/sin2(obliquity) >
+
+where the mean is that of `earthspin.torque.average.precessing_push`,
 
 so the rate needs H alone, not C and C - A apart, and not G. The torque itself needs C - A,
 hence the mass in kilograms, hence G, which is known to 2e-5 only. The formulas are plain
@@ -13,29 +14,89 @@ arithmetic and take labelled arrays: ten thousand bodies with different H are on
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from earthspin.constants import NORMAL_95
-from earthspin.mass.inertia import moment_difference
 
 Numeric = Any
 
 
-def precession_rate(geometry: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
+@dataclass(frozen=True)
+class Estimate:
+    """A number, or an array of numbers, with what it may be off by.
+
+    Attributes
+    ----------
+    value : float
+    method, given : float
+        95 % half-widths from averaging and sampling, and from the given numbers.
+    """
+
+    value: Numeric
+    method: Numeric
+    given: Numeric
+
+    @property
+    def error(self) -> Numeric:
+        """95 % half-width from both."""
+        return np.hypot(self.method, self.given)
+
+
+def precession_estimate(
+    push: Numeric, push_error: Numeric, h: Numeric, spin_rate: Numeric, u_h: float, u_gm: Numeric
+) -> Estimate:
+    """Rate of precession in longitude with its error, rad/s.
+
+    Parameters
+    ----------
+    push, push_error : float
+        Mean `precessing_push` of the torque per unit of C - A, and its half-width, s-2.
+    h : float
+        Dynamical flattening (C - A)/C.
+    spin_rate : float
+        rad/s.
+    u_h, u_gm : float
+        Relative standard uncertainties of H and of the perturber's GM.
+    """
+    rate = precession_rate(push, h, spin_rate)
+    method = np.abs(precession_rate(push_error, h, spin_rate))
+    return Estimate(rate, method, half_width(rate, u_h, u_gm))
+
+
+def torque_estimate(
+    vector: Numeric, vector_error: Numeric, bulge: Numeric, u_bulge: float, u_gm: Numeric
+) -> Estimate:
+    """Magnitude of the mean torque with its error, N m.
+
+    Parameters
+    ----------
+    vector, vector_error : float
+        Magnitude of the mean torque per unit of C - A, and its half-width, s-2.
+    bulge : float
+        C - A, kg m2.
+    u_bulge, u_gm : float
+        Relative standard uncertainties of C - A and of the perturber's GM.
+    """
+    torque = np.abs(bulge) * vector
+    return Estimate(torque, np.abs(bulge) * vector_error, half_width(torque, u_bulge, u_gm))
+
+
+def precession_rate(push: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
     """Rate of precession in longitude, rad/s; positive westward, as the Earth's is.
 
     Parameters
     ----------
-    geometry : float
-        Mean `longitude_rate` of the torque per unit of C - A, s-2.
+    push : float
+        Mean `precessing_push` of the torque per unit of C - A, s-2.
     h : float
         Dynamical flattening (C - A)/C.
     spin_rate : float
         rad/s.
     """
-    return h / spin_rate * geometry
+    return h / spin_rate * push
 
 
 def period(rate: Numeric) -> Numeric:
@@ -51,45 +112,21 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
         return period(rate) * np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
 
 
-def rate_ratio(geometry: Numeric) -> Numeric:
+def rate_ratio(push: Numeric) -> Numeric:
     """Each rate over that of the first; 1 where they are equal, be they both nothing."""
-    first = geometry[0]
+    first = push[0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(geometry == first, 1.0, geometry / first)
+        return np.where(push == first, 1.0, push / first)
 
 
-def rate_input_error(rate: Numeric, u_h: float, u_gm: Numeric) -> Numeric:
-    """95 % half-width of the rate from the uncertainty of H and of the perturber's GM.
-
-    Parameters
-    ----------
-    rate : float
-    u_h, u_gm : float
-        Relative standard uncertainties.
-    """
-    return NORMAL_95 * np.abs(rate) * np.hypot(u_h, u_gm)
+def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
+    """95 % half-width of a product from the relative standard uncertainties of its factors."""
+    variance = sum(u * u for u in relative_uncertainties)
+    return NORMAL_95 * np.abs(value) * np.sqrt(variance)
 
 
-def mean_torque(vector: Numeric, j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
-    """Magnitude of the mean torque, N m, from the mean torque per unit of C - A, s-2."""
-    return np.abs(moment_difference(j2, mass, radius)) * vector
-
-
-def torque_input_error(torque: Numeric, u_bulge: float, u_gm: Numeric) -> Numeric:
-    """95 % half-width of a mean torque from C - A and from the perturber's GM.
-
-    Parameters
-    ----------
-    torque : float
-        N m.
-    u_bulge, u_gm : float
-        Relative standard uncertainties.
-    """
-    return NORMAL_95 * torque * np.hypot(u_bulge, u_gm)
-
-
-def circular_orbit_rate(gm: float, distance: float, obliquity: float) -> float:
-    """Closed form of the mean geometry for a circular orbit in the plane of reference, s-2.
+def circular_orbit_push(gm: float, distance: float, obliquity: float) -> float:
+    """Closed form of the mean push for a circular orbit in the plane of reference, s-2.
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from earthspin.constants import JULIAN_YEAR
 from earthspin.dataset import si
 from earthspin.views.stars import STARS
 
@@ -209,12 +210,12 @@ def plot_pole_circle(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
     rate = float(si(result.precession_rate.isel(perturber=-1)))
     period = float(result.precession_period.isel(perturber=-1))
-    julian_year = 365.25 * 86400
-    for year in range(-10000, 14001, 2000):
-        back = rate * (year - 2000) * julian_year  # the pole's longitude falls: to the left
+    before_christ = [1 - year for year in range(10000, 0, -2000)]
+    for year in [*before_christ, 1, *range(2000, 14001, 2000)]:
+        back = rate * (year - 2000) * JULIAN_YEAR  # the pole's longitude falls: to the left
         x, y = -radius * np.sin(back), radius * np.cos(back)
         ax.plot(x, y, "o", color="#D55E00", ms=4)
-        label = f"{year}" if year > 0 else f"{1 - year} BC" if year == 0 else f"{-year} BC"
+        label = f"{year}" if year > 0 else f"{1 - year} BC"
         ax.annotate(
             label,
             (x, y),

@@ -54,11 +54,11 @@ def write_report(
         advance(1)
         drawn = _draw(result, ephemeris, session, advance) if figures else []
         text = page(result, drawn)
-    written = [
-        storage.write_text(text, place / "index.html"),
-        storage.write(result, place / "precession.nc"),
-    ]
-    return result, written
+    paths = [place / "index.html", place / "precession.nc"]
+    with storage.replacing(paths[0]) as html, storage.replacing(paths[1]) as data:
+        html.write_text(text, encoding="utf-8")
+        storage.write_netcdf(result, data)
+    return result, paths
 
 
 def _draw(result: xr.Dataset, ephemeris: Any, session: Session, advance: Any) -> list[Any]:

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.constants import DAY, P_A_RATE, TROPICAL_YEAR
+from earthspin.scene.parts import PARTS
 
 WIDTH = 100
 
@@ -87,8 +88,8 @@ def _space(unit: str) -> str:
 
 def _first_of_draws(result: xr.Dataset) -> xr.Dataset:
     """The first of many bodies, where a body has labelled arrays: tables show one."""
-    known = {"perturber", "earth_model", "effect", "standstill", "window", "window_cycles"}
-    known |= {"part", "time", "component", "rung"}
+    declared = (variable.dims for part in PARTS.values() for variable in part.gives.values())
+    known = {"part"}.union(*declared)
     return result.isel({dim: 0 for dim in result.dims if dim not in known})
 
 
@@ -235,7 +236,7 @@ def iau(result: xr.Dataset) -> Table:
     rows.append(("difference after the published effects", _value(result, "closure")))
     return Table(
         "Beside IAU 2006",
-        ("rate at J2000.0", "arcsec/yr"),
+        (f"rate at {_date(result.reference_epoch.values)}", "arcsec/yr"),
         rows,
         "Published sizes: Capitaine, Wallace & Chapront 2003, table 3. H itself comes from "
         "observed precession, so the closure tests consistency, not the theory: what is left is "

@@ -23,7 +23,7 @@ def turns_from_flattening(flattening: Numeric) -> Numeric:
 
 def turns_rigid(h: Numeric) -> Numeric:
     """Turns per wobble of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
-    return _over(1.0, ellipticity_from_h(h))
+    return np.abs(_over(1.0, ellipticity_from_h(h)))
 
 
 def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:

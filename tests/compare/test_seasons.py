@@ -4,7 +4,17 @@ import numpy as np
 import xarray as xr
 
 from earthspin.compare import seasons
-from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
+from earthspin.constants import (
+    ARCSEC,
+    ARCSEC_PER_YEAR,
+    CHI_A_RATE,
+    DAY,
+    EPSILON_0,
+    JULIAN_YEAR,
+    P_A_RATE,
+    PSI_A_RATE,
+    TROPICAL_YEAR,
+)
 from tests.conftest import load_pins
 
 PINS = load_pins("precession")
@@ -19,6 +29,21 @@ def test_the_iau_rate_gives_the_tropical_year() -> None:
     """p_A of IAU 2006 and the sidereal year give the tropical year of Simon et al. 1994."""
     year = seasons.tropical_year(P_A_RATE.value * ARCSEC_PER_YEAR, 365.256363004 * DAY)
     assert abs(year - TROPICAL_YEAR.value) < 0.1  # s; measured: 0.03, between the two models
+
+
+def test_the_motion_of_the_ecliptic_is_taken_off() -> None:
+    chi = CHI_A_RATE.value * ARCSEC_PER_YEAR
+    eps = EPSILON_0.value * ARCSEC
+    general = seasons.general_precession(PSI_A_RATE.value * ARCSEC_PER_YEAR, chi, eps)
+    assert abs(general / ARCSEC_PER_YEAR - P_A_RATE.value) < 1e-8
+
+
+def test_results_are_near_the_iaus(precession_result: xr.Dataset) -> None:
+    # ours lacks the geodesic precession, 0.0192 arcsec/yr
+    assert abs(float(precession_result.general_precession) - P_A_RATE.value) < 0.02
+    assert abs(float(precession_result.tropical_year) * DAY - TROPICAL_YEAR.value) < 1.0
+    assert float(precession_result.observed_period) == 430.9
+    assert abs(float(precession_result.window_length.max()) - 5 * 18.6129) < 1e-3
 
 
 def test_no_precession_no_drift_between_years() -> None:

@@ -12,7 +12,7 @@ from earthspin.torque.average import (
     Window,
     best_window,
     convergence_curve,
-    longitude_rate,
+    precessing_push,
     window_mean_and_error,
     with_total,
 )
@@ -119,7 +119,7 @@ def test_the_total_is_the_sum_of_all() -> None:
 
 
 @given(st.floats(0.05, np.pi - 0.05), st.floats(0, 2 * np.pi), st.floats(1e-9, 1e-5))
-def test_longitude_rate_against_a_small_turn(tilt: float, node: float, turn: float) -> None:
+def test_precessing_push_against_a_small_turn(tilt: float, node: float, turn: float) -> None:
     """Turn an axis about the normal by a known angle and ask for it back."""
     normal = np.array([0.0, 0.0, 1.0])
 
@@ -130,7 +130,7 @@ def test_longitude_rate_against_a_small_turn(tilt: float, node: float, turn: flo
 
     # westward: longitude falls
     change = axis(node - turn / 2) - axis(node + turn / 2)
-    rate = longitude_rate(change[np.newaxis], axis(node), normal)[0]
+    rate = precessing_push(change[np.newaxis], axis(node), normal)[0]
     assert np.isclose(rate, turn, rtol=1e-6)
 
 
@@ -138,4 +138,4 @@ def test_an_upright_axis_has_no_longitude() -> None:
     up = np.array([0.0, 0.0, 1.0])
     for axis in (up, -up):
         with pytest.raises(UndefinedError, match="upright"):
-            longitude_rate(np.ones((1, 3)), axis, up)
+            precessing_push(np.ones((1, 3)), axis, up)

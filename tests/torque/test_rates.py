@@ -8,7 +8,7 @@ import earthspin
 from earthspin import EARTH, MARS, MOON, SUN, UndefinedError
 from earthspin.bodies import BODIES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, EPSILON_0, JULIAN_YEAR, NORMAL_95
-from earthspin.torque.rates import circular_orbit_rate, period, period_error, precession_rate
+from earthspin.torque.rates import circular_orbit_push, period, period_error, precession_rate
 from tests.conftest import load_pins
 
 PINS = load_pins("precession")
@@ -47,7 +47,7 @@ def test_the_input_error_is_that_of_h(precession_result: xr.Dataset) -> None:
 
 def test_the_closed_form_of_the_sun(precession_result: xr.Dataset) -> None:
     eccentricity, axis = 0.016708634, 149598023e3  # mean orbit at J2000.0, Simon et al. 1994
-    geometry = circular_orbit_rate(SUN.gm, axis, EPSILON_0.value * ARCSEC)
+    geometry = circular_orbit_push(SUN.gm, axis, EPSILON_0.value * ARCSEC)
     geometry *= (1 - eccentricity**2) ** -1.5
     rate = precession_rate(geometry, EARTH.dynamical_flattening, EARTH.spin_rate) / ARCSEC_PER_YEAR
     PINS["sun closed form"].check(rate)

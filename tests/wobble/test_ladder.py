@@ -69,6 +69,19 @@ def test_a_sphere_does_not_wobble() -> None:
     assert np.all(result.factor == 1)
 
 
+def test_a_prolate_body_wobbles_in_as_many_days() -> None:
+    thin = EARTH.replace(j2=-EARTH.j2, dynamical_flattening=-EARTH.dynamical_flattening)
+    periods = earthspin.wobble_ladder(body=thin).period_solar
+    assert np.all(periods > 0)
+    assert np.isclose(periods[1], periods[2], rtol=1e-4)
+
+
+def test_sidereal_days_are_those_of_the_body() -> None:
+    result = earthspin.wobble_ladder(body="mars")
+    day = earthspin.MARS.spin_period / 86400
+    assert np.allclose(result.period_sidereal * day, result.period_solar, rtol=1e-14)
+
+
 def test_an_unstable_axis_is_refused() -> None:
     with pytest.raises(UndefinedError, match="middle one"):
         earthspin.wobble_ladder(body=EARTH.replace(triaxiality=0.01))

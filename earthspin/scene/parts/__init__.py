@@ -36,6 +36,7 @@ PARTS: dict[str, Part] = {
         seasons.SEASONS,
         iau_comparison.IAU_2006_COMPARISON,
         standstills.STANDSTILLS,
+        torque_at_times.TIMES,
         torque_at_times.TORQUE_SERIES,
         ladder.WOBBLE_LADDER,
     )

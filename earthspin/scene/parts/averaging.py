@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from earthspin.scene.spec import Scene
     from earthspin.torque.average import Window
+    from earthspin.torque.rates import Estimate
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).
@@ -32,8 +33,8 @@ class Samples:
         s from J2000.0 TDB.
     labels : list of str
         The perturbers, and their total if there are several.
-    longitude_rate : ndarray, shape (n, label)
-        Rate of the node per H/Omega, s-2.
+    push : ndarray, shape (n, label)
+        Share of the torque per C - A that makes the axis precess, s-2.
     torque : ndarray, shape (n, label, 3)
         Torque per C - A, along equator and equinox of date, s-2.
     window : Window
@@ -44,7 +45,7 @@ class Samples:
 
     times: NDArray[np.float64]
     labels: list[str]
-    longitude_rate: NDArray[np.float64]
+    push: NDArray[np.float64]
     torque: NDArray[np.float64]
     window: Window
     obliquity: float
@@ -56,30 +57,30 @@ def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
 
     from earthspin.constants import DAY
     from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
-    from earthspin.torque.average import best_window, longitude_rate, with_total
+    from earthspin.torque.average import best_window, precessing_push, with_total
     from earthspin.torque.gravity import torque_from_position
 
     sky, body = given["ephemeris"], scene.body
-    start, end = (day * DAY for day in sky.span)
+    pole, orbit = body.needed("pole"), body.orbit_pole
+    # A satellite's pull has the cycle of its node; all else has the year of the body.
     cycle = max(p.cycle or body.needed("orbital_period") for p in scene.perturbers)
-    window = best_window(start, end, cycle)
+    window = best_window(sky.span[0] * DAY, sky.span[1] * DAY, cycle)
     times = window.sample_times(SAMPLING)
     days = times / DAY
 
-    equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
-    axis, normal = equator[..., 2, :], orbit_normal(body.pole, body.orbit_pole)
+    equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
+    axis = equator[..., 2, :]
+    axis_at_epoch = equator_of_date(pole, orbit, np.array([window.centre / DAY]))[..., 2, :]
     positions = sky.ephemeris.positions(sky.targets, sky.centre, days)
     torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in scene.perturbers]
     names = [p.name for p in scene.perturbers]
     return Samples(
         times=times,
         labels=names + ["total"] * (len(names) > 1),
-        longitude_rate=with_total(
-            np.stack([longitude_rate(torque, axis, normal) for torque in torques], axis=1)
-        ),
-        torque=with_total(np.stack([rotate(equator, torque) for torque in torques], axis=1)),
+        push=with_total(np.stack([precessing_push(t, axis, normal) for t in torques], axis=1)),
+        torque=with_total(np.stack([rotate(equator, t) for t in torques], axis=1)),
         window=window,
-        obliquity=angle(np.atleast_2d(axis)[axis.size // 6], normal),
+        obliquity=angle(axis_at_epoch.reshape(3), normal),
     )
 
 
@@ -90,45 +91,49 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
     from earthspin.constants import DAY
     from earthspin.dataset import build
+    from earthspin.mass.inertia import moment_difference
     from earthspin.torque import rates
     from earthspin.torque.average import window_mean_and_error
     from earthspin.units import datetime64
 
     samples, body = given["torque-samples"], scene.body
-    u, h = body.relative_uncertainty, body.needed("dynamical_flattening")
-    figure = body.needed("j2"), body.mass, body.needed("radius")
+    window, times = samples.window, samples.times
 
     def along(values: Any) -> xr.DataArray:
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
-    u_gm = along(_with_largest([q.relative_uncertainty.get("gm", 0.0) for q in scene.perturbers]))
-    geometry, geometry_error = window_mean_and_error(
-        samples.window, samples.times, samples.longitude_rate
+    push, push_error = window_mean_and_error(window, times, samples.push)
+    vector, vector_error = window_mean_and_error(window, times, samples.torque)
+    u_gm = along(_with_largest([p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers]))
+    rate = rates.precession_estimate(
+        along(push),
+        along(push_error),
+        body.needed("dynamical_flattening"),
+        body.spin_rate,
+        body.relative_uncertainty.get("dynamical_flattening", 0.0),
+        u_gm,
     )
-    rate = rates.precession_rate(along(geometry), h, body.spin_rate)
-    rate_method = abs(rates.precession_rate(along(geometry_error), h, body.spin_rate))
-    rate_input = rates.rate_input_error(rate, u.get("dynamical_flattening", 0.0), u_gm)
-    rate_error = np.hypot(rate_method, rate_input)
-    _check_accuracy(scene, rate, rate_error)
-
-    vector, vector_error = window_mean_and_error(samples.window, samples.times, samples.torque)
-    torque = rates.mean_torque(along(np.linalg.norm(vector, axis=-1)), *figure)
-    torque_method = rates.mean_torque(along(np.linalg.norm(vector_error, axis=-1)), *figure)
-    torque_input = rates.torque_input_error(torque, body.relative_uncertainty_of_bulge(), u_gm)
-    window = samples.window
+    _check_accuracy(scene, rate)
+    torque = rates.torque_estimate(
+        along(np.linalg.norm(vector, axis=-1)),
+        along(np.linalg.norm(vector_error, axis=-1)),
+        moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
+        body.relative_uncertainty_of_bulge(),
+        u_gm,
+    )
     result = build(
         "mean-rates",
         MEAN_RATES.gives,
         {
-            "precession_rate": rate,
-            "precession_rate_error": rate_error,
-            "precession_rate_error_method": rate_method,
-            "precession_rate_error_input": rate_input,
-            "precession_period": rates.period(rate),
-            "precession_period_error": rates.period_error(rate, rate_error),
-            "rate_ratio": rates.rate_ratio(geometry),
-            "mean_torque": torque,
-            "mean_torque_error": np.hypot(torque_method, torque_input),
+            "precession_rate": rate.value,
+            "precession_rate_error": rate.error,
+            "precession_rate_error_method": rate.method,
+            "precession_rate_error_input": rate.given,
+            "precession_period": rates.period(rate.value),
+            "precession_period_error": rates.period_error(rate.value, rate.error),
+            "rate_ratio": rates.rate_ratio(push),
+            "mean_torque": torque.value,
+            "mean_torque_error": torque.error,
             "obliquity": samples.obliquity,
             "reference_epoch": datetime64(np.array(window.centre / DAY)),
         },
@@ -151,13 +156,13 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     samples, body = given["torque-samples"], scene.body
     window = samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
-    curves = convergence_curve(window, samples.times, samples.longitude_rate[:, -1], cycles)
-    geometry = xr.DataArray(
+    curves = convergence_curve(window, samples.times, samples.push[:, -1], cycles)
+    push = xr.DataArray(
         np.stack(list(curves.values())),
         {"window": list(curves), "window_cycles": cycles},
         ("window", "window_cycles"),
     )
-    rate = rates.precession_rate(geometry, body.needed("dynamical_flattening"), body.spin_rate)
+    rate = rates.precession_rate(push, body.needed("dynamical_flattening"), body.spin_rate)
     length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
     return build(
         "convergence", CONVERGENCE.gives, {"rate_by_window": rate, "window_length": length}
@@ -165,25 +170,18 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
 
 def _with_largest(values: list[float]) -> list[float]:
-    """Add, for the total, the largest of several values."""
+    """Add, for the total, the largest of several relative uncertainties: a safe bound."""
     return values + [max(values)] * (len(values) > 1)
 
 
-def _check_accuracy(scene: Scene, rate: xr.DataArray, error: xr.DataArray) -> None:
+def _check_accuracy(scene: Scene, rate: Estimate) -> None:
     """Refuse a relative accuracy that the total does not reach."""
-    from earthspin.errors import AccuracyError, SceneError
+    from earthspin.errors import AccuracyError
 
     if scene.accuracy is None:
         return
-    if not isinstance(scene.accuracy, float):
-        raise SceneError(
-            "accuracy",
-            scene.accuracy,
-            "a rate takes a relative error, like 1e-6",
-            source=scene.source,
-        )
-    best = float((error / abs(rate)).isel(perturber=-1).max())
-    if best > scene.accuracy:
+    best = float((rate.error / abs(rate.value)).isel(perturber=-1).max())
+    if not best <= scene.accuracy:
         raise AccuracyError(scene.accuracy, best, "(relative)", "give a longer span or better H")
 
 

@@ -28,7 +28,7 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
     body, samples = scene.body, given["torque-samples"]
     j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
-    geometry = samples.window.mean(samples.times, samples.longitude_rate)[-1]
+    push = samples.window.mean(samples.times, samples.push)[-1]
     h = xr.concat(
         [
             xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
@@ -44,7 +44,7 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         EARTH_MODELS.gives,
         {
             "h_by_model": h,
-            "period_by_model": rates.period(rates.precession_rate(geometry, h, body.spin_rate)),
+            "period_by_model": rates.period(rates.precession_rate(push, h, body.spin_rate)),
             "wobble_by_model": free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
             "moment_difference": difference,
             "polar_moment_factor": inertia.polar_moment_factor(j2, measured),

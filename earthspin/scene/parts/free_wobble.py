@@ -22,16 +22,16 @@ def free_wobble(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 
     body = scene.body
-    ellipticity = ellipticity_from_h(body.needed("dynamical_flattening"))
-    period = free_wobble_period(ellipticity, body.needed("spin_period"))
-    error = free_wobble_error(period, body.relative_uncertainty.get("dynamical_flattening", 0.0))
+    h = body.needed("dynamical_flattening")
+    period = free_wobble_period(ellipticity_from_h(h), body.needed("spin_period"))
+    error = free_wobble_error(period, h, body.relative_uncertainty.get("dynamical_flattening", 0.0))
     return build(
         "free-wobble",
         FREE_WOBBLE.gives,
         {
             "free_wobble_period": period,
             "free_wobble_period_error": error,
-            "free_wobble_period_sidereal": period,
+            "free_wobble_period_sidereal": free_wobble_period(ellipticity_from_h(h), 1.0),
         },
     )
 
@@ -66,7 +66,9 @@ FREE_WOBBLE = Part(
         **with_error(
             "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
         ),
-        "free_wobble_period_sidereal": Variable((), "sday", "period of the rigid free wobble"),
+        "free_wobble_period_sidereal": Variable(
+            (), "1", "period of the rigid free wobble in turns of the body, its sidereal days"
+        ),
     },
 )
 

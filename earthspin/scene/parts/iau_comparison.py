@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from earthspin.constants import PUBLISHED_EFFECTS
 from earthspin.dataset import Variable, with_error
 from earthspin.scene.part import Part
-from earthspin.scene.parts.seasons import needs_both_and_iau
+from earthspin.scene.parts.conditions import needs_sun_and_moon_alone
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,20 +19,23 @@ if TYPE_CHECKING:
 def iau_2006(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Difference from psi_A, and what closes it."""
     from earthspin.compare import budget
+    from earthspin.constants import DAY
     from earthspin.dataset import build, si
+    from earthspin.sky.iau import precession_rates
 
     total = given["mean-rates"].isel(perturber=-1, drop=True)
     rate, error = si(total.precession_rate), si(total.precession_rate_error)
+    iau_rate = precession_rates(given["torque-samples"].window.centre / DAY).psi_a
     effects = budget.published_effects()
     return build(
         "iau-2006",
         IAU_2006_COMPARISON.gives,
         {
-            "iau_rate": budget.iau_rate(),
-            "difference_from_iau": budget.difference_from_iau(rate),
+            "iau_rate": iau_rate,
+            "difference_from_iau": rate - iau_rate,
             "difference_from_iau_error": error,
             "neglected_effect": list(effects.values()),
-            "closure": budget.closure(rate),
+            "closure": budget.closure(rate, iau_rate),
             "closure_error": error,
         },
         coords={"effect": list(effects)},
@@ -43,10 +46,10 @@ IAU_2006_COMPARISON = Part(
     name="iau-2006",
     does="IAU 2006 precession beside ours, published size of each neglected effect",
     function="earthspin.scene.parts.iau_comparison:iau_2006",
-    needs=("mean-rates",),
-    left_out=needs_both_and_iau,
+    needs=("torque-samples", "mean-rates"),
+    left_out=needs_sun_and_moon_alone,
     gives={
-        "iau_rate": Variable((), "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006"),
+        "iau_rate": Variable((), "arcsec/yr", "rate of psi_A in IAU 2006 at the same epoch"),
         **with_error("difference_from_iau", Variable((), "arcsec/yr", "our rate minus the IAU's")),
         "neglected_effect": Variable(
             ("effect",),

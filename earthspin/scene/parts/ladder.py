@@ -39,7 +39,7 @@ def wobble_ladder(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         WOBBLE_LADDER.gives,
         {
             "period_solar": period,
-            "period_sidereal": period,
+            "period_sidereal": turns,
             "factor": turns.copy(data=ladder.factors(turns.values)),
         },
     )
@@ -54,7 +54,9 @@ WOBBLE_LADDER = Part(
     keys=("body",),
     gives={
         "period_solar": Variable(_RUNG, "d", "period of the free wobble in days of 86400 s"),
-        "period_sidereal": Variable(_RUNG, "sday", "period of the free wobble in sidereal days"),
+        "period_sidereal": Variable(
+            _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
+        ),
         "factor": Variable(_RUNG, "1", "period over that of the rung before"),
     },
 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from earthspin.bodies import IAU_2006
 from earthspin.dataset import Variable, with_error
 from earthspin.scene.part import Part
+from earthspin.scene.parts.conditions import needs_sun_and_moon_alone
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,11 +18,15 @@ if TYPE_CHECKING:
 def seasons(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """General precession, and the slide of the seasons."""
     from earthspin.compare import seasons as s
+    from earthspin.constants import DAY
     from earthspin.dataset import build, si
+    from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
 
-    total = given["mean-rates"].isel(perturber=-1, drop=True)
-    general = s.general_precession(si(total.precession_rate))
+    mean, samples = given["mean-rates"], given["torque-samples"]
+    total = mean.isel(perturber=-1, drop=True)
+    chi_rate = precession_rates(samples.window.centre / DAY).chi_a
+    general = s.general_precession(si(total.precession_rate), chi_rate, samples.obliquity)
     error = si(total.precession_rate_error)
     year = s.tropical_year(general, scene.body.needed("orbital_period"))
     return build(
@@ -40,21 +44,12 @@ def seasons(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     )
 
 
-def needs_both_and_iau(scene: Scene) -> str | None:
-    """Leave out what only the luni-solar precession of the IAU's planet can answer."""
-    if scene.body.pole != IAU_2006:
-        return f"the IAU has no precession model for {scene.body.name}"
-    names = {p.name for p in scene.perturbers}
-    missing = [name for name in ("sun", "moon") if name not in names]
-    return f"the {missing[0]} is not among the perturbers" if missing else None
-
-
 SEASONS = Part(
     name="seasons",
     does="general precession, years a degree, drift of the calendar",
     function="earthspin.scene.parts.seasons:seasons",
-    needs=("mean-rates",),
-    left_out=needs_both_and_iau,
+    needs=("torque-samples", "mean-rates"),
+    left_out=needs_sun_and_moon_alone,
     gives={
         **with_error(
             "general_precession",

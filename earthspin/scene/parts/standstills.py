@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from earthspin.bodies import IAU_2006
 from earthspin.dataset import Variable, with_error
 from earthspin.scene.part import Part
+from earthspin.scene.parts.conditions import needs_iau
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,8 +53,8 @@ def standstills(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
 
 def _why_not(scene: Scene) -> str | None:
-    if scene.body.pole != IAU_2006:
-        return f"standstills are not known for {scene.body.name}"
+    if needs_iau(scene):
+        return needs_iau(scene)
     if "moon" not in {p.name for p in scene.perturbers}:
         return "the moon is not among the perturbers"
     return None

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.dataset import Variable, with_error
+from earthspin.errors import SceneError
 from earthspin.scene.part import Part
-from earthspin.units import TimeGrid, days, time_grid
+from earthspin.units import TimeGrid, TimeList, days, time_grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,57 +22,23 @@ DEFAULT_STEP = "6 h"
 DEFAULT_SPAN = ("2000-01-01T12:00:00", "2001-01-01T12:00:00")
 
 
-@dataclass(frozen=True)
-class SeriesTimes:
-    """The times of a series: a grid that is made as needed, or a list.
-
-    Attributes
-    ----------
-    grid : TimeGrid or None
-    listed : ndarray or None
-        Days from J2000.0 TDB.
-    """
-
-    grid: TimeGrid | None
-    listed: NDArray[np.float64] | None
-
-    @property
-    def size(self) -> int:
-        """How many there are."""
-        return self.grid.size if self.grid is not None else len(self.listed)  # type: ignore[arg-type]
-
-    def days(self, first: int, last: int) -> NDArray[np.float64]:
-        """Times from `first` up to `last`, days from J2000.0 TDB."""
-        if self.grid is not None:
-            return self.grid.days(first, last)
-        assert self.listed is not None
-        return self.listed[first:last]
-
-    @property
-    def first(self) -> float:
-        """Earliest, days from J2000.0 TDB."""
-        return float(self.days(0, 1)[0] if self.listed is None else self.listed.min())
-
-    @property
-    def last(self) -> float:
-        """Latest, days from J2000.0 TDB."""
-        return float(
-            self.days(self.size - 1, self.size)[0] if self.listed is None else self.listed.max()
-        )
-
-
-def series_times(scene: Scene) -> SeriesTimes:
+def series_times(scene: Scene) -> TimeGrid | TimeList:
     """Times at which a scene wants its series."""
     if scene.times is not None:
-        return SeriesTimes(None, days(scene.times))
+        return TimeList(days(scene.times))
     span = scene.span or DEFAULT_SPAN
     step = DEFAULT_STEP if scene.step is None else scene.step
-    return SeriesTimes(time_grid(span[0], span[1], step, scene.source), None)
+    return time_grid(span[0], span[1], step, scene.source)
+
+
+def read_times(scene: Scene, given: Mapping[str, Any]) -> TimeGrid | TimeList:
+    """Make the times of the series, once for all parts."""
+    return series_times(scene)
 
 
 def torque_series(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Series at every time of the scene."""
-    return torque_block(scene, given, 0, series_times(scene).size)
+    return torque_block(scene, given, 0, given["times"].size)
 
 
 def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) -> xr.Dataset:
@@ -93,7 +59,14 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
     from earthspin.units import datetime64
 
     sky, body = given["ephemeris"], scene.body
-    now = series_times(scene).days(first, last)
+    if scene.equator == "true" and "nutation" not in given:
+        raise SceneError(
+            "equator",
+            scene.equator,
+            f"there is no nutation model for {body.name}; use 'mean'",
+            source=scene.source,
+        )
+    now = given["times"].days(first, last)
     equator = equator_of_date(body.needed("pole"), body.orbit_pole, now, given.get("nutation"))
     positions = sky.ephemeris.positions(sky.targets, sky.centre, now)
     names = list(sky.targets)
@@ -149,13 +122,20 @@ def _norm(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 TIME = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
 _SERIES = ("time", "perturber")
 
+TIMES = Part(
+    name="times",
+    does="the times of the series",
+    function="earthspin.scene.parts.torque_at_times:read_times",
+    keys=("span", "step", "times"),
+)
+
 TORQUE_SERIES = Part(
     name="torque-series",
     does="declination, distance and torque of each perturber at every time",
     function="earthspin.scene.parts.torque_at_times:torque_series",
-    needs=("ephemeris",),
+    needs=("times", "ephemeris"),
     uses=("nutation",),
-    keys=("body", "perturbers", "ephemeris", "span", "step", "times", "equator"),
+    keys=("body", "perturbers", "ephemeris", "equator"),
     gives={
         "right_ascension": Variable(_SERIES, "deg", "right ascension, geometric"),
         "declination": Variable(_SERIES, "deg", "declination, geometric"),

@@ -1,0 +1,28 @@
+"""Reasons for leaving a part out that several parts share."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from earthspin.bodies import IAU_2006
+
+if TYPE_CHECKING:
+    from earthspin.scene.spec import Scene
+
+
+def needs_iau(scene: Scene) -> str | None:
+    """Leave out what stands on the IAU's models, for a body that has none."""
+    if scene.body.pole != IAU_2006:
+        return f"the IAU has no precession model for {scene.body.name}"
+    return None
+
+
+def needs_sun_and_moon_alone(scene: Scene) -> str | None:
+    """Leave out what compares the pull of sun and moon, no less and no more, with the IAU's."""
+    names = {p.name for p in scene.perturbers}
+    missing = [name for name in ("sun", "moon") if name not in names]
+    if missing:
+        return needs_iau(scene) or f"the {missing[0]} is not among the perturbers"
+    if len(names) > 2:
+        return needs_iau(scene) or "the comparison is for sun and moon alone"
+    return needs_iau(scene)
