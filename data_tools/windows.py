@@ -16,7 +16,6 @@ from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import precession_rate
 
 CASES = (
-    ("plain", 1),
     ("plain", 2),
     ("hann", 2),
     ("hann", 3),
@@ -34,14 +33,16 @@ DEGREE = 6  # of the smooth curve through all windows
 
 
 def rates(kernel: Ephemeris, half_span: float) -> tuple[np.ndarray, np.ndarray]:
-    """Daily rate of precession under Sun and Moon, mas per century, and its times, s."""
+    """Daily rates of precession, mas per century, by Sun and Moon, and their times, s."""
     days = np.arange(-half_span, half_span + 1)
     axis = equator_of_date(EARTH.pole or "", None, days)[:, 2]
     normal = orbit_normal(EARTH.pole or "", None)
     place = kernel.positions({"sun": 10, "moon": 301}, 399, days)
-    torque = sum(torque_from_position(b.gm, 1.0, place[b.name], axis) for b in (SUN, MOON))
-    geometry = precessing_push(np.asarray(torque), axis, normal)
-    rate = precession_rate(geometry, EARTH.dynamical_flattening, EARTH.spin_rate)
+    pushes = [
+        precessing_push(torque_from_position(b.gm, 1.0, place[b.name], axis), axis, normal)
+        for b in (SUN, MOON)
+    ]
+    rate = precession_rate(np.stack(pushes, axis=1), EARTH.dynamical_flattening, EARTH.spin_rate)
     return np.asarray(rate) * MAS_PER_CENTURY, days * DAY
 
 
@@ -49,14 +50,15 @@ def scatter(
     rate: np.ndarray, times: np.ndarray, taper: str, cycles: float, centres: np.ndarray
 ) -> tuple[float, float, float]:
     """Rms and largest distance from a smooth curve, and the share within the error claimed."""
-    cycle = MOON.cycle or 0.0
+    cycle = MOON.cycle
+    swing = np.array([SUN.slow_swing, MOON.slow_swing])
     means, errors = [], []
     for centre in centres:
         window = Window(float(centre), cycles, cycle, taper)
         inside = np.abs(times - centre) <= window.length / 2
-        mean, error = window_mean_and_error(window, times[inside], rate[inside])
-        means.append(float(mean))
-        errors.append(float(error))
+        mean, error = window_mean_and_error(window, times[inside], rate[inside], swing)
+        means.append(float(mean[-1]))
+        errors.append(float(error[-1]))
     off = np.abs(means - Chebyshev.fit(centres, means, DEGREE)(centres))
     return float(np.sqrt(np.mean(off**2))), float(off.max()), float(np.mean(off <= errors))
 
@@ -66,7 +68,7 @@ def main(given: argparse.Namespace) -> int:
     kernel = open_ephemeris(given.kernel)
     half_span = min(abs(day) for day in kernel.coverage({10, 301, 399})) - 1
     rate, times = rates(kernel, half_span)
-    reach = times[-1] - 4.01 * (MOON.cycle or 0.0)
+    reach = times[-1] - 4.01 * MOON.cycle
     centres = np.arange(-reach, reach, SPACING)
     print(f"{centres.size} windows, mas per century")
     print("taper             turns        rms    largest   within the error")

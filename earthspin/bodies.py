@@ -55,7 +55,11 @@ class Body:
     orbital_period : float
         Sidereal, s.
     cycle : float
-        For a satellite: the slowest cycle of its pull (the turn of the node), s.
+        Of a perturber: the slowest cycle of its pull that averages must span, s. For the Moon
+        the turn of its node; else Jupiter's year, because Jupiter disturbs every orbit.
+    slow_swing : float
+        Of a perturber: how far its mean pull swings more slowly than any window, half-width of
+        95 % over the pull.
     relative_uncertainty : mapping
         One standard deviation over value, by field name.
     reference : str
@@ -79,16 +83,35 @@ class Body:
     pole: str | tuple[float, float] | None = None
     orbit_pole: tuple[float, float] | None = None
     orbital_period: float | None = None
-    cycle: float | None = None
+    cycle: float = c.JUPITER_ORBITAL_PERIOD.value
+    slow_swing: float = 2e-7  # measured: `python -m data_tools windows`
     relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
     reference: str = ""
 
     def __post_init__(self) -> None:
         for name in _NUMBERS:
             value = getattr(self, name)
-            if value is not None and not all_of(_is_finite(value)):
+            if value is None and name not in ("gm", "cycle"):
+                continue
+            if not isinstance(value, (int, float)) and not hasattr(value, "dims"):
+                raise BodyError(
+                    self.name, name, value, "give a number, or a DataArray with named dimensions"
+                )
+            if not all_of(_is_finite(value)):
                 raise BodyError(self.name, name, value, "it must be a finite number")
+        self._check_directions()
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
+        self._require("cycle", lambda t: t > 0, "a cycle lasts longer than zero")
+        self._require("orbital_period", lambda t: t > 0, "a year lasts longer than zero")
+        for name, u in self.relative_uncertainty.items():
+            if not 0 <= u < math.inf:
+                raise BodyError(
+                    self.name, f"relative_uncertainty[{name!r}]", u, "it is zero or more, finite"
+                )
+        if self.radius is not None:
+            with_size = self.gm * self.radius * self.radius
+            if not all_of(_is_finite(with_size) & ((with_size > 0) | (self.gm == 0))):
+                raise BodyError(self.name, "radius", self.radius, "M a2 is out of a float's range")
         self._require("radius", lambda a: a > 0, "a radius is greater than zero")
         self._require("spin_period", lambda p: p != 0, "a period is not zero")
         self._require("flattening", lambda f: f < 1, "a flattening is less than 1")
@@ -98,10 +121,6 @@ class Body:
             "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
         )
         self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
-        if isinstance(self.pole, str) and self.pole != IAU_2006:
-            raise BodyError(
-                self.name, "pole", self.pole, f"write '{IAU_2006}' or two angles of a direction"
-            )
         if self.j2 is not None and self.dynamical_flattening is not None:
             same_sign = all_of(self.j2 * self.dynamical_flattening >= 0)
             if not same_sign:
@@ -111,6 +130,21 @@ class Body:
                     self.j2,
                     f"it has the sign of dynamical_flattening = {self.dynamical_flattening!r}",
                 )
+
+    def _check_directions(self) -> None:
+        """A pole is the known word, or a right ascension and a declination."""
+        for name in ("pole", "orbit_pole"):
+            value = getattr(self, name)
+            if value is None or (name == "pole" and value == IAU_2006):
+                continue
+            allowed = (
+                f"write '{IAU_2006}' or right ascension and declination, -90 to 90 deg, in rad"
+            )
+            if isinstance(value, str) or len(value) != 2:
+                raise BodyError(self.name, name, value, allowed)
+            ra, dec = value
+            if not (math.isfinite(ra) and abs(dec) <= math.pi / 2):
+                raise BodyError(self.name, name, value, allowed)
 
     def _require(self, name: str, holds: Any, allowed: str) -> None:
         value = getattr(self, name)
@@ -233,8 +267,10 @@ BODY_KEYS = (
     "j2",
     "dynamical_flattening",
     "flattening",
+    "triaxiality",
     "spin_period",
     "pole",
+    "orbit_pole",
 )
 
 
@@ -309,13 +345,25 @@ MOON = Body(
     reference=c.GM_MOON.source,
 )
 
+
+def _planet(name: str, code: int, gm: c.Constant) -> Body:
+    """A planet as a perturber: its mean pull swings through centuries by up to 1e-3 of itself."""
+    return Body(
+        name=name,
+        gm=gm.value,
+        naif=(100 * code + 99, code),
+        slow_swing=1e-3,
+        reference=gm.source,
+    )
+
+
 _PLANETS = (
-    Body(name="mercury", gm=c.GM_MERCURY.value, naif=(199, 1), reference=c.GM_MERCURY.source),
-    Body(name="venus", gm=c.GM_VENUS.value, naif=(299, 2), reference=c.GM_VENUS.source),
-    Body(name="jupiter", gm=c.GM_JUPITER.value, naif=(599, 5), reference=c.GM_JUPITER.source),
-    Body(name="saturn", gm=c.GM_SATURN.value, naif=(699, 6), reference=c.GM_SATURN.source),
-    Body(name="uranus", gm=c.GM_URANUS.value, naif=(799, 7), reference=c.GM_URANUS.source),
-    Body(name="neptune", gm=c.GM_NEPTUNE.value, naif=(899, 8), reference=c.GM_NEPTUNE.source),
+    _planet("mercury", 1, c.GM_MERCURY),
+    _planet("venus", 2, c.GM_VENUS),
+    _planet("jupiter", 5, c.GM_JUPITER),
+    _planet("saturn", 6, c.GM_SATURN),
+    _planet("uranus", 7, c.GM_URANUS),
+    _planet("neptune", 8, c.GM_NEPTUNE),
 )
 
 #: Every named body.

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError
+from earthspin.errors import EarthspinError, SceneError
 
 USAGE_ERROR = 2
 
@@ -32,11 +33,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0, or 2 with one line on stderr if something given is wrong.
+        Exit status: 0; 2 with one line on stderr if something given is wrong; 130 if
+        interrupted, 141 if whoever read the output has gone.
     """
     given = _parser().parse_args(arguments)
     try:
         given.command(given)
+        sys.stdout.flush()
     except EarthspinError as error:
         print(f"earthspin: {error}", file=sys.stderr)
         return USAGE_ERROR
@@ -44,8 +47,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("earthspin: interrupted; nothing was left half-written", file=sys.stderr)
         return 130
     except BrokenPipeError:
-        sys.stderr.close()
+        # Whoever read our output has gone; the interpreter must not try to flush it again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
+    except OSError as error:
+        print(f"earthspin: the output cannot be written: {error.strerror}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return USAGE_ERROR
     return 0
 
 
@@ -121,6 +129,8 @@ def _run(given: argparse.Namespace) -> None:
     if given.out is not None:
         storage.check_writable(given.out)
         if series_length(scene) > LONGEST_IN_MEMORY:
+            if given.json:
+                raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             print(f"wrote {write_series(scene, Path(given.out) / f'{name}.zarr')}")
             return
     result = run(scene)
@@ -179,8 +189,6 @@ def _scene(given: argparse.Namespace) -> Any:
 def _setting(text: str) -> tuple[str, Any]:
     """Read KEY=VALUE; the value as TOML if it is that, as text otherwise."""
     import tomllib
-
-    from earthspin.errors import SceneError
 
     key, equals, value = text.partition("=")
     if not equals or not key.strip():

@@ -91,6 +91,10 @@ TROPICAL_YEAR = Constant(
     365.242190402 * 86400.0, "s", 0.0, "Simon et al. 1994, A&A 282, 663 (J2000.0)"
 )
 
+JUPITER_ORBITAL_PERIOD = Constant(
+    4332.59 * 86400.0, "s", None, "Standish & Williams, approximate elements, sidereal"
+)
+
 # --- the orbit of the Moon -------------------------------------------------------------------
 # The node goes once round in 1296000"/6962890.5431" centuries = 6798.383 d.
 MOON_NODE_PERIOD = Constant(

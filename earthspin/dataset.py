@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
+from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -101,6 +102,10 @@ def build(
         if variable.units in FROM_SI:
             array = array * FROM_SI[variable.units]
         array.attrs = _attributes(part, name, variable, schema)
+        if array.dtype.kind == "f" and bool(array.isnull().any()):
+            raise UndefinedError(
+                f"{variable.long_name} has no value here; check the body's numbers"
+            )
         if frame and "component" in array.dims:
             array.attrs["frame"] = frame
         arrays[name] = array

@@ -14,6 +14,10 @@ from typing import Any
 class EarthspinError(Exception):
     """Anything that a user can put right; the command line prints it and exits with 2."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Each class takes its facts, not the message, so pickle must not call it again.
+        return _rebuild, (type(self), self.args, self.__dict__)
+
 
 class SceneError(EarthspinError, ValueError):
     """A scene says something that it cannot say.
@@ -149,6 +153,15 @@ class MissingExtraError(EarthspinError, ImportError):
         super().__init__(
             f"{purpose} needs the package '{package}'; install it with pip install {what}"
         )
+
+
+def _rebuild(
+    kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
+) -> EarthspinError:
+    """Make an error again from its message and its facts."""
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(facts)
+    return error
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from earthspin.errors import MissingExtraError, OutputError
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -133,17 +133,17 @@ def read(path: str | Path) -> xr.Dataset:
 
 
 def check_writable(folder: str | Path) -> Path:
-    """Make a folder if need be, before anything is computed for it.
+    """Check that a folder can be written to, or made, before anything is computed for it.
 
     Raises
     ------
     OutputError
-        If it cannot be made or written to.
+        If it cannot.
     """
     path = Path(folder)
     try:
-        path.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path):
+        there = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
+        with tempfile.TemporaryFile(dir=there):
             pass
     except OSError as error:
         raise OutputError(
@@ -162,17 +162,28 @@ def replacing(path: str | Path) -> Iterator[Path]:
         If the place cannot be written; it is then as it was.
     """
     target = Path(path)
-    folder = check_writable(target.parent)
-    box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=folder))
+    check_writable(target.parent)
+    target = target.resolve()  # a link stays a link, what it leads to is replaced
+    if target.is_dir() and not _is_zarr(target):
+        raise OutputError(path, "a folder stands there that is no Zarr store", "move it away")
     try:
-        draft = box / target.name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        _clear_up_after_the_dead(target)
+        box = Path(tempfile.mkdtemp(prefix=f".{target.name}.{os.getpid()}.", dir=target.parent))
         try:
+            draft = box / target.name
             yield draft
             _put_in_place(draft, target, box)
-        except OSError as error:
-            raise OutputError(target, f"it cannot be written: {_one_line(error)}") from None
-    finally:
-        shutil.rmtree(box, ignore_errors=True)
+        finally:
+            shutil.rmtree(box, ignore_errors=True)
+    except OSError as error:
+        if isinstance(error, EarthspinError):
+            raise
+        raise OutputError(path, f"it cannot be written: {_one_line(error)}") from None
+
+
+def _is_zarr(folder: Path) -> bool:
+    return (folder / ".zgroup").exists() or (folder / "zarr.json").exists()
 
 
 def _put_in_place(draft: Path, target: Path, box: Path) -> None:
@@ -186,6 +197,27 @@ def _put_in_place(draft: Path, target: Path, box: Path) -> None:
     except BaseException:
         os.replace(aside, target)
         raise
+
+
+def _clear_up_after_the_dead(target: Path) -> None:
+    """Remove drafts of processes that were killed; put back a folder that one had moved aside."""
+    for box in target.parent.glob(f".{target.name}.*"):
+        owner = box.name.removeprefix(f".{target.name}.").split(".")[0]
+        if not owner.isdigit() or _is_alive(int(owner)):
+            continue
+        if (box / "old").exists() and not target.exists():
+            os.replace(box / "old", target)
+        shutil.rmtree(box, ignore_errors=True)
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _encoding(result: xr.Dataset, chunked: bool = False) -> dict[str, dict[str, Any]]:

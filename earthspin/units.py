@@ -19,7 +19,8 @@ from earthspin.errors import SceneError, UnitsError
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
-_ISO_DATE = re.compile(r"[+-]?\d{4,6}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?")
+LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
+_ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?")
 
 FloatArray = NDArray[np.float64]
 
@@ -64,6 +65,20 @@ def quantity(value: Any, unit: str, what: str, example: str) -> Any:
     return float(converted) if np.ndim(converted) == 0 else converted
 
 
+def number(value: Any, unit: str, what: str, example: str) -> float:
+    """Convert one value with a unit to a float in `unit`, as `quantity` does.
+
+    Raises
+    ------
+    UnitsError
+        If it is not one value.
+    """
+    converted = quantity(value, unit, what, example)
+    if np.ndim(converted) != 0:
+        raise UnitsError(what, value, unit or "a pure number", example)
+    return float(converted)
+
+
 def seconds(value: Any, what: str = "duration") -> float:
     """Convert a duration (``"6 h"``, Quantity, timedelta, seconds) to seconds.
 
@@ -76,7 +91,7 @@ def seconds(value: Any, what: str = "duration") -> float:
         return value.total_seconds()
     if isinstance(value, np.timedelta64):
         return float(value / np.timedelta64(1, "us")) * 1e-6
-    return float(quantity(value, "s", what, "6 h"))
+    return number(value, "s", what, "6 h")
 
 
 def microseconds(value: Any, key: str = "date", source: str = "scene") -> int:
@@ -106,8 +121,11 @@ def microseconds(value: Any, key: str = "date", source: str = "scene") -> int:
         raise SceneError(key, value, "write a date like '2000-01-01T12:00'", source=source)
     try:
         stamp = np.datetime64(value, "us")
+        year = int(np.datetime64(value, "Y").astype(np.int64)) + 1970
     except ValueError:
         raise SceneError(key, value, "there is no such date", source=source) from None
+    if not np.isnat(stamp) and not 1 <= year <= 9999:
+        raise SceneError(key, value, "years run from 1 to 9999", source=source)
     if np.isnat(stamp):
         raise SceneError(key, value, "NaT is no date", source=source)
     return int((stamp - J2000) / np.timedelta64(1, "us"))
@@ -141,6 +159,8 @@ def days(times: Any) -> FloatArray:
         if values.dtype.kind == "M":
             if np.isnat(values).any():
                 raise SceneError("times", "NaT", "NaT is no date")
+            for extreme in (values.min(), values.max()):
+                microseconds(extreme, "times")
             counts = (values.astype("datetime64[us]") - J2000).astype(np.int64)
         else:
             counts = np.array([microseconds(t, "times") for t in values.ravel().tolist()])
@@ -153,6 +173,8 @@ def days(times: Any) -> FloatArray:
 
 def days_from_time(time: Any) -> Any:
     """Days from J2000.0 TDB of an astropy Time, keeping both parts of it."""
+    if np.any(time.mask):
+        raise SceneError("times", "a masked time", "give times that are all known")
     tdb = time.tdb
     return (tdb.jd1 - 2451545.0) + tdb.jd2
 
@@ -244,11 +266,14 @@ def time_grid(start: Any, stop: Any, step: Any, source: str = "scene") -> TimeGr
             source=source,
         )
     length = seconds(step, f"{source}: step")
-    spacing = round(length * 1e6) if np.isfinite(length) else 0
-    if spacing < 1:
+    if not 1e-6 <= length < LONGEST_STEP:
         raise SceneError(
-            "step", step, "a step is greater than zero (a microsecond or more)", source=source
+            "step",
+            step,
+            "a step is greater than zero: a microsecond or more, less than 10000 years",
+            source=source,
         )
+    spacing = round(length * 1e6)
     return TimeGrid(first, spacing, (last - first) // spacing + 1)
 
 

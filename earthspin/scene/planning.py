@@ -67,6 +67,7 @@ def plan(scene: Scene) -> Plan:
     SceneError
         If nothing that answers the question can run; it gives the reason.
     """
+    _refuse_taken_dimensions(scene)
     wanted = QUESTIONS[scene.compute].wants
     reasons: dict[str, str] = {}
     chosen: dict[str, tuple[str, ...]] = {}
@@ -83,6 +84,21 @@ def plan(scene: Scene) -> Plan:
         if name not in chosen
     }
     return Plan(scene, tuple(PARTS[name] for name in order), left_out)
+
+
+def _refuse_taken_dimensions(scene: Scene) -> None:
+    """Refuse labelled arrays along a dimension that results have already."""
+    declared = (variable.dims for part in PARTS.values() for variable in part.gives.values())
+    taken = {"part"}.union(*declared)
+    for field in fields(scene.body):
+        clash = taken & set(getattr(getattr(scene.body, field.name), "dims", ()))
+        if clash:
+            raise SceneError(
+                f"body.{field.name}",
+                sorted(clash)[0],
+                "results have this dimension already; give the array another",
+                source=scene.source,
+            )
 
 
 def _choose(

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from earthspin import units
-from earthspin.bodies import BODY_KEYS, Body, body
+from earthspin.bodies import BODY_KEYS, Body, all_of, body
 from earthspin.errors import EarthspinError, SceneError, nearest
 from earthspin.scene.questions import EFFECTS, QUESTIONS, TABLES
 
@@ -28,6 +28,7 @@ _BODY_UNITS = {
     "j2": ("", "1.08e-3"),
     "dynamical_flattening": ("", "3.27e-3"),
     "flattening": ("", "3.35e-3"),
+    "triaxiality": ("", "7.26e-6"),
     "spin_period": ("s", "23.93 h"),
 }
 
@@ -90,11 +91,12 @@ class Scene:
             raise self._error("compute", self.compute, nearest(self.compute, QUESTIONS))
         self._set(
             title=self._text("title") or self.compute,
-            body=self._one_body("body", self.body),
+            times=self._times(),
+            body=self._spinning_body(),
             perturbers=self._perturbers(),
             effects=self._effects(),
             accuracy=self._accuracy(),
-            tables=dict(self.tables or {}),
+            tables=self._tables(),
         )
         if self.equator not in EQUATORS:
             raise self._error("equator", self.equator, nearest(self.equator, EQUATORS))
@@ -113,12 +115,23 @@ class Scene:
             raise self._error(key, value, "it is a line of text")
         return value
 
+    def _times(self) -> units.TimeList | None:
+        if self.times is None or isinstance(self.times, units.TimeList):
+            return self.times
+        return units.TimeList(units.days(self.times).copy())
+
     def _one_body(self, key: str, value: Any) -> Body:
         if isinstance(value, Body):
             return value
         if isinstance(value, Mapping):
             return _body_from_table(value, self.source)
         return body(value, key=key, source=self.source)
+
+    def _spinning_body(self) -> Body:
+        found = self._one_body("body", self.body)
+        if not all_of(found.gm > 0):
+            raise self._error("body", found.name, "the mass of a body that spins is not zero")
+        return found
 
     def _perturbers(self) -> tuple[Body, ...]:
         given = self.perturbers
@@ -131,6 +144,8 @@ class Scene:
         for name in names:
             if names.count(name) > 1:
                 raise self._error("perturbers", names, f"'{name}' is named twice")
+            if name == "total":
+                raise self._error("perturbers", names, "'total' stands for the sum of all")
         if self._one_body("body", self.body).name in names:
             raise self._error("perturbers", names, "a body does not pull on itself")
         return found
@@ -153,6 +168,11 @@ class Scene:
                     f"{', '.join(modelled) or 'none'}",
                 )
         return given
+
+    def _tables(self) -> dict[str, Any]:
+        if self.tables is not None and not isinstance(self.tables, Mapping):
+            raise self._error("tables", self.tables, "it maps names of tables to their settings")
+        return dict(self.tables or {})
 
     def _accuracy(self) -> float | None:
         value = self.accuracy
@@ -271,7 +291,7 @@ def shipped_scenes() -> dict[str, str]:
 def _read(scene: str | Path) -> tuple[str, str, str]:
     """Text of a scene, the file to name in messages, and a title."""
     text = str(scene)
-    if "/" not in text and not text.endswith(".toml") and not Path(text).is_file():
+    if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
         if text not in names:
             raise SceneError("scene", text, f"no such scene; {nearest(text, names)}, or a file")
@@ -279,13 +299,15 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
         return file.read_text(encoding="utf-8"), f"{text}.toml", text
     path = Path(scene)
     try:
-        return path.read_text(encoding="utf-8"), text, path.stem
+        return path.read_text(encoding="utf-8-sig"), text, path.stem
     except FileNotFoundError:
         raise SceneError(
             "scene", text, f"there is no such file; shipped: {', '.join(shipped_scenes())}"
         ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError("scene", text, f"it cannot be read: {error}") from None
+    except OSError as error:
+        raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise SceneError("scene", text, "it cannot be read: it is not text in UTF-8") from None
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
@@ -314,17 +336,17 @@ def _body_from_table(table: Mapping[str, Any], source: str) -> Body:
         if key == "moments":
             if not isinstance(value, (list, tuple)) or len(value) != 3:
                 raise SceneError("body.moments", value, "give three moments", source=source)
-            changes[key] = [units.quantity(v, "kg m2", where, "8.03e37 kg m2") for v in value]
-        elif key == "pole" and not isinstance(value, str):
+            changes[key] = [units.number(v, "kg m2", where, "8.03e37 kg m2") for v in value]
+        elif key in ("pole", "orbit_pole") and not isinstance(value, str):
             if not isinstance(value, (list, tuple)) or len(value) != 2:
                 raise SceneError(
-                    "body.pole", value, "give right ascension and declination", source=source
+                    f"body.{key}", value, "give right ascension and declination", source=source
                 )
-            changes[key] = tuple(units.quantity(v, "rad", where, "317.7 deg") for v in value)
-        elif key == "pole":
+            changes[key] = tuple(units.number(v, "rad", where, "317.7 deg") for v in value)
+        elif key in ("pole", "orbit_pole"):
             changes[key] = value
         elif key in _BODY_UNITS:
-            changes[key] = units.quantity(value, _BODY_UNITS[key][0], where, _BODY_UNITS[key][1])
+            changes[key] = units.number(value, _BODY_UNITS[key][0], where, _BODY_UNITS[key][1])
         else:
             raise SceneError(
                 f"body.{key}", value, nearest(key, ("from", *BODY_KEYS)), source=source

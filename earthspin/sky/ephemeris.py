@@ -166,10 +166,25 @@ class Ephemeris:
                 if leg in outward and leg in homeward:
                     continue
                 if leg not in legs:
-                    legs[leg] = self._segments[leg].compute(J2000_JD, days)[:3]
-                    self.evaluations[leg] += days.size
+                    legs[leg] = self._evaluate(leg, days)
                 total += sign * legs[leg]
+        if not np.all(np.any(total, axis=0)):
+            raise KernelError(
+                self.path, f"it puts NAIF {target} in the middle of {centre}", "fetch it again"
+            )
         return total
+
+    def _evaluate(self, leg: tuple[int, int], days: FloatArray) -> FloatArray:
+        """Position along one segment, km, shape (3, n)."""
+        damaged = KernelError(self.path, f"its segment {leg} is damaged", "fetch it again")
+        try:
+            position: FloatArray = self._segments[leg].compute(J2000_JD, days)[:3]
+        except (ValueError, ArithmeticError, IndexError):
+            raise damaged from None
+        if not np.all(np.isfinite(position)):
+            raise damaged
+        self.evaluations[leg] += days.size
+        return position
 
     def _path_to_root(self, code: int) -> list[tuple[int, int]]:
         """List the segments that lead from the solar-system barycentre to a body."""
@@ -274,7 +289,11 @@ def _open_spk(path: Path) -> Any:
     from jplephem.daf import DAF
     from jplephem.spk import SPK
 
-    if not path.exists():
+    try:
+        there = path.exists()
+    except OSError as error:
+        raise KernelError(path, f"it cannot be opened: {error.strerror}") from None
+    if not there:
         raise KernelError(
             path, "there is no such file", f"use one of {', '.join(NAMED_KERNELS)} or a path"
         )
@@ -296,6 +315,13 @@ def _open_spk(path: Path) -> Any:
             ) from None
         if not kernel.segments:
             raise KernelError(path, "it holds no segments", "fetch it again")
+        for segment in kernel.segments:
+            if segment.data_type not in (2, 3) or segment.frame != 1:
+                raise KernelError(
+                    path,
+                    f"its segments are of type {segment.data_type} in frame {segment.frame}",
+                    "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)",
+                )
         if max(segment.end_i for segment in kernel.segments) * 8 > size:
             raise KernelError(path, "the file is cut short", "fetch it again")
         close_on_error.pop_all()

@@ -44,9 +44,8 @@ LONGEST_WINDOW = 150 * JULIAN_YEAR
 #: Sine of the obliquity below which an axis has no longitude.
 UPRIGHT = 1e-12
 
-#: Swings of the rate that are slower than any window, which windows that agree may all miss:
-#: half-width of 95 per cent over the rate, by taper (measured: `python -m data_tools windows`).
-SLOW_SWING = {"plain": 3e-3, "hann": 1e-6, "sin4": 2e-7, "blackman-harris": 2e-7}
+#: Fewest cycles that a window may hold: with two, nothing tells how far the mean is off.
+FEWEST_CYCLES = 3
 
 
 @dataclass(frozen=True)
@@ -108,7 +107,7 @@ class Window:
 
 
 def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
-    """Choose the window that converges fastest on the span there is.
+    """Choose the window that converges fastest on the span there is: sin4 on whole cycles.
 
     Parameters
     ----------
@@ -117,64 +116,68 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
     cycle : float
         The slowest cycle to be averaged out, s.
     epoch : float
-        Where the middle should be, s; taken if two cycles fit about it, else the middle of
-        the span.
+        Where the middle should be, s; taken if three cycles fit about it, else the middle
+        of the span.
 
     Raises
     ------
     UndefinedError
-        If fewer than two cycles are available: with one the mean is good to 0.3 per cent
-        only, and nothing tells by how much it is off.
+        If fewer than three cycles are available.
     """
     room = 2 * min(epoch - start, end - epoch)
-    centre, room = (epoch, room) if room >= 2 * cycle else ((start + end) / 2, end - start)
+    centre, room = (
+        (epoch, room) if room >= FEWEST_CYCLES * cycle else ((start + end) / 2, end - start)
+    )
     turns = math.floor(min(room, LONGEST_WINDOW) / cycle)
-    if turns < 2:
+    if turns < FEWEST_CYCLES:
         raise UndefinedError(
-            f"an average over orbits needs two turns of the slowest cycle, "
-            f"{2 * cycle / JULIAN_YEAR:.2f} years; the span has {room / JULIAN_YEAR:.2f}, and no "
-            f"more than {LONGEST_WINDOW / JULIAN_YEAR:.0f} are used; choose a longer span or kernel"
+            f"an average over orbits needs three turns of the slowest cycle, "
+            f"{FEWEST_CYCLES * cycle / JULIAN_YEAR:.2f} years; the span has "
+            f"{room / JULIAN_YEAR:.2f}, and no more than {LONGEST_WINDOW / JULIAN_YEAR:.0f} are "
+            f"used; choose a longer span or kernel"
         )
-    return Window(centre, turns, cycle, "sin4" if turns >= 3 else "hann")
+    return Window(centre, turns, cycle, "sin4")
 
 
 def neighbours(window: Window) -> list[Window]:
     """List the windows that must agree with the chosen one: other tapers, one turn less."""
-    shorter = max(window.cycles - 1, 2)
-    return [
-        Window(window.centre, turns, window.cycle, taper)
-        for turns, taper in (
-            (window.cycles, "hann"),
-            (shorter, "hann"),
-            (shorter, "sin4" if shorter >= 3 else "hann"),
-        )
-    ]
+    shorter = window.cycles - 1
+    others = [(window.cycles, "hann"), (shorter, "hann")]
+    if shorter >= FEWEST_CYCLES:
+        others.append((shorter, "sin4"))
+    return [Window(window.centre, turns, window.cycle, taper) for turns, taper in others]
 
 
 def window_mean_and_error(
-    window: Window, times: FloatArray, values: FloatArray
+    window: Window, times: FloatArray, values: FloatArray, slow_swing: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Weighted mean, and how far it may be from the mean over all time.
+    """Means of several pulls and of their total, and how far each may be from that of all time.
 
     Parameters
     ----------
     window : Window
     times : ndarray, shape (n,)
         Evenly spaced, s.
-    values : ndarray, shape (n, ...)
+    values : ndarray, shape (n, perturber, ...)
+    slow_swing : ndarray, shape (perturber,)
+        How far each pull swings more slowly than any window, over the pull itself: what
+        windows that agree may all miss.
 
     Returns
     -------
-    mean, error : ndarray
-        The error is a 95 % half-width: the largest difference from the neighbouring windows
-        and from the same window on every second sample, and the slow swing of the rate.
+    mean, error : ndarray, shape (label, ...)
+        The total stands last where there are several. The error is a 95 % half-width: the
+        largest difference from the neighbouring windows and from the same window on every
+        second sample, and the slow swing.
     """
-    mean = window.mean(times, values)
-    others = [w.mean(times, values) for w in neighbours(window)]
-    others.append(window.mean(times[::2], values[::2]))
+    all_values = with_total(values)
+    mean = window.mean(times, all_values)
+    others = [w.mean(times, all_values) for w in neighbours(window)]
+    others.append(window.mean(times[::2], all_values[::2]))
     spread = np.max(np.abs(np.stack(others) - mean), axis=0)
     size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
-    return mean, spread + SLOW_SWING[window.taper] * size
+    swing = slow_swing.reshape(-1, *(1,) * (values.ndim - 2)) * size
+    return mean, spread + with_total(swing[np.newaxis])[0]
 
 
 def with_total(values: FloatArray) -> FloatArray:

@@ -82,7 +82,7 @@ def torque_error(
     distance: FloatArray,
     angle_error: float,
     distance_error: float,
-    u_bulge: float,
+    u_product: float,
 ) -> FloatArray:
     """95 % half-width of a torque from the body's numbers and from where the mass stands.
 
@@ -92,8 +92,8 @@ def torque_error(
         As for `torque_from_declination`.
     angle_error, distance_error : float
         Bounds on the mass's direction (rad) and distance (m).
-    u_bulge : float
-        Relative standard uncertainty of C - A.
+    u_product : float
+        Relative standard uncertainty of GM (C - A).
 
     Returns
     -------
@@ -105,7 +105,7 @@ def torque_error(
     from_direction = scale * np.abs(np.cos(2 * declination)) * angle_error
     from_distance = size * 3 * distance_error / distance
     return np.asarray(
-        np.sqrt((NORMAL_95 * size * u_bulge) ** 2 + from_direction**2 + from_distance**2)
+        np.sqrt((NORMAL_95 * size * u_product) ** 2 + from_direction**2 + from_distance**2)
     )
 
 

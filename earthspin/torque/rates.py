@@ -119,6 +119,23 @@ def rate_ratio(push: Numeric) -> Numeric:
         return np.where(push == first, 1.0, push / first)
 
 
+def total_uncertainty(push: Numeric, u_gm: Numeric) -> Numeric:
+    """Relative standard uncertainties of several pulls' GM, and of the pulls' total.
+
+    Parameters
+    ----------
+    push : ndarray, shape (perturber,) or (perturber + 1,)
+        The pulls, and their total where there are several.
+    u_gm : sequence of float, shape (perturber,)
+    """
+    u = np.asarray(u_gm, dtype=float)
+    if len(push) == u.size:
+        return u
+    absolute = np.sqrt(np.sum((push[:-1] * u) ** 2))
+    total = absolute / abs(push[-1]) if push[-1] else u.max()
+    return np.append(u, total)
+
+
 def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
     """95 % half-width of a product from the relative standard uncertainties of its factors."""
     variance = sum(u * u for u in relative_uncertainties)

@@ -71,13 +71,9 @@ def test_a_span_without_the_epoch_is_centred() -> None:
     assert window.centre == 60 * JULIAN_YEAR
 
 
-def test_two_turns_get_a_hann_taper() -> None:
-    assert best_window(-20 * JULIAN_YEAR, 20 * JULIAN_YEAR, CYCLE).taper == "hann"
-
-
-def test_one_turn_is_refused() -> None:
-    with pytest.raises(UndefinedError, match="two turns"):
-        best_window(0.0, 30 * JULIAN_YEAR, CYCLE)
+def test_two_turns_are_refused() -> None:
+    with pytest.raises(UndefinedError, match="three turns"):
+        best_window(0.0, 50 * JULIAN_YEAR, CYCLE)
 
 
 def test_no_window_is_longer_than_the_drift_allows() -> None:
@@ -98,9 +94,9 @@ def test_the_error_covers_incommensurable_waves(phases: list[float], turns: int)
         size * np.cos(2 * np.pi * times / period + phase)
         for size, period, phase in zip(sizes, periods, phases, strict=True)
     )
-    mean, error = window_mean_and_error(window, times, signal)
-    assert abs(mean - 1.0) <= error + 1e-15
-    assert error < 1e-4
+    mean, error = window_mean_and_error(window, times, signal[:, np.newaxis], np.zeros(1))
+    assert abs(mean[0] - 1.0) <= error[0] + 1e-15
+    assert error[0] < 1e-3
 
 
 def test_convergence_ends_where_the_window_does() -> None:
@@ -110,6 +106,16 @@ def test_convergence_ends_where_the_window_does() -> None:
     curves = convergence_curve(window, times, values, np.array([1.0, 2.5, 4.0]))
     assert set(curves) == set(TAPERS)
     assert curves["sin4"][-1] == window.mean(times, values)
+
+
+def test_a_slow_swing_counts_even_where_the_mean_vanishes() -> None:
+    window = Window(0.0, 3, 100.0, "sin4")
+    times = window.sample_times(1.0)
+    waves = np.stack([np.cos(2 * np.pi * times / 10), np.cos(2 * np.pi * times / 20)], axis=1)
+    mean, error = window_mean_and_error(window, times, waves, np.array([1e-3, 2e-3]))
+    assert np.all(np.abs(mean) < 1e-8)
+    # the mean of |cos| is 2/pi; the total has the sum of both
+    assert np.allclose(error, np.array([1e-3, 2e-3, 3e-3]) * 2 / np.pi, rtol=0.05)
 
 
 def test_the_total_is_the_sum_of_all() -> None:

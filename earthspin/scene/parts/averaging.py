@@ -33,9 +33,9 @@ class Samples:
         s from J2000.0 TDB.
     labels : list of str
         The perturbers, and their total if there are several.
-    push : ndarray, shape (n, label)
+    push : ndarray, shape (n, perturber)
         Share of the torque per C - A that makes the axis precess, s-2.
-    torque : ndarray, shape (n, label, 3)
+    torque : ndarray, shape (n, perturber, 3)
         Torque per C - A, along equator and equinox of date, s-2.
     window : Window
         The window that converges fastest on this span; its centre is the epoch.
@@ -57,13 +57,12 @@ def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
 
     from earthspin.constants import DAY
     from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
-    from earthspin.torque.average import best_window, precessing_push, with_total
+    from earthspin.torque.average import best_window, precessing_push
     from earthspin.torque.gravity import torque_from_position
 
     sky, body = given["ephemeris"], scene.body
     pole, orbit = body.needed("pole"), body.orbit_pole
-    # A satellite's pull has the cycle of its node; all else has the year of the body.
-    cycle = max(p.cycle or body.needed("orbital_period") for p in scene.perturbers)
+    cycle = max(p.cycle for p in scene.perturbers)
     window = best_window(sky.span[0] * DAY, sky.span[1] * DAY, cycle)
     times = window.sample_times(SAMPLING)
     days = times / DAY
@@ -77,8 +76,8 @@ def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
     return Samples(
         times=times,
         labels=names + ["total"] * (len(names) > 1),
-        push=with_total(np.stack([precessing_push(t, axis, normal) for t in torques], axis=1)),
-        torque=with_total(np.stack([rotate(equator, t) for t in torques], axis=1)),
+        push=np.stack([precessing_push(t, axis, normal) for t in torques], axis=1),
+        torque=np.stack([rotate(equator, t) for t in torques], axis=1),
         window=window,
         obliquity=angle(axis_at_epoch.reshape(3), normal),
     )
@@ -102,9 +101,11 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     def along(values: Any) -> xr.DataArray:
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
-    push, push_error = window_mean_and_error(window, times, samples.push)
-    vector, vector_error = window_mean_and_error(window, times, samples.torque)
-    u_gm = along(_with_largest([p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers]))
+    swing = np.array([p.slow_swing for p in scene.perturbers])
+    push, push_error = window_mean_and_error(window, times, samples.push, swing)
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing)
+    u_each = [p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers]
+    u_gm = along(rates.total_uncertainty(push, u_each))
     rate = rates.precession_estimate(
         along(push),
         along(push_error),
@@ -156,7 +157,7 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     samples, body = given["torque-samples"], scene.body
     window = samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
-    curves = convergence_curve(window, samples.times, samples.push[:, -1], cycles)
+    curves = convergence_curve(window, samples.times, samples.push.sum(axis=1), cycles)
     push = xr.DataArray(
         np.stack(list(curves.values())),
         {"window": list(curves), "window_cycles": cycles},
@@ -167,11 +168,6 @@ def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     return build(
         "convergence", CONVERGENCE.gives, {"rate_by_window": rate, "window_length": length}
     )
-
-
-def _with_largest(values: list[float]) -> list[float]:
-    """Add, for the total, the largest of several relative uncertainties: a safe bound."""
-    return values + [max(values)] * (len(values) > 1)
 
 
 def _check_accuracy(scene: Scene, rate: Estimate) -> None:

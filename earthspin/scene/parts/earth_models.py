@@ -28,7 +28,7 @@ def earth_models(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
     body, samples = scene.body, given["torque-samples"]
     j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
-    push = samples.window.mean(samples.times, samples.push)[-1]
+    push = samples.window.mean(samples.times, samples.push.sum(axis=1))
     h = xr.concat(
         [
             xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
@@ -59,6 +59,8 @@ def _why_not(scene: Scene) -> str | None:
     missing = [k for k in ("j2", "flattening", "radius") if getattr(scene.body, k) is None]
     if missing:
         return f"{scene.body.name} has no {missing[0]}"
+    if not all_of((scene.body.flattening > -1) & (scene.body.flattening < 1)):
+        return "McCullough's formula needs a flattening between -1 and 1"
     if not all_of(scene.body.needed("dynamical_flattening") != 0):
         return "with H = 0 the polar moment does not follow from J2"
     return None

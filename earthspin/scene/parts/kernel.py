@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from earthspin.errors import SceneError
 from earthspin.scene.part import Part
 
 if TYPE_CHECKING:
@@ -43,6 +44,11 @@ def open_sky(scene: Scene, given: Mapping[str, Any]) -> Sky:
     ephemeris = open_ephemeris(scene.ephemeris)
     centre = ephemeris.code(scene.body.naif, scene.body.name)
     targets = {p.name: ephemeris.code(p.naif, p.name) for p in scene.perturbers}
+    for name, code in targets.items():
+        if code == centre:
+            raise SceneError(
+                "perturbers", name, "a body does not pull on itself", source=scene.source
+            )
     codes = {*targets.values(), centre}
     span = ephemeris.coverage(codes)
     if scene.span is not None:

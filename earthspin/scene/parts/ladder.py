@@ -33,7 +33,7 @@ def wobble_ladder(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         ],
         dim=xr.Variable("rung", list(RUNGS)),
     )
-    period = turns * body.needed("spin_period")
+    period = turns * abs(body.needed("spin_period"))
     return build(
         "wobble-ladder",
         WOBBLE_LADDER.gives,

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from earthspin.dataset import Variable, with_error
 from earthspin.errors import SceneError
 from earthspin.scene.part import Part
-from earthspin.units import TimeGrid, TimeList, days, time_grid
+from earthspin.units import TimeGrid, TimeList, time_grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,7 +26,7 @@ DEFAULT_SPAN = ("2000-01-01T12:00:00", "2001-01-01T12:00:00")
 def series_times(scene: Scene) -> TimeGrid | TimeList:
     """Times at which a scene wants its series."""
     if scene.times is not None:
-        return TimeList(days(scene.times))
+        return cast("TimeList", scene.times)
     span = scene.span or DEFAULT_SPAN
     step = DEFAULT_STEP if scene.step is None else scene.step
     return time_grid(span[0], span[1], step, scene.source)
@@ -87,7 +88,7 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
             distance=seen[p.name][2],
             angle_error=kernel_error[p.name][0],
             distance_error=kernel_error[p.name][1],
-            u_bulge=u_bulge,
+            u_product=math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0)),
         )
         for p in scene.perturbers
     ]
