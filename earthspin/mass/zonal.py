@@ -17,15 +17,15 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import eval_legendre
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
 from earthspin.mass._checks import FloatArray, degree, first, positive
 from earthspin.mass.figure import Moments, eccentricity_squared
+from earthspin.mass.legendre import orthonormal_functions
 
 #: Gauss points in the radius and in the cosine that are tried in turn.
-_POINTS = (32, 64, 128, 256, 512)
+_POINTS = (32, 64, 128, 256)
 
 DensityFunction = Callable[[FloatArray, FloatArray], FloatArray]
 PerimeterFunction = Callable[[FloatArray], FloatArray]
@@ -63,13 +63,13 @@ def zonal_integrals(
     Raises
     ------
     AccuracyError
-        If 512 points each way do not reach the accuracy: the density is not smooth.
+        If 256 points each way do not reach the accuracy: the density is not smooth.
     """
     scale = float(positive("body", "radius", radius))
     degrees = np.arange(degree("n_max", n_max) + 1)[:, np.newaxis, np.newaxis]
 
     def harmonics(r: FloatArray, cosine: FloatArray) -> FloatArray:
-        return np.asarray((r / scale) ** degrees * eval_legendre(degrees, cosine))
+        return np.asarray((r / scale) ** degrees * _polynomials(n_max, cosine))
 
     return _integrate(density, perimeter, harmonics, accuracy)
 
@@ -148,10 +148,16 @@ def zonal_potential(
             f"the zonal series need not converge at r = {first(r, r <= radius):.6g} m; "
             f"give distances beyond {float(radius):.6g} m"
         )
-    degrees = np.arange(z.size)
-    legendre = eval_legendre(degrees, np.cos(theta)[..., np.newaxis])
-    powers = (float(radius) / r)[..., np.newaxis] ** degrees
+    legendre = np.moveaxis(_polynomials(z.size - 1, np.cos(theta)), 0, -1)
+    powers = (float(radius) / r)[..., np.newaxis] ** np.arange(z.size)
     return np.asarray(-G.value / r * np.sum(z * legendre * powers, axis=-1))
+
+
+def _polynomials(n_max: int, cosine: FloatArray) -> FloatArray:
+    """P_n for n = 0 to n_max along a new first axis."""
+    functions = orthonormal_functions(n_max, cosine)
+    norms = np.sqrt(np.arange(n_max + 1) + 0.5)
+    return np.asarray(functions / norms.reshape(-1, *[1] * cosine.ndim))
 
 
 def _integrate(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 
-def close(found: ArrayLike, expected: ArrayLike, rel: float = 0.0, abs: float = 0.0) -> bool:
+def close(found: ArrayLike, expected: ArrayLike, rel: Any = 0.0, abs: Any = 0.0) -> bool:
     """Whether every number is within abs + rel |expected| of the expected one."""
     return bool(np.allclose(found, expected, rtol=rel, atol=abs))

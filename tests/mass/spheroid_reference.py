@@ -6,6 +6,8 @@ differencing closed forms (MacMillan 1930, The Theory of the Potential, sections
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mpmath as mp
 import numpy as np
 
@@ -54,13 +56,14 @@ def draw(rng: np.random.Generator, family: str, place: str) -> tuple[float, ...]
     def log_uniform(low: float, high: float) -> float:
         return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
-    f = {
+    flattenings: dict[str, Callable[[], float]] = {
         "oblate": lambda: rng.uniform(1e-3, 0.95),
         "prolate": lambda: -log_uniform(1e-3, 1e2),
         "near-sphere": lambda: rng.choice([-1, 1]) * log_uniform(1e-13, 1e-3),
         "near-disc": lambda: 1 - log_uniform(2e-16, 0.05),
         "needle": lambda: -log_uniform(1e2, 1e6),
-    }[family]()
+    }
+    f = float(flattenings[family]())
     a = log_uniform(1.0, 1e9)
     c = a * (1 - f)
     direction = rng.normal(size=3)
@@ -75,11 +78,11 @@ def draw(rng: np.random.Generator, family: str, place: str) -> tuple[float, ...]
         point = direction * a * log_uniform(10, 1e6)
     else:
         surface = 1 / np.linalg.norm(direction / [a, a, c])
-        factor = {
+        factors: dict[str, Callable[[], float]] = {
             "inside": lambda: rng.uniform(0.01, 0.99),
             "surface": lambda: 1 + rng.choice([0, 1e-15, -1e-15, 1e-9, -1e-9]),
             "near": lambda: 1 + log_uniform(1e-6, 10),
             "axis": lambda: 1 + log_uniform(1e-6, 1e6),
-        }[place]()
-        point = direction * surface * factor
-    return (a, float(f), *map(float, point))
+        }
+        point = direction * surface * factors[place]()
+    return (a, f, *map(float, point))

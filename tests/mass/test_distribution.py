@@ -20,8 +20,8 @@ def test_the_centre_of_mass() -> None:
 
 def test_a_brick_in_uneven_cells_is_exact() -> None:
     """Textbook moments of a brick 2 x 3 x 5 about its corner and its centre (measured: 4e-16)."""
-    edges = [np.array([0.0, 0.7, 2.0]), np.array([0.0, 1.0, 2.5, 3.0]), np.array([0.0, 5.0])]
-    masses, positions = grid_masses(np.full((2, 3, 1), 4.0), *edges)
+    x, y, z = [0.0, 0.7, 2.0], [0.0, 1.0, 2.5, 3.0], [0.0, 5.0]
+    masses, positions = grid_masses(np.full((2, 3, 1), 4.0), x, y, z)
     mass = 4.0 * 30
     assert close(np.sum(masses), mass, rel=2e-15)
     centre = mass / 12 * np.diag([34.0, 29.0, 13.0])

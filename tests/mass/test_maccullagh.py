@@ -105,6 +105,15 @@ def test_torque_against_fifty_digits_for_nearly_spherical_bodies() -> None:
                 assert abs(mp.mpf(float(value)) - reference) <= 5e-15 * size
 
 
+def test_the_whole_tensor_of_a_nearly_spherical_body_serves_as_well() -> None:
+    """Its moments differ by 1e-9; they are floats, so their differences are exact (1.1e-15)."""
+    tensor = np.diag([8e37, 8e37 * (1 + 3e-10), 8e37 * (1 + 1e-9)])
+    point = np.array([3.0e9, -2.0e9, 4.0e9])
+    differences = np.diag(np.diag(tensor) - tensor[0, 0])
+    whole = maccullagh.maccullagh_torque(1.3e20, tensor, point)
+    assert close(whole, maccullagh.maccullagh_torque(1.3e20, differences, point), rel=1e-14)
+
+
 @given(st.integers(0, 10**6), st.floats(-1e3, 1e3))
 def test_a_multiple_of_the_unit_matrix_changes_no_torque(seed: int, sphere: float) -> None:
     masses, r = _body(seed)

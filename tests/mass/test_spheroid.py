@@ -58,7 +58,7 @@ def test_the_integrals_are_what_they_are_said_to_be(
     flattening: float, point: tuple[float, float, float]
 ) -> None:
     """Quadrature of du/[(U + u)^p (T + u)^q] over all u (measured: 9e-16)."""
-    across, along = spheroid.confocal_squares(flattening, point)
+    across, along = map(float, spheroid.confocal_squares(flattening, point))
     integrals = spheroid.attraction_integrals(1.0, flattening, point)
     e2 = flattening * (2 - flattening)
 

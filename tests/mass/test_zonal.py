@@ -114,7 +114,7 @@ def test_a_density_with_a_direction() -> None:
         return np.ones_like(theta)
 
     def density(r: np.ndarray, theta: np.ndarray) -> np.ndarray:
-        return 1 + np.cos(theta) ** 2
+        return np.asarray(1 + np.cos(theta) ** 2)
 
     found = zonal.zonal_integrals(density, edge, 3, radius=1.0)
     assert close(found[0], 2 * np.pi * (8 / 3) / 3, rel=1e-14)
