@@ -26,7 +26,7 @@ def torque_on_masses(
 
     With s from the centre of mass to a mass m, d to the one that pulls,
     N = sum of GM m (s x d)/|d - s|^3. As m s adds up to zero, 1/|d - s|^3 may be replaced by its
-    excess over 1/d3, which keeps the digits when d is large.
+    excess over 1/d3, which keeps the digits when d is larger than the body.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def torque_on_masses(
     Raises
     ------
     UndefinedError
-        If the mass that pulls stands on one of the others, or on their centre.
+        If the mass that pulls stands on one of the others.
     """
     mu = float(positive("point mass", "gm", gm))
     m, r = point_masses(masses, positions)
@@ -55,13 +55,12 @@ def torque_on_masses(
     s, d = r - centre, (vectors("position", position) - centre)[..., np.newaxis, :]
     apart = np.sqrt(np.sum((d - s) ** 2, axis=-1))
     distance = np.sqrt(np.sum(d * d, axis=-1))
-    if np.any(apart == 0) or np.any(distance == 0):
-        raise UndefinedError(
-            "the mass that pulls stands on one of the masses or on their centre; move it away"
-        )
-    excess = _inverse_cube_excess(s, d, apart, distance)
-    weighted = (m * excess)[..., np.newaxis] * np.cross(s, d)
-    return np.asarray(mu * np.sum(weighted, axis=-2) / distance**3)
+    if np.any(apart == 0):
+        raise UndefinedError("the mass that pulls stands on one of the masses; move it away")
+    outside = distance > np.max(np.sqrt(np.sum(s * s, axis=-1)))
+    inverse_cubes = np.where(outside, _inverse_cube_excess(s, d, apart), apart**-3.0)
+    weighted = (m * inverse_cubes)[..., np.newaxis] * np.cross(s, d)
+    return np.asarray(mu * np.sum(weighted, axis=-2))
 
 
 def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
@@ -215,14 +214,18 @@ def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray
     return b, np.asarray(positive("point masses", "radius", radius) / b)
 
 
-def _inverse_cube_excess(
-    s: FloatArray, d: FloatArray, apart: FloatArray, distance: FloatArray
-) -> FloatArray:
-    """(d/|d - s|)^3 - 1, without loss when s is small beside d."""
-    q = np.sum(s * (s - 2 * d), axis=-1) / distance**2
+def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
+    """1/|d - s|^3 - 1/d3, without loss when s is small beside d; zero for d = 0."""
+    square = np.sum(d * d, axis=-1)
+    inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
+    q = np.sum(s * (s - 2 * d), axis=-1) * inverse
     small = np.abs(q) < 0.5
-    expanded = np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0)))
-    return np.asarray(np.where(small, expanded, (distance / apart) ** 3 - 1))
+    excess = np.where(
+        small,
+        np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0))),
+        (np.sqrt(square) / apart) ** 3 - 1,
+    )
+    return np.asarray(excess * inverse**1.5)
 
 
 def _check_count(count: int, least: int) -> None:

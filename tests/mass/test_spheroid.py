@@ -66,7 +66,7 @@ def test_the_integrals_are_what_they_are_said_to_be(
         # u = T s2/(1 - s)2 brings infinity to s = 1 and takes the root away.
         def integrand(s: float) -> float:
             u = along * s**2 / (1 - s) ** 2
-            return 2 * along * s / (1 - s) ** 3 / ((across + u) ** p * (along + u) ** q)
+            return float(2 * along * s / (1 - s) ** 3 / ((across + u) ** p * (along + u) ** q))
 
         return float(quad(integrand, 0, 1, epsabs=0, epsrel=1e-13, limit=200)[0])
 
