@@ -1,0 +1,124 @@
+"""Where mass lies: point masses, and densities on a grid turned into point masses.
+
+A density that is constant in each cell is replaced by Gauss points inside the cells. With k
+points along each edge every polynomial up to degree 2k - 1 is integrated exactly: two points
+give the exact inertia tensor of the cells, and exterior multipoles up to degree 3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from earthspin.errors import BodyError, UndefinedError
+from earthspin.mass._checks import FloatArray, first, positive, vectors
+
+
+def point_masses(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Return point masses as arrays that fit each other.
+
+    Parameters
+    ----------
+    masses : array_like, shape (..., k)
+        kg, above zero; one mass alone stands for all.
+    positions : array_like, shape (..., k, 3)
+        m.
+
+    Raises
+    ------
+    BodyError
+        If a mass is not above zero.
+    UndefinedError
+        If the shapes do not match.
+    """
+    places = vectors("positions", positions)
+    if places.ndim < 2 or places.shape[-2] == 0:
+        raise UndefinedError(f"positions have the shape {places.shape}; give (k, 3), k at least 1")
+    weights = positive("point masses", "mass", masses)
+    try:
+        return np.broadcast_to(weights, places.shape[:-1]), places
+    except ValueError:
+        raise UndefinedError(
+            f"masses have the shape {weights.shape}, positions {places.shape}; "
+            f"give one mass for each position"
+        ) from None
+
+
+def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
+    """Mean position weighted by mass.
+
+    Parameters
+    ----------
+    masses : array_like, shape (..., k)
+        kg.
+    positions : array_like, shape (..., k, 3)
+        m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        m.
+    """
+    m, r = point_masses(masses, positions)
+    return np.asarray(np.einsum("...k,...ki->...i", m, r) / np.sum(m, axis=-1)[..., np.newaxis])
+
+
+def grid_masses(
+    density: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, points: int = 2
+) -> tuple[FloatArray, FloatArray]:
+    """Point masses that stand for a density on a Cartesian grid.
+
+    Parameters
+    ----------
+    density : array_like, shape (nx, ny, nz)
+        Of each cell, constant in it, kg m-3; empty cells hold zero.
+    x, y, z : array_like, shapes (nx + 1,), (ny + 1,), (nz + 1,)
+        Edges of the cells, rising, m.
+    points : int
+        Gauss points along each edge of a cell.
+
+    Returns
+    -------
+    masses : ndarray, shape (k,)
+        kg; those of empty cells are left out.
+    positions : ndarray, shape (k, 3)
+        m.
+
+    Raises
+    ------
+    BodyError
+        If a density is negative, or all are zero.
+    UndefinedError
+        If the edges do not rise or do not fit the density.
+    """
+    rho = np.asarray(density, dtype=float)
+    edges = [np.asarray(edge, dtype=float) for edge in (x, y, z)]
+    _check_grid(rho, edges)
+    if points < 1:
+        raise UndefinedError(f"points = {points} is not possible; give 1 or more per cell")
+    node, weight = np.polynomial.legendre.leggauss(points)
+    places = [(e[:-1] + e[1:])[:, None] / 2 + np.diff(e)[:, None] / 2 * node for e in edges]
+    lengths = [np.diff(e)[:, None] / 2 * weight for e in edges]
+    # Axes: cell along x, point along x, cell along y, ...
+    mass = np.einsum("xyz,xa,yb,zc->xaybzc", rho, *lengths)
+    grid = np.stack(np.meshgrid(*[p.ravel() for p in places], indexing="ij"), axis=-1)
+    full = mass.ravel() > 0
+    return mass.ravel()[full], grid.reshape(-1, 3)[full]
+
+
+def _check_grid(rho: FloatArray, edges: list[FloatArray]) -> None:
+    """Refuse densities and edges that make no body."""
+    cells = tuple(e.size - 1 for e in edges)
+    if rho.shape != cells:
+        raise UndefinedError(
+            f"density has the shape {rho.shape}, the edges make {cells} cells; "
+            f"give one more edge than cells along each axis"
+        )
+    for name, edge in zip("xyz", edges, strict=True):
+        if edge.ndim != 1 or not np.all(np.isfinite(edge)) or np.any(np.diff(edge) <= 0):
+            raise UndefinedError(f"the edges along {name} do not rise; sort them, without repeats")
+    wrong = ~(np.isfinite(rho) & (rho >= 0))
+    if np.any(wrong):
+        raise BodyError("grid", "density", first(rho, wrong), "it must be finite and not negative")
+    if not np.any(rho):
+        raise BodyError("grid", "density", 0.0, "at least one cell must hold mass")

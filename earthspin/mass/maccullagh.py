@@ -1,0 +1,100 @@
+"""MacCullagh's potential of a distant body, and the torque on it (I.9.31, I.9.34).
+
+    V = -GM/r - G/(2 r3) (A + B + C - 3 I)      I = n . I n, about the line to the point
+    N = 3 GM/r3 n x (I n)
+
+to order 1/r3, for any distribution of mass about its centre of mass. Neither the quadrupole
+nor the torque changes if a multiple of the unit matrix is taken from the tensor: for a nearly
+spherical body give the differences, np.diag([0, B - A, C - A]), and no digits are lost.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from earthspin.constants import G
+from earthspin.errors import UndefinedError
+from earthspin.mass._checks import FloatArray, positive, vectors
+
+
+def maccullagh_potential(mass: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:
+    """Potential far from a body of any shape, to order 1/r3, m2 s-2.
+
+    Parameters
+    ----------
+    mass : array_like
+        kg.
+    tensor : array_like, shape (..., 3, 3)
+        Inertia about the centre of mass, or its differences as above, kg m2.
+    position : array_like, shape (..., 3)
+        From the centre of mass, outside the body, along the axes of the tensor, m.
+    """
+    m = positive("rigid body", "mass", mass)
+    n, r = _direction(position)
+    # A + B + C - 3 I, as one contraction.
+    shape = np.eye(3) - 3 * n[..., :, np.newaxis] * n[..., np.newaxis, :]
+    quadrupole = np.sum(_less_sphere(tensor) * shape, axis=(-1, -2))
+    return np.asarray(-G.value * (m / r + quadrupole / (2 * r**3)))
+
+
+def maccullagh_potential_axisymmetric(
+    mass: ArrayLike, moment_difference: ArrayLike, distance: ArrayLike, colatitude: ArrayLike
+) -> FloatArray:
+    """Potential far from a body of revolution, to order 1/r3 (I.9.31), m2 s-2.
+
+    Parameters
+    ----------
+    mass : array_like
+        kg.
+    moment_difference : array_like
+        C - A, kg m2.
+    distance : array_like
+        From the centre of mass, m.
+    colatitude : array_like
+        From the axis of symmetry, rad.
+    """
+    m = positive("rigid body", "mass", mass)
+    r = positive("point", "distance", distance)
+    p2 = 1.5 * np.cos(colatitude) ** 2 - 0.5
+    return np.asarray(-G.value * (m / r - np.asarray(moment_difference) * p2 / r**3))
+
+
+def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:
+    """Torque of a distant mass on a body of any shape, to order 1/r3 (I.9.32), N m.
+
+    Parameters
+    ----------
+    gm : array_like
+        Of the mass that pulls, m3 s-2.
+    tensor : array_like, shape (..., 3, 3)
+        Inertia of the body about its centre of mass, or its differences as above, kg m2.
+    position : array_like, shape (..., 3)
+        From the body to the mass, along the axes of the tensor, m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        For a body of revolution 3 GM (C - A)/r5 (r . k) (r x k).
+    """
+    mu = positive("point mass", "gm", gm)
+    n, r = _direction(position)
+    moment = np.einsum("...ij,...j->...i", _less_sphere(tensor), n)
+    return np.asarray(3 * (mu / r**3)[..., np.newaxis] * np.cross(n, moment))
+
+
+def _less_sphere(tensor: ArrayLike) -> FloatArray:
+    """The tensor less its first diagonal term times the unit matrix: exact where it matters."""
+    values = np.asarray(tensor, dtype=float)
+    return np.asarray(values - values[..., :1, :1] * np.eye(3))
+
+
+def _direction(position: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors and distances; the centre has no direction."""
+    r = vectors("position", position)
+    distance = np.asarray(np.sqrt(np.sum(r * r, axis=-1)))
+    if np.any(distance == 0):
+        raise UndefinedError(
+            "position = [0, 0, 0] is the centre of the body; MacCullagh's formula holds outside it"
+        )
+    return r / distance[..., np.newaxis], distance

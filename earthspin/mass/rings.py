@@ -1,0 +1,234 @@
+"""Toys of a distant mass and a few glued point masses (I.8.1 to I.8.5).
+
+A dumbbell turns towards the distant mass; on a ring the dumbbells cancel, on an ellipse they
+do not. A ring of N masses keeps a torque of its own, N - 2 powers of (radius/distance)
+smaller: only the full circle has none. Angles run from the line to the distant mass to the
+dumbbell (or the first mass, or the long axis), counterclockwise; torques are about the centre,
+counterclockwise positive.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from earthspin.errors import UndefinedError
+from earthspin.mass._checks import FloatArray, degree, positive, vectors
+from earthspin.mass.distribution import centre_of_mass, point_masses
+
+
+def torque_on_masses(
+    gm: float, position: ArrayLike, masses: ArrayLike, positions: ArrayLike
+) -> FloatArray:
+    """Torque of one mass on rigidly joined point masses, about their centre of mass, exact.
+
+    With s from the centre of mass to a mass m, d to the one that pulls,
+    N = sum of GM m (s x d)/|d - s|^3. As m s adds up to zero, 1/|d - s|^3 may be replaced by its
+    excess over 1/d3, which keeps the digits when d is larger than the body.
+
+    Parameters
+    ----------
+    gm : float
+        Of the mass that pulls, m3 s-2.
+    position : array_like, shape (..., 3)
+        Of the mass that pulls, m.
+    masses : array_like, shape (k,)
+        kg.
+    positions : array_like, shape (k, 3)
+        m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        N m.
+
+    Raises
+    ------
+    UndefinedError
+        If the mass that pulls stands on one of the others.
+    """
+    mu = float(positive("point mass", "gm", gm))
+    m, r = point_masses(masses, positions)
+    centre = centre_of_mass(m, r)
+    s, d = r - centre, (vectors("position", position) - centre)[..., np.newaxis, :]
+    apart = np.sqrt(np.sum((d - s) ** 2, axis=-1))
+    distance = np.sqrt(np.sum(d * d, axis=-1))
+    if np.any(apart == 0):
+        raise UndefinedError("the mass that pulls stands on one of the masses; move it away")
+    outside = distance > np.max(np.sqrt(np.sum(s * s, axis=-1)))
+    inverse_cubes = np.where(outside, _inverse_cube_excess(s, d, apart), apart**-3.0)
+    weighted = (m * inverse_cubes)[..., np.newaxis] * np.cross(s, d)
+    return np.asarray(mu * np.sum(weighted, axis=-2))
+
+
+def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
+    """Masses evenly spaced on a circle in the xy plane (I.8.1), shape (count, 3), m.
+
+    Parameters
+    ----------
+    count : int
+        Number of masses, at least 2 (a dumbbell).
+    radius : float
+        m.
+    angle : float
+        Of the first mass from x, rad.
+    """
+    return ellipse_positions(count, radius, radius, tilt=angle)
+
+
+def ellipse_positions(
+    count: int, long_axis: float, short_axis: float, tilt: float = 0.0, start: float = 0.0
+) -> FloatArray:
+    """Masses on an ellipse in the xy plane, evenly spaced in eccentric angle (I.8.4).
+
+    Parameters
+    ----------
+    count : int
+        Number of masses, at least 2.
+    long_axis, short_axis : float
+        Semi-axes, m.
+    tilt : float
+        Of the first semi-axis from x, rad.
+    start : float
+        Eccentric angle of the first mass, rad.
+
+    Returns
+    -------
+    ndarray, shape (count, 3)
+        m.
+    """
+    _check_count(count, 2)
+    p = positive("ellipse", "semi-axis", long_axis)
+    q = positive("ellipse", "semi-axis", short_axis)
+    eccentric = start + 2 * np.pi * np.arange(count) / count
+    along, across = p * np.cos(eccentric), q * np.sin(eccentric)
+    x = along * np.cos(tilt) - across * np.sin(tilt)
+    y = along * np.sin(tilt) + across * np.cos(tilt)
+    return np.stack([x, y, np.zeros(count)], axis=-1)
+
+
+def dumbbell_torque(
+    gm: ArrayLike, distance: ArrayLike, mass: ArrayLike, radius: ArrayLike, angle: ArrayLike
+) -> FloatArray:
+    """Torque on two masses m at +r and -r, to leading order (I.8.2), N m.
+
+    -6 GM m r2/b3 sin(angle) cos(angle). Two dumbbells that mirror each other in the line to
+    the distant mass cancel if their radii agree (I.8.3), and leave
+    6 GM m (r2^2 - r1^2)/b3 sin(angle) cos(angle) if not (I.8.5): add them up.
+
+    Parameters
+    ----------
+    gm : float
+        Of the distant mass, m3 s-2.
+    distance : float
+        b, m.
+    mass : float
+        Of each of the two, kg.
+    radius : float
+        Of each from the centre, m.
+    angle : float
+        From the line to the distant mass to the dumbbell, rad.
+    """
+    b, ratio = _far(distance, radius)
+    size = 6 * _pull(gm, mass) / b * ratio**2
+    return np.asarray(-size * np.sin(angle) * np.cos(angle))
+
+
+def ring_torque(
+    gm: ArrayLike,
+    distance: ArrayLike,
+    mass: ArrayLike,
+    radius: ArrayLike,
+    count: int,
+    angle: ArrayLike,
+) -> FloatArray:
+    """Torque on N masses evenly spaced on a circle, to its leading order, N m.
+
+    Zero to the order of (I.8.3) if N > 2. Of the potential of degree N one part turns with the
+    ring, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x + ..., hence
+
+        -2 N^2 (2N)!/(2^N N!)^2 GM m r^N/b^(N+1) sin(N angle)
+
+    which for N = 2 is the dumbbell's.
+
+    Parameters
+    ----------
+    gm, distance, mass, radius
+        As for `dumbbell_torque`.
+    count : int
+        N, at least 2.
+    angle : float
+        From the line to the distant mass to any of the masses, rad.
+    """
+    _check_count(count, 2)
+    b, ratio = _far(distance, radius)
+    coefficient = 2 * math.comb(2 * count, count) / 4**count
+    size = coefficient * count**2 * _pull(gm, mass) / b * ratio**count
+    return np.asarray(-size * np.sin(count * np.asarray(angle)))
+
+
+def ellipse_torque(
+    gm: ArrayLike,
+    distance: ArrayLike,
+    mass: ArrayLike,
+    long_axis: ArrayLike,
+    short_axis: ArrayLike,
+    count: int,
+    tilt: ArrayLike,
+) -> FloatArray:
+    """Torque on N masses on an ellipse, evenly spaced in eccentric angle, leading order, N m.
+
+    The dumbbells of (I.8.5) added up: -(3/2) N GM m (p2 - q2)/b3 sin(tilt) cos(tilt), for
+    semi-axes p and q. It turns the long axis towards the distant mass.
+
+    Parameters
+    ----------
+    gm, distance, mass
+        As for `dumbbell_torque`.
+    long_axis, short_axis : float
+        Semi-axes p and q, m.
+    count : int
+        N, at least 3: from there on the place of the first mass does not matter.
+    tilt : float
+        From the line to the distant mass to the first semi-axis, rad.
+    """
+    _check_count(count, 3)
+    b = positive("point mass", "distance", distance)
+    p = positive("ellipse", "semi-axis", long_axis)
+    q = positive("ellipse", "semi-axis", short_axis)
+    size = 1.5 * count * _pull(gm, mass) / b * ((p - q) / b) * ((p + q) / b)
+    return np.asarray(-size * np.sin(tilt) * np.cos(tilt))
+
+
+def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
+    """GM m of the distant mass and one of the others, N m2."""
+    mu = positive("point mass", "gm", gm)
+    return np.asarray(mu * positive("point masses", "mass", mass))
+
+
+def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Distance of the mass that pulls, and the radius as a fraction of it."""
+    b = positive("point mass", "distance", distance)
+    return b, np.asarray(positive("point masses", "radius", radius) / b)
+
+
+def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
+    """1/|d - s|^3 - 1/d3, without loss when s is small beside d; zero for d = 0."""
+    square = np.sum(d * d, axis=-1)
+    inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
+    q = np.sum(s * (s - 2 * d), axis=-1) * inverse
+    small = np.abs(q) < 0.5
+    excess = np.where(
+        small,
+        np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0))),
+        (np.sqrt(square) / apart) ** 3 - 1,
+    )
+    return np.asarray(excess * inverse**1.5)
+
+
+def _check_count(count: int, least: int) -> None:
+    """Refuse too few masses."""
+    if degree("count", count) < least:
+        raise UndefinedError(f"count = {count} masses are too few; give {least} or more")

@@ -1,0 +1,203 @@
+"""The homogeneous spheroid, exact: potential, attraction, torque (reader exercise I.9.3).
+
+With the semi-axes a, a, c, let lambda be zero inside and the confocal coordinate outside, the
+largest root of
+
+    (x2 + y2)/(a2 + lambda) + z2/(c2 + lambda) = 1
+
+and U = a2 + lambda, T = c2 + lambda, E2 = a2 - c2 = U - T. Then
+
+    V  = -(3/4) G M [I0 - A1 (x2 + y2) - A3 z2]
+    g  = -(3/2) G M (A1 x, A1 y, A3 z)
+    N  =  (3/2) G M m (A3 - A1) z (r x k)
+
+with I0 = integral of du/[(U + u) sqrt(T + u)], and A1, A3 the same with one more factor
+1/(U + u) or 1/(T + u) (Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, ch. 3). In
+Carlson's functions, and in Gauss's for the difference that drives the torque,
+
+    I0 = 2 R_C(T, U)    A1 = (2/3) R_D(T, U, U)    A3 = (2/3) R_D(U, U, T)
+    A3 - A1 = (2/5) E2 T^(-3/2) U^(-1) 2F1(1, 3/2; 7/2; -E2/T)
+
+These hold for oblate (E2 > 0), prolate (E2 < 0) and sphere alike, with no branch between them
+and no subtraction: the textbook arctangents lose all digits of the torque at the Sun's distance.
+Everything is computed in units of the equatorial radius, from the flattening.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import elliprc, elliprd, hyp2f1
+
+from earthspin.mass._checks import FloatArray, positive, vectors
+from earthspin.mass.figure import check_flattening, eccentricity_squared
+
+_BODY = "spheroid"
+
+
+class AttractionIntegrals(NamedTuple):
+    """The integrals that potential, attraction and torque are made of.
+
+    Attributes
+    ----------
+    i0 : ndarray
+        Of the potential, m-1.
+    a1, a3 : ndarray
+        Of the attraction across and along the axis, m-3.
+    difference : ndarray
+        A3 - A1, formed without subtraction, m-3.
+    """
+
+    i0: FloatArray
+    a1: FloatArray
+    a3: FloatArray
+    difference: FloatArray
+
+
+def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """U and T: squared semi-axes of the confocal spheroid through a point, at least the body's.
+
+    Parameters
+    ----------
+    flattening : array_like
+        f.
+    position : array_like, shape (..., 3)
+        In units of the equatorial radius, z along the axis.
+
+    Returns
+    -------
+    across, along : ndarray, shape (...)
+        a2 + lambda and c2 + lambda, in units of the squared equatorial radius.
+    """
+    f = check_flattening(flattening)
+    square = np.asarray(position, dtype=float) ** 2
+    e2 = eccentricity_squared(f)
+    oblate = f >= 0
+    focal = np.abs(e2)
+    # The smaller square s solves s2 - p s - w = 0; either root formula adds equal signs only.
+    p = np.sum(square, axis=-1) - focal
+    w = focal * np.where(oblate, square[..., 2], square[..., 0] + square[..., 1])
+    q = np.hypot(p, 2 * np.sqrt(w)) + np.abs(p)
+    smaller = np.where(p >= 0, q / 2, 2 * w / np.maximum(q, np.finfo(float).tiny))
+    # Inside the body lambda stays zero.
+    smaller = np.maximum(smaller, np.minimum(1, 1 - f) ** 2)
+    across = np.where(oblate, smaller + focal, smaller)
+    along = np.where(oblate, smaller, smaller + focal)
+    return across, along
+
+
+def attraction_integrals(
+    radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
+) -> AttractionIntegrals:
+    """I0, A1, A3 and A3 - A1 at a point inside, on or outside the spheroid.
+
+    Parameters
+    ----------
+    radius : array_like
+        Equatorial radius a, m.
+    flattening : array_like
+        f, from -10^6 (needle) over 0 (sphere) to below 1 (disc).
+    position : array_like, shape (..., 3)
+        From the centre, z along the axis, m. Radius and flattening broadcast against (...).
+    """
+    a = positive(_BODY, "radius", radius)
+    scaled = vectors("position", position) / a[..., np.newaxis]
+    across, along = confocal_squares(flattening, scaled)
+    e2 = eccentricity_squared(flattening)
+    gauss = hyp2f1(1.0, 1.5, 3.5, -e2 / along)
+    return AttractionIntegrals(
+        i0=2 * elliprc(along, across) / a,
+        a1=2 / 3 * elliprd(along, across, across) / a**3,
+        a3=2 / 3 * elliprd(across, across, along) / a**3,
+        difference=0.4 * e2 / (along * np.sqrt(along) * across) * gauss / a**3,
+    )
+
+
+def spheroid_potential(
+    gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
+) -> FloatArray:
+    """Gravitational potential of a homogeneous spheroid, exact, negative.
+
+    Parameters
+    ----------
+    gm : array_like
+        Of the spheroid, m3 s-2.
+    radius : array_like
+        Equatorial radius, m.
+    flattening : array_like
+        f, signed.
+    position : array_like, shape (..., 3)
+        From the centre, z along the axis, m. The other arguments broadcast against (...).
+
+    Returns
+    -------
+    ndarray, shape (...)
+        m2 s-2.
+
+    Raises
+    ------
+    BodyError
+        If gm or the radius is not above zero, or the flattening out of range.
+    """
+    mu = positive(_BODY, "gm", gm)
+    r = vectors("position", position)
+    integrals = attraction_integrals(radius, flattening, r)
+    across = integrals.a1 * (r[..., 0] ** 2 + r[..., 1] ** 2)
+    return np.asarray(-0.75 * mu * (integrals.i0 - across - integrals.a3 * r[..., 2] ** 2))
+
+
+def spheroid_attraction(
+    gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
+) -> FloatArray:
+    """Acceleration that a homogeneous spheroid gives, exact.
+
+    Parameters
+    ----------
+    gm, radius, flattening, position
+        As for `spheroid_potential`.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Minus the gradient of the potential, m s-2.
+    """
+    mu = positive(_BODY, "gm", gm)
+    r = vectors("position", position)
+    integrals = attraction_integrals(radius, flattening, r)
+    factors = np.stack([integrals.a1, integrals.a1, integrals.a3], axis=-1)
+    return np.asarray(-1.5 * mu[..., np.newaxis] * factors * r)
+
+
+def spheroid_torque(
+    gm: ArrayLike,
+    radius: ArrayLike,
+    flattening: ArrayLike,
+    point_mass: ArrayLike,
+    position: ArrayLike,
+) -> FloatArray:
+    """Torque on a homogeneous spheroid from a point mass, exact, about the spheroid's centre.
+
+    Far away it tends to 3 G m (C - A) z (r x k)/r5 (I.9.34). A mass on the axis, in the plane
+    of the equator or beside a sphere gives exactly zero.
+
+    Parameters
+    ----------
+    gm, radius, flattening
+        Of the spheroid, as for `spheroid_potential`.
+    point_mass : array_like
+        The mass that pulls, kg.
+    position : array_like, shape (..., 3)
+        Of that mass, from the centre, z along the axis, m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        N m.
+    """
+    mu = positive(_BODY, "gm", gm)
+    m = positive("point mass", "mass", point_mass)
+    r = vectors("position", position)
+    size = 1.5 * mu * m * attraction_integrals(radius, flattening, r).difference * r[..., 2]
+    return np.stack([size * r[..., 1], -size * r[..., 0], np.zeros_like(size)], axis=-1)
