@@ -88,9 +88,10 @@ class SymmetricRotor:
 
     @property
     def tilt(self) -> Numeric:
-        """Angle alpha - theta between omega and L, rad: above 0 for an oblate body, if alpha < pi/2.
+        """Angle alpha - theta from L to omega, away from the figure axis, rad.
 
-        No digits are lost for a nearly round body: tan(alpha - theta) = (I3 - I1) sin cos/(I3 cos^2 + I1 sin^2), from (I.6.20).
+        Above 0 for an oblate body with alpha < pi/2. From (I.6.20), without subtracting angles:
+        tan(alpha - theta) = (I3 - I1) sin cos/(I3 cos^2 + I1 sin^2) of alpha.
         """
         sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
         return np.arctan2(

@@ -127,18 +127,21 @@ class JacobiMotion:
         return np.where(period > 0, period, np.inf)
 
 
-class _Canonical(NamedTuple):
-    """Body and start along axes 1, 2, 3; each field of shape (..., 3) or (...)."""
+class _Start(NamedTuple):
+    """Body and start along the axes 1, 2, 3, in units that make them of order one."""
 
+    axes: IntArray
+    signs: FloatArray
     moment: DoubleDouble
     spin: FloatArray
-    momentum: DoubleDouble
-    twice_energy: DoubleDouble  # m^2/I, one per axis
+    g: DoubleDouble
+    twice_energy: DoubleDouble
     span: DoubleDouble  # I3 - I1
     side: DoubleDouble  # G^2 - 2T I2
     r: DoubleDouble
     s: DoubleDouble
-    parity: FloatArray  # -1 if 1, 2, 3 are left-handed
+    d1: DoubleDouble
+    d3: DoubleDouble
 
 
 def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
@@ -159,7 +162,7 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     UndefinedError
         For a start without angular momentum.
     """
-    body, spin = _broadcast(principal_moments(moments), _start(omega))
+    body, spin = _broadcast(principal_moments(moments), _read_omega(omega))
     # Dividing by powers of two is exact, and makes every number one of order one.
     size, speed = _power_of_two(body.values), _power_of_two(spin)
     unit = PrincipalMoments(
@@ -168,58 +171,45 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     )
     spin = spin / speed[..., np.newaxis]
     spin = np.where(np.abs(spin) < _NEGLIGIBLE, 0.0, spin)
-    axes = _circled_axis_last(unit, spin)
-    return _constants(body, axes, _canonical(unit, spin, axes), size, speed)
+    return _constants(body, _numbered(unit, spin), size, speed)
 
 
 def _constants(
-    body: PrincipalMoments, axes: IntArray, start: _Canonical, size: FloatArray, speed: FloatArray
+    body: PrincipalMoments, start: _Start, size: FloatArray, speed: FloatArray
 ) -> JacobiMotion:
-    signs = np.where(start.spin < 0, -1.0, 1.0)
-    signs[..., 1] = start.parity * signs[..., 0] * signs[..., 2]
-    i1, i2, i3 = (start.moment[..., axis] for axis in range(3))
-    x1, x2, x3 = (start.twice_energy[..., axis] for axis in range(3))
-    r, s, span = start.r, start.s, start.span
-
-    d1, d3 = s * x2 + x3, x1 + r * x2
-    still = d1.hi == 0
-    circular = still | (span.hi == 0)
-    k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1 * span))
+    i1, i2, i3 = _components(start.moment)
+    r, d1, d3 = start.r, start.d1, start.d3
+    # No cone, or no difference of moments: anything circular will do.
+    circular = (d1.hi == 0) | (start.span.hi == 0)
+    k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1 * start.span))
     k_complementary = k2_complementary.sqrt()
     descent = landen_descent(k_complementary)
-    rate = _absolute(span) * (r * d1 / (i1 * i2 * i3)).sqrt()
 
-    g = _sum(start.momentum * start.momentum).sqrt()
-    sense = np.sign(span.hi)
-    towards = np.where(sense < 0, -1.0, 1.0)  # the sign that sn needs with lambda above 0
+    sense = np.sign(start.span.hi)
+    towards = np.where(sense < 0, -1.0, 1.0)  # the sign of sn that lambda above 0 needs
+    rate = start.span.scaled(towards) * (r * d1 / (i1 * i2 * i3)).sqrt()
     amplitudes = stack((d3 / i1).sqrt(), (d3 / (r * i2)).sqrt() * towards, (d1 / i3).sqrt())
-    sine, cosine = _start_angle(amplitudes, start.spin * signs)
+    sine, cosine = _start_angle(amplitudes.hi, start.spin)
     return JacobiMotion(
         moments=body,
-        axes=axes,
-        signs=signs,
+        axes=start.axes,
+        signs=start.signs,
         amplitudes=amplitudes.hi * speed[..., np.newaxis],
-        cosines=(amplitudes * start.moment / g[..., np.newaxis]).hi,
-        angular_momentum=g.hi * size * speed,
-        twice_energy=_sum(start.twice_energy).hi * size * speed**2,
+        cosines=(amplitudes * start.moment / start.g[..., np.newaxis]).hi,
+        angular_momentum=start.g.hi * size * speed,
+        twice_energy=start.twice_energy.hi * size * speed**2,
         sense=sense,
         rate=rate.scaled(speed),
         start=first_kind(sine, cosine, np.asarray(k2_complementary.hi)),
         start_angle=np.arctan2(sine, cosine),
         complementary_modulus=np.asarray(k_complementary.hi),
         descent=descent,
-        precession=_precession(start, d1, d3, g, k_complementary, descent, speed),
+        precession=_precession(start, k_complementary, descent, speed),
     )
 
 
 def _precession(
-    start: _Canonical,
-    d1: DoubleDouble,
-    d3: DoubleDouble,
-    g: DoubleDouble,
-    k_complementary: DoubleDouble,
-    descent: LandenDescent,
-    speed: FloatArray,
+    start: _Start, k_complementary: DoubleDouble, descent: LandenDescent, speed: FloatArray
 ) -> Precession:
     """Integrate psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
 
@@ -230,13 +220,15 @@ def _precession(
     with n = k1 (1 - b)/(1 + b): all terms are positive and 1 + n needs no care, while the
     usual form divides by 1 - b^2 dn^2, which vanishes with the cone.
     """
-    i1, i2, i3 = (start.moment[..., axis] for axis in range(3))
-    b = (d1 * i3).sqrt() / g
+    i1, i2, i3 = _components(start.moment)
+    g, d3 = start.g, start.d3
+    b = (start.d1 * i3).sqrt() / g
     k1 = (1.0 - k_complementary) / (1.0 + k_complementary)
     n = k1 * (1.0 - b) / (1.0 + b)
     mean = third_kind_mean(n, descent)
-    inverse = (1.0 + b.scaled(2.0) * k1 / (1.0 + b) * mean) / (1.0 + b)
-    rate = g / i3 + d3 * start.span / (i3 * g) * inverse
+    mean_inverse = (1.0 + b.scaled(2.0) * k1 / (1.0 + b) * mean) / (1.0 + b)
+    rate = g / i3 + d3 * start.span / (i3 * g) * mean_inverse
+    # dt = du/lambda, and b/lambda = I3 sqrt(I1 I2/r)/(G |I3 - I1|).
     swing = (
         np.sign(start.span.hi)
         * (d3 / (g * g)).hi
@@ -246,64 +238,66 @@ def _precession(
     return Precession(rate.scaled(speed), swing, np.asarray(n.hi), np.asarray(mean.hi))
 
 
-def _circled_axis_last(unit: PrincipalMoments, spin: FloatArray) -> IntArray:
-    """Order the axes: the one that m circles last, the middle moment second."""
-    ascending = _ascending(unit)
-    start = _canonical(unit, spin, ascending)
-    # On the separatrix either end will do, unless two moments are equal: then the other one.
-    smallest = (start.side.hi < 0) | ((start.side.hi == 0) & (start.r.hi < start.s.hi))
-    return np.where(smallest[..., np.newaxis], ascending[..., ::-1], ascending)
-
-
-def _ascending(unit: PrincipalMoments) -> IntArray:
-    """Axes from the smallest moment to the largest, told apart by the differences alone."""
+def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
+    """Number the axes: 3 is the one that m circles, 2 has the middle moment."""
     c_b, a_c, b_a = np.moveaxis(unit.difference.hi, -1, 0)
+    # How many of the others each moment exceeds; their differences alone tell them apart.
     rank = np.stack(
         [(b_a < 0) * 1 + (a_c > 0), (b_a >= 0) * 1 + (c_b < 0), (a_c <= 0) * 1 + (c_b >= 0)],
         axis=-1,
     )
-    return np.argsort(rank, axis=-1)
+    ascending = np.argsort(rank, axis=-1)
+    start = _along(unit, spin, ascending)
+    # On the separatrix either end will do, unless two moments are equal: then the other one.
+    smallest = (start.side.hi < 0) | ((start.side.hi == 0) & (start.r.hi < start.s.hi))
+    if not np.any(smallest):
+        return start
+    return _along(unit, spin, np.where(smallest[..., np.newaxis], ascending[..., ::-1], ascending))
 
 
-def _canonical(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Canonical:
-    """Take body and start to the axes 1, 2, 3."""
+def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
+    """Take body and start to axes 1, 2, 3 and form what they are combined to."""
     parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
-    moment, difference = (
-        _take(unit.moment, axes),
-        _take(unit.difference, axes).scaled(parity[..., np.newaxis]),
-    )
-    spin = np.take_along_axis(spin, axes, -1)
+    moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
+    signs = np.where(spin < 0, -1.0, 1.0)
+    signs[..., 1] = parity * signs[..., 0] * signs[..., 2]  # right-handed
+    spin = spin * signs
     momentum = moment * spin
-    twice_energy = momentum * spin
-    span = -difference[..., 1]
-    sphere = span.hi == 0
-    divisor = where(sphere, 1.0, span)
-    return _Canonical(
+    x1, x2, x3 = _components(momentum * spin)  # m^2/I
+    i32, i13, i21 = _components(_take(unit.difference, axes).scaled(parity[..., np.newaxis]))
+    sphere = i13.hi == 0
+    divisor = where(sphere, 1.0, -i13)
+    r, s = where(sphere, 1.0, i32 / divisor), where(sphere, 0.0, i21 / divisor)
+    m1, m2, m3 = _components(momentum * momentum)
+    return _Start(
+        axes=axes,
+        signs=signs,
         moment=moment,
         spin=spin,
-        momentum=momentum,
-        twice_energy=twice_energy,
-        span=span,
+        g=(m1 + m2 + m3).sqrt(),
+        twice_energy=x1 + x2 + x3,
+        span=-i13,
         # No quotients here: a start in whole numbers is on the separatrix exactly.
-        side=difference[..., 0] * twice_energy[..., 2] - difference[..., 2] * twice_energy[..., 0],
-        r=where(sphere, 1.0, difference[..., 0] / divisor),
-        s=where(sphere, 0.0, difference[..., 2] / divisor),
-        parity=parity,
+        side=i32 * x3 - i21 * x1,
+        r=r,
+        s=s,
+        d1=s * x2 + x3,
+        d3=x1 + r * x2,
     )
 
 
-def _start_angle(amplitudes: DoubleDouble, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _start_angle(amplitudes: FloatArray, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Sine and cosine of the amplitude of u0; 0 and 1 for a rotation about axis 3."""
-    upright = amplitudes.hi[..., 0] == 0
-    divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes.hi)
+    upright = amplitudes[..., 0] == 0
+    divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes)
     sine, cosine = spin[..., 1] / divisor[..., 1], spin[..., 0] / divisor[..., 0]
     return sine, np.where(upright, 1.0, cosine)
 
 
-def _start(omega: Any) -> FloatArray:
+def _read_omega(omega: Any) -> FloatArray:
     spin = finite(omega, "omega", "rad/s")
     if spin.ndim == 0 or spin.shape[-1] != 3:
-        raise BodyError("rotor", "omega", omega, "give three components, in rad/s")
+        raise BodyError("rotor", "shape of omega", spin.shape, "give three components, in rad/s")
     if np.any(np.all(spin == 0, axis=-1)):
         raise UndefinedError(
             "omega = [0, 0, 0] rad/s gives no angular momentum, so there is no rotation to "
@@ -320,7 +314,7 @@ def _broadcast(body: PrincipalMoments, spin: FloatArray) -> tuple[PrincipalMomen
         )
     except ValueError:
         raise BodyError(
-            "rotor", "omega", np.shape(spin), f"its shape must go with {moment.hi.shape}"
+            "rotor", "shape of omega", spin.shape, f"it must go with the moments' {moment.hi.shape}"
         ) from None
     return PrincipalMoments(DoubleDouble(a, b), DoubleDouble(c, d)), spin
 
@@ -336,9 +330,5 @@ def _take(numbers: DoubleDouble, axes: IntArray) -> DoubleDouble:
     )
 
 
-def _sum(components: DoubleDouble) -> DoubleDouble:
-    return components[..., 0] + components[..., 1] + components[..., 2]
-
-
-def _absolute(number: DoubleDouble) -> DoubleDouble:
-    return number.scaled(np.where(number.hi < 0, -1.0, 1.0))
+def _components(vector: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+    return vector[..., 0], vector[..., 1], vector[..., 2]

@@ -104,8 +104,11 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
     for step in range(depth - 1, -1, -1):
         lower = Jacobi(s, c, d)
         half = (a[step] - b[step]) / 2
-        over = a[step + 1] + half * s * s
-        s, c, d = a[step] * s / over, a[step + 1] * c * d / over, (b[step] + half * c * c) / over
+        rise, run = a[step] * s, a[step + 1] * c * d
+        d = (b[step] + half * c * c) / (a[step + 1] + half * s * s)
+        # From the ratio alone: errors of cn would double in every step, those of sn halve.
+        length = np.sqrt(rise * rise + run * run)
+        s, c = rise / length, run / length
     upper = Jacobi(s, c, d)
     if not np.any(on):
         return upper, lower

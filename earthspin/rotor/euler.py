@@ -165,7 +165,7 @@ def integrate_rotation(
     body, t = principal_moments(moments), finite(times, "times", "s")
     start = finite(omega, "omega", "rad/s")
     if start.shape != (3,) or body.values.shape != (3,):
-        raise BodyError("rotor", "omega", start.shape, "integrate one body from one start")
+        raise BodyError("rotor", "shape of omega", start.shape, "integrate one body from one start")
 
     def rates(time: float, state: FloatArray) -> FloatArray:
         w, q = state[:3], state[3:]

@@ -112,7 +112,13 @@ def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
         raise BodyError(
             "rotor", "moments", sorted(map(str, given)), f"the keys are {', '.join(KEYS)}"
         )
-    a, b_a, c_a = np.broadcast_arrays(*(finite(given[key], key, "kg m2") for key in KEYS))
+    parts = [finite(given[key], key, "kg m2") for key in KEYS]
+    try:
+        a, b_a, c_a = np.broadcast_arrays(*parts)
+    except ValueError:
+        shapes = [part.shape for part in parts]
+        rule = "A, B-A and C-A must have shapes that go together"
+        raise BodyError("rotor", "shape of moments", shapes, rule) from None
     zero = np.zeros_like(a)
     first, towards_b, towards_c = (DoubleDouble(x, zero) for x in (a, b_a, c_a))
     return PrincipalMoments(
@@ -124,7 +130,7 @@ def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
 def _from_three(given: Any) -> PrincipalMoments:
     abc = finite(given, "moments", "kg m2")
     if abc.ndim == 0 or abc.shape[-1] != 3:
-        raise BodyError("rotor", "moments", given, "give three numbers, A, B, C")
+        raise BodyError("rotor", "shape of moments", abc.shape, "give three numbers, A, B, C")
     a, b, c = np.moveaxis(abc, -1, 0)
     return PrincipalMoments(
         as_double_double(abc),
@@ -137,20 +143,16 @@ def _check(moments: PrincipalMoments) -> None:
     for axis, name in enumerate("ABC"):
         own = values[..., axis]
         if not np.all(own > 0):
-            worst = float(np.min(own))
-            raise BodyError("rotor", name, worst, "a principal moment is above zero")
-        # I_j + I_k - I_i, with I_j - I_i taken as the difference that was given.
+            raise BodyError("rotor", name, float(np.min(own)), "a principal moment is above zero")
+    for axis, name in enumerate("ABC"):
+        own = values[..., axis]
+        # Ij + Ik - Ii, the difference Ij - Ii taken as it was given.
         room = values[..., axis - 1] + moments.difference.hi[..., axis - 1]
         if np.any(room < -_LAMINA * own):
-            at = np.unravel_index(np.argmin(room / own), np.shape(own))
-            others = values[..., axis - 1][at], values[..., axis - 2][at]
-            raise BodyError(
-                "rotor",
-                name,
-                float(own[at]),
-                "no principal moment exceeds the sum of the other two, here "
-                f"{others[1]:.16g} + {others[0]:.16g}",
-            )
+            at = np.unravel_index(np.argmin(room / own), own.shape)
+            others = " + ".join(f"{values[(*at, i)]:.16g}" for i in range(3) if i != axis)
+            rule = f"no principal moment exceeds the sum of the other two, here {others}"
+            raise BodyError("rotor", name, float(own[at]), rule)
 
 
 def finite(given: Any, name: str, unit: str) -> FloatArray:
@@ -166,6 +168,7 @@ def finite(given: Any, name: str, unit: str) -> FloatArray:
         numbers = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
         raise BodyError("rotor", name, given, f"give numbers, in {unit}") from None
-    if not np.all(np.isfinite(numbers)):
-        raise BodyError("rotor", name, given, f"give finite numbers, in {unit}")
+    bad = numbers[~np.isfinite(numbers)]
+    if bad.size:
+        raise BodyError("rotor", name, float(bad.flat[0]), f"give finite numbers, in {unit}")
     return numbers

@@ -82,7 +82,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
     """
     t = finite(times, "times", "s")
     if t.ndim != 1:
-        raise BodyError("rotor", "times", t.shape, "give one row of times, in s")
+        raise BodyError("rotor", "shape of times", t.shape, "give one row of times, in s")
     motion = jacobi_motion(moments, omega)
     # The start goes in front, because psi counts from there.
     phase = phase_at(motion, np.concatenate([[0.0], t]))
