@@ -144,7 +144,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
         np.where(periodic, run.hi + start, 0.0) / np.where(periodic, half_period.hi, 1)
     )
     rest = run - half_period * halves
-    u = rest.hi + (rest.lo + start)
+    u = rest.hi + start
     return Phase(times, u, 1.0 - 2.0 * np.mod(halves, 2.0), *jacobi(u, motion.descent))
 
 
@@ -197,4 +197,4 @@ def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
     periodic = precession.swing[..., np.newaxis] * third_kind_periodic(
         phase.u, phase.lower, precession.n, precession.mean, motion.descent
     )
-    return np.asarray(rest.hi + (rest.lo + (periodic - periodic[..., :1]) / 2))
+    return np.asarray(rest.hi + (periodic - periodic[..., :1]) / 2)
