@@ -1,9 +1,9 @@
 """The axisymmetric rotor without torque (I.6).
 
-With I1 = I2 across the figure axis and I3 along it, the angular velocity circles the figure
-axis on the *body cone* of half-angle alpha and the angular momentum on the *space cone* of
-half-angle |theta - alpha|; figure axis, omega and L stay in one plane, L theta away from the
-axis. Inertial axes here have L along the third, and the body stands at phi = 0, psi = pi/2
+With I1 = I2 across the figure axis and I3 along it, omega circles the figure axis on the *body
+cone* of half-angle alpha, and in space it circles the angular momentum L on the *space cone* of
+half-angle |theta - alpha|, where theta lies between figure axis and L. The three stay in one
+plane. Inertial axes here have L along the third, and the body stands at phi = 0, psi = pi/2
 at t = 0, so that omega starts in the plane of the body's first and third axis.
 
 The moment across the axis is given with the difference I3 - I1, of either sign, so that no
@@ -61,7 +61,7 @@ class SymmetricRotor:
             np.greater(difference, -np.asarray(i1)) & np.less_equal(difference, i1),
             "difference",
             difference,
-            f"I3 - I1 lies above -I1 and not above I1, with I1 = {i1!r}",
+            "I3 - I1 lies above -I1 and not above I1",
         )
         _require(np.greater(self.speed, 0), "speed", self.speed, "give |omega| above 0, in rad/s")
         _require(
@@ -274,10 +274,14 @@ def speed_and_cone(
         raise UndefinedError("a sphere's T and L do not tell alpha: I3 - I1 = 0; give omega")
     sign, l2 = np.sign(difference), np.square(angular_momentum)
     across, along = sign * (2 * energy * i3 - l2), sign * (l2 - 2 * energy * i1)
-    if not (np.all(across >= -_ROUNDING * l2) and np.all(along >= -_ROUNDING * l2)):
+    outside = (across < -_ROUNDING * l2) | (along < -_ROUNDING * l2)
+    if np.any(outside):
+        t, m, low, high = (
+            float(x[outside].flat[0]) for x in np.broadcast_arrays(energy, angular_momentum, i1, i3)
+        )
         raise UndefinedError(
-            f"no rotation has T = {energy!r} J with L = {angular_momentum!r} kg m2/s: "
-            f"L2/2T lies between I1 = {equatorial!r} and I3 = {i3.tolist()!r} kg m2"
+            f"no rotation has T = {t} J with L = {m} kg m2/s: "
+            f"L2/2T lies between I1 = {low} and I3 = {high} kg m2"
         )
     alpha = np.arctan2(np.sqrt(i3 * np.maximum(across, 0)), np.sqrt(i1 * np.maximum(along, 0)))
     return np.sqrt((2 * energy * (i1 + i3) - l2) / (i1 * i3)), alpha
@@ -303,7 +307,7 @@ def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Nume
     """
     if np.any(np.sin(theta) == 0):
         raise UndefinedError(
-            f"theta = {theta!r} rad: without a cone its angles do not tell the wobble's rate"
+            "theta = 0 rad: without a cone, its angles do not tell the wobble's rate"
         )
     return speed * np.sin(np.subtract(alpha, theta)) / np.sin(theta)
 
