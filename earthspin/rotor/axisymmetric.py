@@ -1,14 +1,315 @@
-"""The axisymmetric rotor without torque (I.6)."""
+"""The axisymmetric rotor without torque (I.6).
+
+With I1 = I2 across the figure axis and I3 along it, omega circles the figure axis on the *body
+cone* of half-angle alpha, and in space it circles the angular momentum L on the *space cone* of
+half-angle |theta - alpha|, where theta lies between figure axis and L. The three stay in one
+plane. Inertial axes here have L along the third, and the body stands at phi = 0, psi = pi/2
+at t = 0, so that omega starts in the plane of the body's first and third axis.
+
+The moment across the axis is given with the difference I3 - I1, of either sign, so that no
+digits are lost: oblate above 0, prolate below.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
+from earthspin.errors import BodyError, UndefinedError
 
 Numeric = Any
+FloatArray = NDArray[np.float64]
+
+#: How far rounding may put 2T I3 - L2 beyond 0, relative to L2.
+_ROUNDING = 8 * np.finfo(float).eps
+
+
+@dataclass(frozen=True, slots=True)
+class SymmetricRotor:
+    """An axisymmetric body in free rotation.
+
+    Attributes
+    ----------
+    equatorial : float or ndarray, shape (...)
+        Moment I1 = I2 across the figure axis, kg m2.
+    difference : float or ndarray, shape (...)
+        I3 - I1, kg m2: from -I1 (a needle) to I1 (a leaf), the first excluded.
+    speed : float or ndarray, shape (...)
+        Length of the angular velocity, rad/s.
+    alpha : float or ndarray, shape (...)
+        Half-angle of the body cone: between figure axis and angular velocity, rad, 0 to pi.
+
+    Raises
+    ------
+    BodyError
+        For a value outside its range.
+    """
+
+    equatorial: Numeric
+    difference: Numeric
+    speed: Numeric
+    alpha: Numeric
+
+    def __post_init__(self) -> None:
+        i1, difference = self.equatorial, self.difference
+        _require(np.greater(i1, 0), "equatorial", i1, "a principal moment is above zero")
+        _require(
+            np.greater(difference, -np.asarray(i1)) & np.less_equal(difference, i1),
+            "difference",
+            difference,
+            "I3 - I1 lies above -I1 and not above I1",
+        )
+        _require(np.greater(self.speed, 0), "speed", self.speed, "give |omega| above 0, in rad/s")
+        _require(
+            np.greater_equal(self.alpha, 0) & np.less_equal(self.alpha, np.pi),
+            "alpha",
+            self.alpha,
+            "the cone's half-angle lies between 0 and pi rad",
+        )
+
+    @property
+    def polar(self) -> Numeric:
+        """I3, kg m2."""
+        return self.equatorial + self.difference
+
+    @property
+    def wobble_rate(self) -> Numeric:
+        """Omega' = omega cos(alpha) (I3 - I1)/I1: of omega round the body cone, rad/s (I.6.7)."""
+        return self.speed * np.cos(self.alpha) * self.difference / self.equatorial
+
+    @property
+    def theta(self) -> Numeric:
+        """Between figure axis and angular momentum, rad: tan theta = (I1/I3) tan alpha (I.6.20)."""
+        return np.arctan2(self.equatorial * np.sin(self.alpha), self.polar * np.cos(self.alpha))
+
+    @property
+    def tilt(self) -> Numeric:
+        """Angle alpha - theta from L to omega, away from the figure axis, rad.
+
+        Above 0 for an oblate body with alpha < pi/2. From (I.6.20), without subtracting angles:
+        tan(alpha - theta) = (I3 - I1) sin cos/(I3 cos^2 + I1 sin^2) of alpha.
+        """
+        sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
+        return np.arctan2(
+            self.difference * sine * cosine, self.polar * cosine**2 + self.equatorial * sine**2
+        )
+
+    @property
+    def space_cone(self) -> Numeric:
+        """Half-angle of the cone that omega runs on in space, |theta - alpha|, rad (I.6.28)."""
+        return np.abs(self.tilt)
+
+    @property
+    def angular_momentum(self) -> Numeric:
+        """L, kg m2/s (I.6.9)."""
+        return self.speed * np.hypot(
+            self.equatorial * np.sin(self.alpha), self.polar * np.cos(self.alpha)
+        )
+
+    @property
+    def energy(self) -> Numeric:
+        """T, J (I.6.11)."""
+        sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
+        return self.speed**2 * (self.equatorial * sine**2 + self.polar * cosine**2) / 2
+
+    @property
+    def precession_rate(self) -> Numeric:
+        """Rate phi' = L/I1 of figure axis and omega about the angular momentum, rad/s (I.6.24)."""
+        return self.angular_momentum / self.equatorial
+
+    @property
+    def rolling(self) -> NDArray[np.str_]:
+        """How the body cone rolls on the space cone: ``outside``, ``inside`` or ``not``.
+
+        A prolate body rolls on the outside (I.6.30). An oblate one has the space cone inside
+        its own and rolls with the inner face on it (I.6.31). Without a cone nothing rolls.
+        """
+        return np.select(
+            [self.tilt * np.cos(self.alpha) > 0, self.space_cone > 0], ["inside", "outside"], "not"
+        )
+
+    def omega_body(self, times: Numeric) -> FloatArray:
+        """Angular velocity along the body's axes, rad/s, shape (..., n, 3) (I.6.7).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
+        return _on_cone(self.speed * sine, self.speed * cosine, self.wobble_rate, times)
+
+    def angular_momentum_body(self, times: Numeric) -> FloatArray:
+        """Angular momentum along the body's axes, kg m2/s, shape (..., n, 3) (I.6.8).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        across = self.equatorial * self.speed * np.sin(self.alpha)
+        along = self.polar * self.speed * np.cos(self.alpha)
+        return _on_cone(across, along, self.wobble_rate, times)
+
+    def euler_angles(self, times: Numeric) -> FloatArray:
+        """Phi, theta, psi of the body, rad, shape (..., n, 3) (I.6.25).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        phi = np.multiply.outer(self.precession_rate, times)
+        psi = np.pi / 2 - np.multiply.outer(self.wobble_rate, times)
+        theta = np.broadcast_to(np.asarray(self.theta)[..., np.newaxis], np.shape(phi))
+        return np.stack([phi, theta, psi], axis=-1)
+
+    def omega_inertial(self, times: Numeric) -> FloatArray:
+        """Angular velocity along inertial axes, rad/s, shape (..., n, 3) (I.6.28).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        return self._in_node_plane(self.speed, -self.tilt, times)
+
+    def figure_axis(self, times: Numeric) -> FloatArray:
+        """Unit vector of the figure axis along inertial axes, shape (..., n, 3) (H.3.12).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        return self._in_node_plane(1.0, self.theta, times)
+
+    def inertia_tensor(self, times: Numeric) -> FloatArray:
+        """Inertia tensor along inertial axes, kg m2, shape (..., n, 3, 3) (I.6, reader exercise).
+
+        R I R^T with R = Rz(phi) Rx(theta) Rz(psi) is I1 + (I3 - I1) k k^T, k the figure axis:
+        the turn psi about it leaves no trace.
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        k = self.figure_axis(times)
+        i1, difference = (
+            np.asarray(x)[..., np.newaxis, np.newaxis, np.newaxis]
+            for x in (self.equatorial, self.difference)
+        )
+        return np.asarray(
+            i1 * np.eye(3) + difference * k[..., :, np.newaxis] * k[..., np.newaxis, :]
+        )
+
+    def attitude(self, times: Numeric) -> FloatArray:
+        """Unit quaternion w, x, y, z from body to inertial axes, shape (..., n, 4).
+
+        Of Rz(phi) Rx(theta) Rz(psi), with the angles of (I.6.25).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,)
+            s.
+        """
+        phi, theta, psi = np.moveaxis(self.euler_angles(times), -1, 0)
+        upright, tilted = np.cos(theta / 2), np.sin(theta / 2)
+        total, rest = (phi + psi) / 2, (phi - psi) / 2
+        return np.stack(
+            [
+                upright * np.cos(total),
+                tilted * np.cos(rest),
+                tilted * np.sin(rest),
+                upright * np.sin(total),
+            ],
+            axis=-1,
+        )
+
+    def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
+        """Vector in the plane of L and figure axis, at an angle from L towards that axis."""
+        phi = np.multiply.outer(self.precession_rate, times)
+        across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
+        return np.stack(
+            [across * np.sin(phi), -across * np.cos(phi), np.broadcast_to(along, np.shape(phi))],
+            axis=-1,
+        )
+
+
+def speed_and_cone(
+    equatorial: Numeric, difference: Numeric, energy: Numeric, angular_momentum: Numeric
+) -> tuple[FloatArray, FloatArray]:
+    """Speed |omega| and half-angle alpha of the body cone from T and L (I.6.12).
+
+        tan^2 alpha = (I3/I1) (2T I3 - L2)/(L2 - 2T I1),   omega^2 = [2T (I1 + I3) - L2]/(I1 I3)
+
+    T and L fix alpha poorly near 0 and pi/2, where it is the root of a small difference.
+
+    Parameters
+    ----------
+    equatorial, difference : float or ndarray
+        I1 and I3 - I1, kg m2.
+    energy : float or ndarray
+        T, J.
+    angular_momentum : float or ndarray
+        L, kg m2/s.
+
+    Returns
+    -------
+    speed, alpha : ndarray
+        rad/s, and rad from 0 to pi/2.
+
+    Raises
+    ------
+    UndefinedError
+        For a sphere, whose T and L do not tell alpha; or if L2/2T is not between I1 and I3.
+    """
+    i1, i3 = np.asarray(equatorial), np.asarray(equatorial) + difference
+    if np.any(np.equal(difference, 0)):
+        raise UndefinedError("a sphere's T and L do not tell alpha: I3 - I1 = 0; give omega")
+    sign, l2 = np.sign(difference), np.square(angular_momentum)
+    across, along = sign * (2 * energy * i3 - l2), sign * (l2 - 2 * energy * i1)
+    outside = (across < -_ROUNDING * l2) | (along < -_ROUNDING * l2)
+    if np.any(outside):
+        t, m, low, high = (
+            float(x[outside].flat[0]) for x in np.broadcast_arrays(energy, angular_momentum, i1, i3)
+        )
+        raise UndefinedError(
+            f"no rotation has T = {t} J with L = {m} kg m2/s: "
+            f"L2/2T lies between I1 = {low} and I3 = {high} kg m2"
+        )
+    alpha = np.arctan2(np.sqrt(i3 * np.maximum(across, 0)), np.sqrt(i1 * np.maximum(along, 0)))
+    return np.sqrt((2 * energy * (i1 + i3) - l2) / (i1 * i3)), alpha
+
+
+def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
+    """Omega' = omega sin(alpha - theta)/sin(theta), rad/s (I.6.27).
+
+    The body cone rolls on the space cone without slipping: as much of one rim as of the other
+    passes the line of contact, Omega' sin(alpha) = phi' sin(alpha - theta).
+
+    Parameters
+    ----------
+    speed : float or ndarray
+        |omega|, rad/s.
+    alpha, theta : float or ndarray
+        From the figure axis to omega and to the angular momentum, rad.
+
+    Raises
+    ------
+    UndefinedError
+        If the angular momentum lies along the figure axis: there are no cones.
+    """
+    if np.any(np.sin(theta) == 0):
+        raise UndefinedError(
+            "theta = 0 rad: without a cone, its angles do not tell the wobble's rate"
+        )
+    return speed * np.sin(np.subtract(alpha, theta)) / np.sin(theta)
 
 
 def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
@@ -41,3 +342,18 @@ def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
         Relative standard uncertainty of the dynamical flattening.
     """
     return NORMAL_95 * period * u_h / (1 - h)
+
+
+def _on_cone(across: Numeric, along: Numeric, rate: Numeric, times: Numeric) -> FloatArray:
+    angle = np.multiply.outer(rate, times)
+    across, along = (np.asarray(x)[..., np.newaxis] for x in (across, along))
+    return np.stack(
+        [across * np.cos(angle), across * np.sin(angle), np.broadcast_to(along, angle.shape)],
+        axis=-1,
+    )
+
+
+def _require(holds: Numeric, field: str, given: Numeric, allowed: str) -> None:
+    if not np.all(holds):
+        worst = np.broadcast_to(given, np.shape(holds))[~np.asarray(holds)]
+        raise BodyError("rotor", field, worst.flat[0].item(), allowed)

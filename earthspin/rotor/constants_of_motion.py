@@ -1,0 +1,334 @@
+r"""What stays the same in a free rotation: the numbers of Jacobi's closed form.
+
+Number the principal axes so that the angular momentum m circles axis 3 and axis 2 has the
+middle moment; point them so that m1, m3 >= 0 at the start and 1, 2, 3 are right-handed. Then
+
+    omega = (a1 cn u, a2 sn u, a3 dn u),        u = lambda t + u0
+
+solves Euler's equations (I.4.4). What else moves is one angle about the angular momentum,
+
+    psi' = G/I3 + D3 (I3 - I1)/(I3 (G + m3)),
+
+that follows the shortest turn from m to the angular momentum; m3 stays above 0, so there is
+no singular place. With
+
+    r = (I3 - I2)/(I3 - I1),             s = (I2 - I1)/(I3 - I1)
+    D1 = s m2^2/I2 + m3^2/I3,            D3 = m1^2/I1 + r m2^2/I2
+    k'^2 = (r m3^2/I3 - s m1^2/I1)/(r D1),      lambda = |I3 - I1| sqrt(r D1/(I1 I2 I3))
+    a1^2 = D3/I1,        a2^2 = D3/(r I2),      a3^2 = D1/I3
+
+(G^2 - 2T I1 is D1 (I3 - I1), and 2T I3 - G^2 is D3 (I3 - I1).) Only k'^2 takes a
+difference, which is small near the separatrix; all constants are therefore formed with
+twice the digits, from inputs taken as exact.
+
+Sources: Jacobi 1850, J. reine angew. Math. 39, 293; Whittaker, Analytical Dynamics, sect. 69.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import BodyError, UndefinedError
+from earthspin.rotor.double_double import DoubleDouble, stack, where
+from earthspin.rotor.elliptic import LandenDescent, first_kind, landen_descent, third_kind_mean
+from earthspin.rotor.moments import Moments, PrincipalMoments, finite, principal_moments
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+#: A component of omega this far below the largest counts as zero: its square would underflow.
+_NEGLIGIBLE = 2.0**-450
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Precession:
+    """How the angle psi about the angular momentum runs: a mean rate and a periodic part.
+
+    Attributes
+    ----------
+    rate : DoubleDouble, shape (...)
+        Mean of psi', rad/s.
+    swing : ndarray, shape (...)
+        Factor of the periodic part, rad.
+    n, mean : ndarray, shape (...)
+        Parameter of the elliptic integral of the third kind, and the mean of its integrand.
+    """
+
+    rate: DoubleDouble
+    swing: FloatArray
+    n: FloatArray
+    mean: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JacobiMotion:
+    """The constants of one free motion, or of many along the leading axes.
+
+    Attributes
+    ----------
+    moments : PrincipalMoments
+        Of the body, in its own order of axes.
+    axes : ndarray of int, shape (..., 3)
+        Which of the body's axes are 1, 2, 3 of the closed form.
+    signs : ndarray, shape (..., 3)
+        Which way along them 1, 2, 3 point.
+    amplitudes : ndarray, shape (..., 3)
+        Of cn, sn and dn in omega along 1, 2, 3, rad/s; the second carries a sign.
+    cosines : ndarray, shape (..., 3)
+        The same of the angular momentum over its length.
+    angular_momentum, twice_energy : ndarray, shape (...)
+        G, kg m2/s, and 2T, J.
+    sense : ndarray, shape (...)
+        1 if axis 3 has the largest moment, -1 if the smallest, 0 for a sphere.
+    rate : DoubleDouble, shape (...)
+        lambda, rad/s; 0 if the moments make omega stand still in the body.
+    start : ndarray, shape (...)
+        u0, the argument at t = 0; infinite for a rotation about the middle axis.
+    start_angle : ndarray, shape (...)
+        The amplitude of u0, whose sine is sn, rad.
+    complementary_modulus : ndarray, shape (...)
+        k': 0 on the separatrix, 1 for circular cones.
+    descent : LandenDescent
+        From k'.
+    precession : Precession
+        Of psi.
+    """
+
+    moments: PrincipalMoments
+    axes: IntArray
+    signs: FloatArray
+    amplitudes: FloatArray
+    cosines: FloatArray
+    angular_momentum: FloatArray
+    twice_energy: FloatArray
+    sense: FloatArray
+    rate: DoubleDouble
+    start: FloatArray
+    start_angle: FloatArray
+    complementary_modulus: FloatArray
+    descent: LandenDescent
+    precession: Precession
+
+    @property
+    def exact_period(self) -> DoubleDouble:
+        """Time in which omega comes back in the body, 4K/lambda, s; 0 if it never does."""
+        quarter = self.descent.quarter_period
+        moves = self.rate.hi > 0
+        return where(moves, quarter.scaled(4.0) / where(moves, self.rate, 1.0), 0.0)
+
+    @property
+    def period(self) -> FloatArray:
+        """Time in which omega comes back in the body, s; infinite if it never does."""
+        period = np.asarray(self.exact_period.hi)
+        return np.where(period > 0, period, np.inf)
+
+
+class _Start(NamedTuple):
+    """Body and start along the axes 1, 2, 3, in units that make them of order one."""
+
+    axes: IntArray
+    signs: FloatArray
+    moment: DoubleDouble
+    spin: FloatArray
+    g: DoubleDouble
+    twice_energy: DoubleDouble
+    span: DoubleDouble  # I3 - I1
+    side: DoubleDouble  # G^2 - 2T I2
+    r: DoubleDouble
+    s: DoubleDouble
+    d1: DoubleDouble
+    d3: DoubleDouble
+
+
+def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
+    """Form the constants of a free motion from the body and its start.
+
+    Parameters
+    ----------
+    moments : sequence of three numbers, mapping or PrincipalMoments
+        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+    omega : array_like, shape (..., 3)
+        Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
+        broadcast against each other.
+
+    Raises
+    ------
+    BodyError
+        For moments that no body has, and for numbers that are not finite.
+    UndefinedError
+        For a start without angular momentum.
+    """
+    body, spin = _broadcast(principal_moments(moments), _read_omega(omega))
+    # Dividing by powers of two is exact, and makes every number one of order one.
+    size, speed = _power_of_two(body.values), _power_of_two(spin)
+    unit = PrincipalMoments(
+        body.moment.scaled(1 / size[..., np.newaxis]),
+        body.difference.scaled(1 / size[..., np.newaxis]),
+    )
+    spin = spin / speed[..., np.newaxis]
+    spin = np.where(np.abs(spin) < _NEGLIGIBLE, 0.0, spin)
+    return _constants(body, _numbered(unit, spin), size, speed)
+
+
+def _constants(
+    body: PrincipalMoments, start: _Start, size: FloatArray, speed: FloatArray
+) -> JacobiMotion:
+    i1, i2, i3 = _components(start.moment)
+    r, d1, d3 = start.r, start.d1, start.d3
+    # No cone, or no difference of moments: anything circular will do.
+    circular = (d1.hi == 0) | (start.span.hi == 0)
+    k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1 * start.span))
+    k_complementary = k2_complementary.sqrt()
+    descent = landen_descent(k_complementary)
+
+    sense = np.sign(start.span.hi)
+    towards = np.where(sense < 0, -1.0, 1.0)  # the sign of sn that lambda above 0 needs
+    rate = start.span.scaled(towards) * (r * d1 / (i1 * i2 * i3)).sqrt()
+    amplitudes = stack((d3 / i1).sqrt(), (d3 / (r * i2)).sqrt() * towards, (d1 / i3).sqrt())
+    sine, cosine = _start_angle(amplitudes.hi, start.spin)
+    return JacobiMotion(
+        moments=body,
+        axes=start.axes,
+        signs=start.signs,
+        amplitudes=amplitudes.hi * speed[..., np.newaxis],
+        cosines=(amplitudes * start.moment / start.g[..., np.newaxis]).hi,
+        angular_momentum=start.g.hi * size * speed,
+        twice_energy=start.twice_energy.hi * size * speed**2,
+        sense=sense,
+        rate=rate.scaled(speed),
+        start=first_kind(sine, cosine, np.asarray(k2_complementary.hi)),
+        start_angle=np.arctan2(sine, cosine),
+        complementary_modulus=np.asarray(k_complementary.hi),
+        descent=descent,
+        precession=_precession(start, k_complementary, descent, speed),
+    )
+
+
+def _precession(
+    start: _Start, k_complementary: DoubleDouble, descent: LandenDescent, speed: FloatArray
+) -> Precession:
+    """Integrate psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
+
+    One step down Landen's descent, to k1 = (1 - k')/(1 + k') and v = (1 + k')u/2,
+
+        1/(1 + b dn u) = [1 + 2 b k1/(1 + b) sn^2 v/(1 + n sn^2 v)]/(1 + b)
+
+    with n = k1 (1 - b)/(1 + b): all terms are positive and 1 + n needs no care, while the
+    usual form divides by 1 - b^2 dn^2, which vanishes with the cone.
+    """
+    i1, i2, i3 = _components(start.moment)
+    g, d3 = start.g, start.d3
+    b = (start.d1 * i3).sqrt() / g
+    k1 = (1.0 - k_complementary) / (1.0 + k_complementary)
+    n = k1 * (1.0 - b) / (1.0 + b)
+    mean = third_kind_mean(n, descent)
+    mean_inverse = (1.0 + b.scaled(2.0) * k1 / (1.0 + b) * mean) / (1.0 + b)
+    rate = g / i3 + d3 * start.span / (i3 * g) * mean_inverse
+    # dt = du/lambda, and b/lambda = I3 sqrt(I1 I2/r)/(G |I3 - I1|).
+    swing = (
+        np.sign(start.span.hi)
+        * (d3 / (g * g)).hi
+        * np.sqrt((i1 * i2 / start.r).hi)
+        * (2 * k1.hi * (1 + k1.hi) / (1 + b.hi) ** 2)
+    )
+    return Precession(rate.scaled(speed), swing, np.asarray(n.hi), np.asarray(mean.hi))
+
+
+def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
+    """Number the axes: 3 is the one that m circles, 2 has the middle moment."""
+    c_b, a_c, b_a = np.moveaxis(unit.difference.hi, -1, 0)
+    # How many of the others each moment exceeds; their differences alone tell them apart.
+    rank = np.stack(
+        [(b_a < 0) * 1 + (a_c > 0), (b_a >= 0) * 1 + (c_b < 0), (a_c <= 0) * 1 + (c_b >= 0)],
+        axis=-1,
+    )
+    ascending = np.argsort(rank, axis=-1)
+    start = _along(unit, spin, ascending)
+    # On the separatrix either end will do, unless two moments are equal: then the other one.
+    smallest = (start.side.hi < 0) | ((start.side.hi == 0) & (start.r.hi < start.s.hi))
+    if not np.any(smallest):
+        return start
+    return _along(unit, spin, np.where(smallest[..., np.newaxis], ascending[..., ::-1], ascending))
+
+
+def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
+    """Take body and start to axes 1, 2, 3 and form what they are combined to."""
+    parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
+    moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
+    signs = np.where(spin < 0, -1.0, 1.0)
+    signs[..., 1] = parity * signs[..., 0] * signs[..., 2]  # right-handed
+    spin = spin * signs
+    momentum = moment * spin
+    x1, x2, x3 = _components(momentum * spin)  # m^2/I
+    i32, i13, i21 = _components(_take(unit.difference, axes).scaled(parity[..., np.newaxis]))
+    sphere = i13.hi == 0
+    divisor = where(sphere, 1.0, -i13)
+    r, s = where(sphere, 1.0, i32 / divisor), where(sphere, 0.0, i21 / divisor)
+    m1, m2, m3 = _components(momentum * momentum)
+    return _Start(
+        axes=axes,
+        signs=signs,
+        moment=moment,
+        spin=spin,
+        g=(m1 + m2 + m3).sqrt(),
+        twice_energy=x1 + x2 + x3,
+        span=-i13,
+        # No quotients here: a start in whole numbers is on the separatrix exactly.
+        side=i32 * x3 - i21 * x1,
+        r=r,
+        s=s,
+        d1=s * x2 + x3,
+        d3=x1 + r * x2,
+    )
+
+
+def _start_angle(amplitudes: FloatArray, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Sine and cosine of the amplitude of u0; 0 and 1 for a rotation about axis 3."""
+    upright = amplitudes[..., 0] == 0
+    divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes)
+    sine, cosine = spin[..., 1] / divisor[..., 1], spin[..., 0] / divisor[..., 0]
+    return sine, np.where(upright, 1.0, cosine)
+
+
+def _read_omega(omega: Any) -> FloatArray:
+    spin = finite(omega, "omega", "rad/s")
+    if spin.ndim == 0 or spin.shape[-1] != 3:
+        raise BodyError("rotor", "shape of omega", spin.shape, "give three components, in rad/s")
+    if np.any(np.all(spin == 0, axis=-1)):
+        raise UndefinedError(
+            "omega = [0, 0, 0] rad/s gives no angular momentum, so there is no rotation to "
+            "follow; give a start with at least one component other than zero"
+        )
+    return spin
+
+
+def _broadcast(body: PrincipalMoments, spin: FloatArray) -> tuple[PrincipalMoments, FloatArray]:
+    moment, difference = body.moment, body.difference
+    try:
+        a, b, c, d, spin = np.broadcast_arrays(
+            moment.hi, moment.lo, difference.hi, difference.lo, spin
+        )
+    except ValueError:
+        raise BodyError(
+            "rotor", "shape of omega", spin.shape, f"it must go with the moments' {moment.hi.shape}"
+        ) from None
+    return PrincipalMoments(DoubleDouble(a, b), DoubleDouble(c, d)), spin
+
+
+def _power_of_two(numbers: FloatArray) -> FloatArray:
+    _, exponent = np.frexp(np.max(np.abs(numbers), axis=-1))
+    return np.asarray(np.ldexp(1.0, exponent))
+
+
+def _take(numbers: DoubleDouble, axes: IntArray) -> DoubleDouble:
+    return DoubleDouble(
+        np.take_along_axis(numbers.hi, axes, -1), np.take_along_axis(numbers.lo, axes, -1)
+    )
+
+
+def _components(vector: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+    return vector[..., 0], vector[..., 1], vector[..., 2]

@@ -1,0 +1,174 @@
+"""Principal moments of a rotor, kept with their differences.
+
+A free motion hangs on the differences of the moments. To form them from rounded moments
+costs the Earth five of its sixteen digits, so they may be given:
+
+    [A, B, C]                                 three numbers, in any order of size
+    {"A": ..., "B-A": ..., "C-A": ...}        no digits lost
+
+A, B and C belong to the x, y and z axes of the body; none needs to be the largest. For a
+body that is close to axisymmetric let A be one of the two close ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import BodyError
+from earthspin.rotor.double_double import DoubleDouble, as_double_double, stack, two_sum
+
+FloatArray = NDArray[np.float64]
+#: Three numbers, a mapping with the keys of `KEYS`, or what `principal_moments` made of them.
+Moments = Any
+
+KEYS = ("A", "B-A", "C-A")
+#: A lamina has C = A + B; rounding may put it this far beyond, relative to C.
+_LAMINA = 4 * np.finfo(float).eps
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PrincipalMoments:
+    """Principal moments and their differences, each exact as given or derived.
+
+    Attributes
+    ----------
+    moment : DoubleDouble, shape (..., 3)
+        A, B, C about the x, y, z axes of the body, kg m2 (or any unit).
+    difference : DoubleDouble, shape (..., 3)
+        C - B, A - C, B - A: the factors of Euler's equations (I.4.3).
+    """
+
+    moment: DoubleDouble
+    difference: DoubleDouble
+
+    @property
+    def values(self) -> FloatArray:
+        """A, B, C as floats, shape (..., 3)."""
+        return np.asarray(self.moment.hi)
+
+    @property
+    def A(self) -> FloatArray:
+        """Moment about the x axis, kg m2."""
+        return self.values[..., 0]
+
+    @property
+    def B(self) -> FloatArray:
+        """Moment about the y axis, kg m2."""
+        return self.values[..., 1]
+
+    @property
+    def C(self) -> FloatArray:
+        """Moment about the z axis, kg m2."""
+        return self.values[..., 2]
+
+    @property
+    def B_A(self) -> FloatArray:
+        """B - A, kg m2."""
+        return np.asarray(self.difference.hi[..., 2])
+
+    @property
+    def C_A(self) -> FloatArray:
+        """C - A, kg m2."""
+        return np.asarray(-self.difference.hi[..., 1])
+
+    @property
+    def C_B(self) -> FloatArray:
+        """C - B, kg m2."""
+        return np.asarray(self.difference.hi[..., 0])
+
+
+def principal_moments(given: Moments) -> PrincipalMoments:
+    """Read principal moments and check that a body can have them.
+
+    Parameters
+    ----------
+    given : sequence of three numbers, mapping, or PrincipalMoments
+        A, B, C, as array of shape (..., 3) for many bodies; or ``{"A", "B-A", "C-A"}``,
+        whose values broadcast against each other; kg m2.
+
+    Returns
+    -------
+    PrincipalMoments
+
+    Raises
+    ------
+    BodyError
+        For a moment that is not above zero, or that exceeds the sum of the other two.
+    """
+    if isinstance(given, PrincipalMoments):
+        return given
+    moments = _from_differences(given) if isinstance(given, Mapping) else _from_three(given)
+    _check(moments)
+    return moments
+
+
+def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
+    if set(given) != set(KEYS):
+        raise BodyError(
+            "rotor", "moments", sorted(map(str, given)), f"the keys are {', '.join(KEYS)}"
+        )
+    parts = [finite(given[key], key, "kg m2") for key in KEYS]
+    try:
+        a, b_a, c_a = np.broadcast_arrays(*parts)
+    except ValueError:
+        shapes = [part.shape for part in parts]
+        rule = "A, B-A and C-A must have shapes that go together"
+        raise BodyError("rotor", "shape of moments", shapes, rule) from None
+    zero = np.zeros_like(a)
+    first, towards_b, towards_c = (DoubleDouble(x, zero) for x in (a, b_a, c_a))
+    return PrincipalMoments(
+        stack(first, first + towards_b, first + towards_c),
+        stack(towards_c - towards_b, -towards_c, towards_b),
+    )
+
+
+def _from_three(given: Any) -> PrincipalMoments:
+    abc = finite(given, "moments", "kg m2")
+    if abc.ndim == 0 or abc.shape[-1] != 3:
+        raise BodyError("rotor", "shape of moments", abc.shape, "give three numbers, A, B, C")
+    a, b, c = np.moveaxis(abc, -1, 0)
+    return PrincipalMoments(
+        as_double_double(abc),
+        stack(*(DoubleDouble(*two_sum(x, -y)) for x, y in ((c, b), (a, c), (b, a)))),
+    )
+
+
+def _check(moments: PrincipalMoments) -> None:
+    values = moments.values
+    for axis, name in enumerate("ABC"):
+        own = values[..., axis]
+        if not np.all(own > 0):
+            raise BodyError("rotor", name, float(np.min(own)), "a principal moment is above zero")
+    for axis, name in enumerate("ABC"):
+        own = values[..., axis]
+        # Ij + Ik - Ii, the difference Ij - Ii taken as it was given.
+        room = values[..., axis - 1] + moments.difference.hi[..., axis - 1]
+        if np.any(room < -_LAMINA * own):
+            at = np.unravel_index(np.argmin(room / own), own.shape)
+            others = " + ".join(f"{values[(*at, i)]:.16g}" for i in range(3) if i != axis)
+            rule = f"no principal moment exceeds the sum of the other two, here {others}"
+            raise BodyError("rotor", name, float(own[at]), rule)
+
+
+def finite(given: Any, name: str, unit: str) -> FloatArray:
+    """Read an array of floats, none of them infinite or missing.
+
+    Parameters
+    ----------
+    given : array_like
+    name, unit : str
+        What it is called, and measured in, for the error.
+    """
+    try:
+        numbers = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise BodyError("rotor", name, given, f"give numbers, in {unit}") from None
+    bad = numbers[~np.isfinite(numbers)]
+    if bad.size:
+        raise BodyError("rotor", name, float(bad.flat[0]), f"give finite numbers, in {unit}")
+    return numbers

@@ -1,0 +1,85 @@
+"""Unit quaternions (w, x, y, z): attitude of a body, from body axes to inertial axes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
+    """Hamilton's product: the turn q first, then p.
+
+    Parameters
+    ----------
+    p, q : ndarray, shape (..., 4)
+
+    Returns
+    -------
+    ndarray, shape (..., 4)
+    """
+    pw, px, py, pz = np.moveaxis(p, -1, 0)
+    qw, qx, qy, qz = np.moveaxis(q, -1, 0)
+    return np.stack(
+        [
+            pw * qw - px * qx - py * qy - pz * qz,
+            pw * qx + px * qw + py * qz - pz * qy,
+            pw * qy - px * qz + py * qw + pz * qx,
+            pw * qz + px * qy - py * qx + pz * qw,
+        ],
+        axis=-1,
+    )
+
+
+def conjugate(q: FloatArray) -> FloatArray:
+    """The inverse turn of a unit quaternion.
+
+    Parameters
+    ----------
+    q : ndarray, shape (..., 4)
+    """
+    return np.asarray(q * np.array([1.0, -1.0, -1.0, -1.0]))
+
+
+def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
+    """Components of a vector after the turn: body to inertial, if q is an attitude.
+
+    Parameters
+    ----------
+    q : ndarray, shape (..., 4)
+        Of unit length.
+    v : ndarray, shape (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+    """
+    w, x, y, z = np.moveaxis(q, -1, 0)
+    vx, vy, vz = np.moveaxis(v, -1, 0)
+    # v + 2 w (u x v) + 2 u x (u x v), with u the vector part of q.
+    tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+    return np.stack(
+        [
+            vx + w * tx + y * tz - z * ty,
+            vy + w * ty + z * tx - x * tz,
+            vz + w * tz + x * ty - y * tx,
+        ],
+        axis=-1,
+    )
+
+
+def turn_about_z(half_angle: FloatArray) -> FloatArray:
+    """Quaternion of a turn about the z axis.
+
+    Parameters
+    ----------
+    half_angle : ndarray
+        Half the angle of the turn, rad.
+
+    Returns
+    -------
+    ndarray, shape (..., 4)
+    """
+    zero = np.zeros_like(half_angle)
+    return np.stack([np.cos(half_angle), zero, zero, np.sin(half_angle)], axis=-1)

@@ -1,0 +1,200 @@
+"""Free rotation of any body from any start: Jacobi's closed form in time (I.4.4, I.5).
+
+The constants are those of `constants_of_motion`, where the formulas stand. Phases are
+reduced with 32 digits, so that the errors do not grow with time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import BodyError
+from earthspin.rotor import quaternion
+from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
+from earthspin.rotor.double_double import TWO_PI
+from earthspin.rotor.elliptic import Jacobi, jacobi, third_kind_periodic
+from earthspin.rotor.moments import Moments, finite
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FreeRotation:
+    """How a body turns without torque.
+
+    The inertial axes are those of the body at t = 0.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        s.
+    omega_body : ndarray, shape (..., n, 3)
+        Angular velocity along the principal axes, rad/s.
+    angular_momentum_body : ndarray, shape (..., n, 3)
+        Along the principal axes, kg m2/s.
+    attitude : ndarray, shape (..., n, 4)
+        Unit quaternion w, x, y, z from body to inertial axes: 1, 0, 0, 0 at t = 0, and
+        continuous in time.
+    omega_inertial : ndarray, shape (..., n, 3)
+        Angular velocity along the inertial axes, rad/s.
+    energy : ndarray, shape (..., n)
+        Kinetic energy, J.
+    """
+
+    times: FloatArray
+    omega_body: FloatArray
+    angular_momentum_body: FloatArray
+    attitude: FloatArray
+    omega_inertial: FloatArray
+    energy: FloatArray
+
+
+def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
+    """Rotate a body without torque, in closed form (I.4.4, I.5).
+
+    Inputs are taken as exact; what the last digit of one of them does to a late attitude is
+    the motion's own doing, not an error of the method.
+
+    Parameters
+    ----------
+    moments : sequence of three numbers, mapping or PrincipalMoments
+        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+    omega : array_like, shape (..., 3)
+        Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
+        broadcast against each other.
+    times : array_like, shape (n,)
+        s, of either sign, in any order.
+
+    Returns
+    -------
+    FreeRotation
+
+    Raises
+    ------
+    BodyError
+        For moments that no body has, and for numbers that are not finite.
+    UndefinedError
+        For a start without angular momentum.
+    """
+    t = finite(times, "times", "s")
+    if t.ndim != 1:
+        raise BodyError("rotor", "shape of times", t.shape, "give one row of times, in s")
+    motion = jacobi_motion(moments, omega)
+    # The start goes in front, because psi counts from there.
+    phase = phase_at(motion, np.concatenate([[0.0], t]))
+    omega_body = to_body(motion, phase.along(motion.amplitudes))[..., 1:, :]
+    momentum = omega_body * motion.moments.values[..., np.newaxis, :]
+    attitude = _attitude(motion, phase)[..., 1:, :]
+    return FreeRotation(
+        times=t,
+        omega_body=omega_body,
+        angular_momentum_body=momentum,
+        attitude=attitude,
+        omega_inertial=quaternion.rotate(attitude, omega_body),
+        energy=np.sum(omega_body * momentum, axis=-1) / 2,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Phase:
+    """Where a motion stands in its period.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        s.
+    u : ndarray, shape (..., n)
+        Argument of the elliptic functions, less whole half periods: from -K to K.
+    turned : ndarray, shape (..., n)
+        -1 after an odd number of half periods, else 1.
+    upper, lower : Jacobi
+        Functions of u, and of what it becomes one step down Landen's descent.
+    """
+
+    times: FloatArray
+    u: FloatArray
+    turned: FloatArray
+    upper: Jacobi
+    lower: Jacobi
+
+    def along(self, amplitudes: FloatArray) -> FloatArray:
+        """Vector with these amplitudes of cn, sn, dn, shape (..., n, 3)."""
+        sn, cn, dn = self.upper
+        return np.stack([self.turned * cn, self.turned * sn, dn], -1) * amplitudes[..., None, :]
+
+
+def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
+    """Reduce lambda t + u0 by half periods and evaluate the elliptic functions.
+
+    Parameters
+    ----------
+    motion : JacobiMotion
+    times : ndarray, shape (n,)
+        s.
+    """
+    half_period = motion.descent.quarter_period.scaled(2.0)[..., np.newaxis]
+    start = motion.start[..., np.newaxis]
+    run = motion.rate[..., np.newaxis] * times
+    periodic = half_period.hi > 0  # else on the separatrix, where u may be infinite
+    halves = np.rint(
+        np.where(periodic, run.hi + start, 0.0) / np.where(periodic, half_period.hi, 1)
+    )
+    rest = run - half_period * halves
+    u = rest.hi + start
+    return Phase(times, u, 1.0 - 2.0 * np.mod(halves, 2.0), *jacobi(u, motion.descent))
+
+
+def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
+    """Take components along 1, 2, 3 to the body's own axes.
+
+    Parameters
+    ----------
+    motion : JacobiMotion
+    vectors : ndarray, shape (..., n, 3)
+    """
+    order = np.argsort(motion.axes, axis=-1)[..., np.newaxis, :]
+    return np.take_along_axis(vectors * motion.signs[..., np.newaxis, :], order, axis=-1)
+
+
+def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
+    """Quaternion from axes 1, 2, 3 to inertial axes whose third is the angular momentum.
+
+    Parameters
+    ----------
+    motion : JacobiMotion
+    phase : Phase
+        Psi counts from the first of its times.
+    """
+    return quaternion.multiply(
+        quaternion.turn_about_z(_half_psi(motion, phase)),
+        _shortest_turn(phase.along(motion.cosines)),
+    )
+
+
+def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
+    """Quaternion since the first of the times, along the body's own axes."""
+    frame = momentum_frame(motion, phase)
+    turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
+    return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)
+
+
+def _shortest_turn(cosines: FloatArray) -> FloatArray:
+    """Quaternion that takes a unit vector with third component >= 0 to the third axis."""
+    x, y, z = np.moveaxis(cosines, -1, 0)
+    turn = np.stack([1 + z, y, -x, np.zeros_like(z)], axis=-1)
+    return np.asarray(turn / np.sqrt(np.sum(turn * turn, axis=-1, keepdims=True)))
+
+
+def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
+    """Half the angle about the angular momentum since the first of the times, rad."""
+    precession = motion.precession
+    run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
+    rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)
+    periodic = precession.swing[..., np.newaxis] * third_kind_periodic(
+        phase.u, phase.lower, precession.n, precession.mean, motion.descent
+    )
+    return np.asarray(rest.hi + (periodic - periodic[..., :1]) / 2)

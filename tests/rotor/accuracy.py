@@ -1,0 +1,90 @@
+"""Accuracy and run time of the closed form: ``python -m tests.rotor.accuracy [cases]``.
+
+Errors are against the textbook's form at eighty digits: of each component of omega
+relative to its own largest value in the motion, and of the elements of the attitude matrix.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+import mpmath as mp
+import numpy as np
+
+from earthspin.rotor.triaxial import free_rotation
+from tests.rotor.families import FAMILIES, Case, cases
+from tests.rotor.textbook import DIGITS, Textbook
+
+#: Times in periods: within a few, and after ten thousand. Next to the sphere, where a period
+#: lasts 10^15 turns, the late time is 10^15 rad of turning.
+FRACTIONS = (-0.83, 0.31, 3.17)
+LATE = 9999.37
+MOST_TURNING = 1e15
+
+
+def errors(case: Case) -> tuple[float, float]:
+    """Largest error within a few periods, and after ten thousand."""
+    with mp.workdps(DIGITS):
+        book = Textbook(*case)
+        late = (3 if book.separatrix else LATE) * float(book.period)
+        late = min(late, MOST_TURNING / float(np.linalg.norm(case.omega)))
+        times = np.array([*(part * float(book.period) for part in FRACTIONS), late])
+        found = free_rotation(*case, times)
+        off = [
+            max(
+                *(
+                    float(abs(w - exact) / size)
+                    for w, exact, size in zip(omega, state.omega, state.amplitude, strict=True)
+                ),
+                *(
+                    float(abs(element - state.attitude[i, j]))
+                    for (i, j), element in np.ndenumerate(matrix(q))
+                ),
+            )
+            for omega, q, state in zip(
+                found.omega_body, found.attitude, map(book.at, times), strict=True
+            )
+        ]
+    return max(off[:-1]), off[-1]
+
+
+def matrix(q: Any) -> Any:
+    """Rotation matrix of a unit quaternion."""
+    w, x, y, z = q
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def microseconds(family: str) -> float:
+    """Run time per body and time, for a hundred bodies at a thousand times."""
+    bodies = list(cases(family, 100))
+    omega = np.array([case.omega for case in bodies])
+    if isinstance(bodies[0].moments, dict):
+        moments: Any = {k: np.array([b.moments[k] for b in bodies]) for k in bodies[0].moments}
+    else:
+        moments = np.array([case.moments for case in bodies])
+    times = np.linspace(0, 1e3, 1000) / np.max(np.abs(omega))
+    begin = time.perf_counter()
+    free_rotation(moments, omega, times)
+    return (time.perf_counter() - begin) / (len(bodies) * len(times)) * 1e6
+
+
+def main() -> None:
+    """Print the table."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
+    print(f"{'family':22} {'cases':>6} {'few periods':>12} {'10^4 periods':>13} {'us':>6}")
+    for family in FAMILIES:
+        found = np.array([errors(case) for case in cases(family, count)])
+        few, late = found.max(axis=0)
+        print(f"{family:22} {count:6} {few:12.2e} {late:13.2e} {microseconds(family):6.2f}")
+
+
+if __name__ == "__main__":
+    main()
