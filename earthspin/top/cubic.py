@@ -65,6 +65,11 @@ class AxisStart(NamedTuple):
         return self.theta_rate**2 + self.phi_rate**2 * self.sine2
 
     @property
+    def asleep(self) -> NDArray[np.bool_]:
+        """Whether the axis is on the vertical and stays, if only for want of the least push."""
+        return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
+
+    @property
     def b_minus_a(self) -> FloatArray:
         """Difference b - a, which vanishes if the axis can pass the upper pole."""
         return self.below * (self.phi_rate * self.above - self.a)
@@ -109,10 +114,9 @@ def axis_start(top: HeavyTop) -> AxisStart:
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
-    fastest = np.max(
-        np.abs(np.broadcast_arrays(top.theta_rate, top.phi_rate, a, np.sqrt(np.abs(beta)))), axis=0
-    )
-    unit = np.ldexp(1.0, np.frexp(fastest)[1])
+    across = top.phi_rate * np.sqrt(below * above)
+    rates = np.abs(np.stack([top.theta_rate, across, a, np.sqrt(np.abs(beta))]))
+    unit = np.ldexp(1.0, np.frexp(np.max(rates, axis=0))[1])
     turned = np.asarray(beta < 0)
     sign = np.where(turned, -1.0, 1.0)
     return AxisStart(

@@ -18,6 +18,12 @@ from earthspin.top.turning import mean_precession_rate, nutation_period, turning
 
 FloatArray = NDArray[np.float64]
 
+#: Times beyond this are a mistake, and would overflow.
+_LONGEST = 1e100
+
+# e^(i pi n/4)
+_EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
+
 
 @dataclass(frozen=True, eq=False)
 class HeavyTopMotion:
@@ -76,7 +82,16 @@ class Angle(NamedTuple):
     def half(self) -> NDArray[np.complex128]:
         """Phase of half the angle, e^(i angle/2)."""
         eighths = np.mod(self.quarters, 8).astype(int)
-        return np.exp(0.5j * self.rest) * np.exp(0.25j * np.pi * np.arange(8))[eighths]
+        phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
+        return phase
+
+    def plus(self, other: FloatArray) -> Angle:
+        """Sum with an angle in rad."""
+        return Angle(self.quarters, self.rest + other)
+
+    def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
+        """Another angle in rad, where the condition holds."""
+        return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 
 
 def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
@@ -96,12 +111,13 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
     Raises
     ------
     BodyError
-        If a time is not finite.
+        If a time is not a finite number.
     """
     times = np.asarray(times, dtype=np.float64)
-    if not np.all(np.isfinite(times)):
-        bad = float(times[~np.isfinite(times)].flat[0])
-        raise BodyError("heavy top", "times", bad, "give finite numbers of seconds")
+    usable = np.abs(times) <= _LONGEST
+    if not np.all(usable):
+        bad = float(times[~usable].flat[0])
+        raise BodyError("heavy top", "times", bad, f"give seconds up to {_LONGEST:g}")
     spread = _with_axes(top, times.ndim)
     nutation = nutation_of(spread)
     place = place_at(nutation, times * nutation.start.rate_unit)
@@ -147,17 +163,16 @@ def _phi_and_psi(
         Angle(now - then, angle - begin)
         for now, then, angle, begin in zip(quarters, first_quarters, rest, first_rest, strict=True)
     )
-    asleep = (nutation.start.sine2 == 0) & (nutation.swing == 0)
     # Seen from the other end of the axis the body turns the other way.
     sense = np.where(nutation.start.turned, -1.0, 1.0)
-    slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment
-    psi_rate = np.where(asleep, top.spin - top.phi_rate * np.cos(top.theta), slack * top.spin)
-    sense, moves = np.where(asleep, 0.0, sense), np.where(asleep, 0.0, 1.0)
-    phi_rate = np.where(asleep, top.phi_rate, 0.0)
-    return (
-        Angle(moves * phi.quarters, top.phi + (moves * phi.rest + phi_rate * times)),
-        Angle(sense * psi.quarters, top.psi + (sense * psi.rest + psi_rate * times)),
-    )
+    slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment * top.spin
+    psi = Angle(sense * psi.quarters, sense * psi.rest + slack * times)
+    # Asleep, phi and psi share the turning out as they did at the start.
+    asleep = nutation.start.asleep
+    psi_rate = top.spin - top.phi_rate * np.cos(top.theta)
+    phi = phi.replaced(asleep, top.phi_rate * times)
+    psi = psi.replaced(asleep, psi_rate * times)
+    return phi.plus(top.phi), psi.plus(top.psi)
 
 
 def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:

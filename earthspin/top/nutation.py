@@ -73,12 +73,12 @@ class Nutation(NamedTuple):
     @property
     def crosses_lower_pole(self) -> BoolArray:
         """Whether the axis passes exactly through the lower pole."""
-        return (self.gaps.lower_pole == 0) & (self.swing > 0)
+        return np.asarray((self.gaps.lower_pole == 0) & (self.swing > 0))
 
     @property
     def crosses_upper_pole(self) -> BoolArray:
         """Whether the axis passes exactly through the upper pole."""
-        return (self.gaps.upper_pole == 0) & (self.swing > 0)
+        return np.asarray((self.gaps.upper_pole == 0) & (self.swing > 0))
 
     @property
     def depth(self) -> FloatArray:
@@ -96,17 +96,20 @@ class Place(NamedTuple):
 
     Attributes
     ----------
-    count : ndarray
+    halves : ndarray
         Half periods from the first lower turning point to the turning point next to the
         instant: even at lower ones, odd at upper ones.
     upper : ndarray of bool
         Whether that is an upper turning point.
+    phase : ndarray
+        Omega times the time since that turning point, from -K/2 to K/2.
     sn, cn, dn : ndarray
-        Jacobi's functions of Omega times the time since that turning point.
+        Jacobi's functions of the phase.
     """
 
-    count: FloatArray
+    halves: FloatArray
     upper: BoolArray
+    phase: FloatArray
     sn: FloatArray
     cn: FloatArray
     dn: FloatArray
@@ -135,9 +138,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
     """Work out the nutation of a batch of tops from their starts."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
-    # On the vertical and not leaving it: asleep, even where the slightest push would end it.
-    asleep = (start.sine2 == 0) & (start.rate2 == 0)
-    gaps = gaps._replace(lower=np.where(asleep, 0.0, gaps.lower))
+    gaps = gaps._replace(lower=np.where(start.asleep, 0.0, gaps.lower))
     swing = gaps.lower + gaps.upper
     stiffness = gaps.outer + start.beta * (start.below + gaps.lower)
     above = gaps.outer + start.beta * gaps.upper_pole
@@ -184,14 +185,15 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
     half_period = nutation.half_period
     # fmod is exact: a long time loses nothing but what the period itself lacks.
     rest = np.fmod(elapsed, half_period)
-    count = np.rint((elapsed - rest) / half_period) + nutation.at_upper
+    halves = np.rint((elapsed - rest) / half_period) + nutation.at_upper
     rest = rest + nutation.phase
     shift = np.rint(rest / half_period)
-    count, since = count + shift, rest - shift * half_period
-    upper = np.fmod(count, 2) != 0
+    halves, since = halves + shift, rest - shift * half_period
+    upper = np.fmod(halves, 2) != 0
     on_pole = np.where(upper, nutation.crosses_upper_pole, nutation.crosses_lower_pole)
     since = np.where(on_pole & (since == 0), _MOMENT, since)
-    return Place(count, upper, *jacobi_sncndn(nutation.rate * since, nutation.complement))
+    phase = nutation.rate * since
+    return Place(halves, upper, phase, *jacobi_sncndn(phase, nutation.complement))
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:

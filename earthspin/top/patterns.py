@@ -39,11 +39,10 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
         Steady motion and cusps are told to within rounding of the start.
     """
     start = axis_start(top)
-    asleep = (start.sine2 == 0) & (start.rate2 == 0)
-    turning = np.abs(start.b) < np.abs(start.a)
+    turning = start.b_minus_a * start.b_plus_a < 0  # |b| < |a|
     drive, size = _loop_drive(start)
     conditions = [
-        asleep,
+        start.asleep,
         _is_steady(start),
         turning & (np.abs(drive) <= _ROUNDING * size),
         turning & (start.a * drive > 0),
@@ -115,7 +114,7 @@ def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta
     balanced = np.abs(gyroscopic - centrifugal - start.beta) <= _ROUNDING * size
-    return (start.theta_rate == 0) & (start.sine2 > 0) & balanced
+    return np.asarray((start.theta_rate == 0) & (start.sine2 > 0) & balanced)
 
 
 def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:

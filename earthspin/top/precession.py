@@ -20,8 +20,8 @@ of the phase it is the same from either turning point,
 
 for sigma, and 1 - (1 - u1)/(u3 - u1) sn^2 for delta. For |b| < |a|, as in a fast top, the arc
 tangents wind in opposite senses and cancel, while the integrals add up: the slow precession
-keeps its digits. Where b is close to a though the axis stays away from the upper pole, delta
-hardly moves, its two parts would cancel, and Legendre's own form is taken.
+keeps its digits. Far from the pole, beside the distance of u3, there is no quick half turn; the
+two parts of delta would then cancel, those of sigma be large, and Legendre's form is taken.
 """
 
 from __future__ import annotations
@@ -30,11 +30,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ellipkm1, elliprf, elliprj
+from scipy.special import ellipkm1, elliprj
 
+from earthspin.top.elliptic import complete_third_kind
 from earthspin.top.nutation import Nutation, Place
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 
 # cos and sin of a whole number of quarter turns
 _COSINE = np.array([1.0, 0.0, -1.0, 0.0])
@@ -67,10 +69,10 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
     full, part = _complete_integrals(nutation), _partial_integrals(nutation, place)
     arc = _arc_tangents(nutation, place)
     rest = Turned(
-        arc.phi + (place.count * full.phi + part.phi),
-        arc.psi + (place.count * full.psi + part.psi),
+        arc.phi + (place.halves * full.phi + part.phi),
+        arc.psi + (place.halves * full.psi + part.psi),
     )
-    return _windings(nutation, place.count), rest
+    return _windings(nutation, place.halves), rest
 
 
 def mean_precession(nutation: Nutation) -> FloatArray:
@@ -78,23 +80,27 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
     A top that passes exactly over a pole is given the mean of the two limits from either side.
     """
-    start, full = nutation.start, _complete_integrals(nutation)
-    sigma = np.where(nutation.crosses_lower_pole, 0.0, np.sign(start.b_plus_a))
+    full = _complete_integrals(nutation)
+    sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))
     delta = np.where(nutation.crosses_upper_pole, 0.0, _upper_winding(nutation))
     return (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
 
 
-def _windings(nutation: Nutation, count: FloatArray) -> Turned:
+def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
     """Quarter turns of phi and psi at a turning point, from the arc tangents.
 
     Exactly over a pole the half turn has no sense; it is taken to and fro by turns.
     """
-    start, quarter = nutation.start, np.mod(count, 4).astype(int)
-    sigma = np.where(nutation.crosses_lower_pole, _SINE[quarter], count * np.sign(start.b_plus_a))
-    delta = np.where(
-        nutation.crosses_upper_pole, -_COSINE[quarter], count * _upper_winding(nutation)
-    )
+    quarter = np.mod(halves, 4).astype(int)
+    lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
+    sigma = np.where(lower, _SINE[quarter], halves * _lower_winding(nutation))
+    delta = np.where(upper, -_COSINE[quarter], halves * _upper_winding(nutation))
     return Turned(sigma + delta, sigma - delta)
+
+
+def _lower_winding(nutation: Nutation) -> FloatArray:
+    """Quarter turns of sigma in half a period, from the arc tangent."""
+    return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
@@ -102,8 +108,13 @@ def _upper_winding(nutation: Nutation) -> FloatArray:
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
-def _has_upper_arc(nutation: Nutation) -> NDArray[np.bool_]:
-    """Whether delta is an arc tangent and a regular integral: unless u3 is closer to 1 than u2."""
+def _has_lower_arc(nutation: Nutation) -> BoolArray:
+    """Whether sigma takes the arc tangent: unless u1 is closer to u3 than to the lower pole."""
+    return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
+
+
+def _has_upper_arc(nutation: Nutation) -> BoolArray:
+    """Whether delta takes the arc tangent: unless u3 is closer to the upper pole than u2."""
     return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
 
 
@@ -136,13 +147,16 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
     x = 2 * nutation.rate * place.cn * np.where(upper, 1.0, place.dn)
     straight, crossed = away * root * x**2, pole_rate * other * y**2
     side = _side_of_pole(nutation, place)
-    both = _has_upper_arc(nutation)
-    sigma_y = np.where(upper, other, side * pole_rate) * y
-    sigma = np.arctan2(sigma_y, np.where(upper, away, side * root) * x)
-    return Turned(
-        np.where(both, np.arctan2(side * b_minus_au * x * y, side * (straight - crossed)), sigma),
-        np.where(both, np.arctan2(side * a_minus_bu * x * y, side * (straight + crossed)), sigma),
-    )
+    # The arc tangents one by one, for those that take only one of them.
+    met = np.arctan2(side * pole_rate * y, side * root * x)
+    unmet = np.arctan2(other * y, away * x)
+    has_lower, has_upper = _has_lower_arc(nutation), _has_upper_arc(nutation)
+    sigma = np.where(has_lower, np.where(upper, unmet, met), 0.0)
+    delta = np.where(has_upper, np.where(upper, met, unmet), 0.0)
+    both = has_lower & has_upper
+    total = np.arctan2(side * b_minus_au * x * y, side * (straight - crossed))
+    difference = np.arctan2(side * a_minus_bu * x * y, side * (straight + crossed))
+    return Turned(np.where(both, total, sigma + delta), np.where(both, difference, sigma - delta))
 
 
 def _sum_or(
@@ -171,51 +185,78 @@ def _upper_pole_rate(nutation: Nutation) -> FloatArray:
 
 def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
     """Sense of the half turn at this passage over a pole; 1 for those that miss it."""
-    quarter = np.mod(place.count, 4).astype(int)
+    quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
     upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
     return np.where(place.upper, upper, lower)
 
 
-class _Third(NamedTuple):
-    """The integral (first sn RF + third sn^3 RJ) of cn^2, dn^2, 1, with cn^2 + shape sn^2."""
+class _Integral(NamedTuple):
+    """The integral first F + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2), F = Omega t."""
 
     first: FloatArray
     third: FloatArray
     shape: FloatArray
 
 
-def _sigma_integral(nutation: Nutation) -> _Third:
-    """The regular integral of sigma, the same from either turning point."""
-    start = nutation.start
-    third = start.b_plus_a * start.beta / (24 * nutation.rate**3)
-    stiffness = 4 * nutation.rate**2
-    return _Third(0.0 * third, third, 1 + start.beta * nutation.gaps.lower_pole / stiffness)
+def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
+    """What sigma and delta have beside the arc tangents, from a lower or upper turning point."""
+    start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
+    return (
+        _integral(
+            nutation,
+            start.b_plus_a,
+            gaps.lower_pole,
+            nutation.height,
+            upper,
+            _has_lower_arc(nutation),
+            1 + start.beta * gaps.lower_pole / stiffness,
+        ),
+        _integral(
+            nutation,
+            -start.b_minus_a,
+            -nutation.depth,
+            -gaps.upper_pole,
+            upper,
+            _has_upper_arc(nutation),
+            gaps.outer / stiffness,
+        ),
+    )
 
 
-def _delta_integral(nutation: Nutation, upper: NDArray[np.bool_]) -> _Third:
-    """The regular integral of delta; without an arc tangent, all of delta by Legendre's form."""
-    start, gaps, rate = nutation.start, nutation.gaps, nutation.rate
-    arc = _has_upper_arc(nutation)
-    high, low = np.where(arc, 1.0, gaps.upper_pole), np.where(arc, 1.0, nutation.depth)
-    drop = np.where(upper, high, low)  # 1 - u at the turning point
-    pace = start.b_minus_a / (2 * rate)
-    slope = nutation.swing * np.where(upper, -nutation.complement, 1.0) / drop
-    shape = np.where(upper, nutation.complement * low, high) / drop
-    return _Third(
-        np.where(arc, 0.0, pace / drop),
-        np.where(arc, -pace * start.beta / (12 * rate**2), pace * slope / (3 * drop)),
-        np.where(arc, gaps.outer / (4 * rate**2), shape),
+def _integral(
+    nutation: Nutation,
+    total: FloatArray,
+    lower_end: FloatArray,
+    upper_end: FloatArray,
+    upper: BoolArray,
+    arc: BoolArray,
+    regular_shape: FloatArray,
+) -> _Integral:
+    """Integral of total/2/(u - pole): its regular part, or all of it if it takes no arc tangent.
+
+    The ends are the turning points, reckoned from the pole.
+    """
+    pace = total / (2 * nutation.rate)
+    near = np.where(arc, 1.0, np.where(upper, upper_end, lower_end))
+    far = np.where(upper, lower_end, upper_end)
+    squeeze = np.where(upper, nutation.complement, 1.0)
+    swing = np.where(upper, nutation.swing, -nutation.swing)
+    return _Integral(
+        np.where(arc, 0.0, pace / near),
+        pace
+        / 3
+        * np.where(arc, nutation.start.beta / (4 * nutation.rate**2), squeeze * swing / near**2),
+        np.where(arc, regular_shape, squeeze * far / near),
     )
 
 
 def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
     """Integrals of phi and psi since the turning point."""
     sn, cn2, dn2 = place.sn, place.cn**2, place.dn**2
-    first_kind = sn * elliprf(cn2, dn2, 1.0)
     sigma, delta = (
-        x.first * first_kind + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
-        for x in (_sigma_integral(nutation), _delta_integral(nutation, place.upper))
+        x.first * place.phase + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
+        for x in _integrals(nutation, place.upper)
     )
     return Turned(sigma + delta, sigma - delta)
 
@@ -226,8 +267,12 @@ def _complete_integrals(nutation: Nutation) -> Turned:
     complement = np.where(returns, nutation.complement, 1.0)
     first_kind = ellipkm1(complement)
     sigma, delta = (
-        np.where(returns, x.first * first_kind + x.third * elliprj(0.0, complement, 1.0, shape), 0)
-        for x in (_sigma_integral(nutation), _delta_integral(nutation, np.asarray(False)))
+        np.where(
+            returns,
+            x.first * first_kind + 3 * x.third * complete_third_kind(complement, shape),
+            0.0,
+        )
+        for x in _integrals(nutation, np.asarray(False))
         for shape in (np.where(x.shape > 0, x.shape, 1.0),)  # 0 where nothing moves
     )
     return Turned(sigma + delta, sigma - delta)

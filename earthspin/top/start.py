@@ -19,6 +19,8 @@ from earthspin.errors import BodyError
 FloatArray = NDArray[np.float64]
 
 _NAME = "heavy top"
+#: Rates beyond this are a mistake, and would overflow.
+_FASTEST = 1e100
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -65,23 +67,28 @@ class HeavyTop:
         for name, value in zip(names, given, strict=True):
             _require(np.isfinite(value), name, value, "give a finite number")
         for name, value in zip(names, _broadcast(names, given), strict=True):
-            object.__setattr__(self, name, value)
+            own = value.copy()
+            own.flags.writeable = False
+            object.__setattr__(self, name, own)
         self._check()
 
     @classmethod
-    def from_euler_rates(cls, *, psi_rate: ArrayLike, **start: Any) -> HeavyTop:
+    def from_euler_rates(
+        cls, *, theta: ArrayLike, phi_rate: ArrayLike, psi_rate: ArrayLike, **rest: Any
+    ) -> HeavyTop:
         """Start from psi' instead of the spin: omega3 = phi' cos(theta) + psi' (I.7.3).
 
         Parameters
         ----------
-        psi_rate : float or ndarray
+        theta : float or ndarray
+            rad.
+        phi_rate, psi_rate : float or ndarray
             rad/s.
-        **start
+        **rest
             The other fields.
         """
-        cosine = np.cos(np.asarray(start["theta"], dtype=np.float64))
-        phi_rate = np.asarray(start.get("phi_rate", 0.0), dtype=np.float64)
-        return cls(spin=phi_rate * cosine + np.asarray(psi_rate, dtype=np.float64), **start)
+        spin = np.multiply(phi_rate, np.cos(theta)) + psi_rate
+        return cls(theta=theta, phi_rate=phi_rate, spin=spin, **rest)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -93,7 +100,13 @@ class HeavyTop:
         _require(i1 > 0, "transverse_moment", i1, "give a positive number of kg m2")
         _require(i3 > 0, "axial_moment", i3, "give a positive number of kg m2")
         most = "no body has more than twice its transverse moment about the pivot"
-        _require(i3 <= 2 * i1, "axial_moment", i3, most)
+        _require(i3 <= 2 * i1 * (1 + 1e-14), "axial_moment", i3, most)
+        for name in ("theta_rate", "phi_rate", "spin"):
+            rate = getattr(self, name)
+            _require(np.abs(rate) <= _FASTEST, name, rate, f"give at most {_FASTEST:g} rad/s")
+        weight = self.weight_moment
+        slow = np.abs(weight) / _FASTEST <= i1 * _FASTEST
+        _require(slow, "weight_moment", weight, "its transverse moment is too small for it")
         upright_to_hanging = (self.theta >= 0) & (self.theta <= np.pi)
         _require(upright_to_hanging, "theta", self.theta, "give an angle from 0 to pi rad")
 
@@ -161,7 +174,7 @@ def axis_heights(theta: FloatArray) -> AxisHeights:
 
 
 def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
-    """Give all fields one shape; read-only, since the top is frozen."""
+    """Give all fields one shape."""
     try:
         return list(np.broadcast_arrays(*values))
     except ValueError:

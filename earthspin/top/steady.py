@@ -15,6 +15,8 @@ from earthspin.top.start import HeavyTop, top_constants
 
 FloatArray = NDArray[np.float64]
 
+_ROUNDING = 8 * float(np.finfo(float).eps)
+
 
 class SteadyPrecession(NamedTuple):
     """The two rates at which a top precesses without nutation, rad/s.
@@ -66,7 +68,8 @@ def minimum_spin(top: HeavyTop) -> FloatArray:
     omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero where the centre of mass is not above the pivot.
     """
     lifted = np.maximum(top.weight_moment * np.cos(top.theta), 0.0)
-    return 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
+    least: FloatArray = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
+    return least
 
 
 def steady_precession(top: HeavyTop) -> SteadyPrecession:
@@ -86,25 +89,27 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
     a, _, _, beta = top_constants(top)
     cosine = np.cos(top.theta)
     inside = a**2 - 2 * beta * cosine
-    least = minimum_spin(top)
-    # At the minimum spin itself rounding may leave the difference just below zero.
-    inside = np.where(
-        np.abs(inside) <= 8 * np.finfo(float).eps * a**2, np.maximum(inside, 0), inside
-    )
-    if np.any(inside < 0):
-        slow = inside < 0
-        raise UndefinedError(
-            f"a spin of {float(top.spin[slow].flat[0])!r} rad/s is too slow for steady precession "
-            f"at theta = {float(top.theta[slow].flat[0])!r} rad; the least is "
-            f"{float(least[slow].flat[0]):.6g} rad/s"
-        )
-    larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(inside)) / 2
+    # At the minimum spin itself rounding may take the difference just below zero.
+    inside = np.where(np.abs(inside) <= _ROUNDING * a**2, np.maximum(inside, 0.0), inside)
+    _refuse_slow_spin(top, inside < 0)
+    larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(inside)) / 2  # cos(theta) phi', fast
     still, level = larger == 0, cosine == 0
-    slow_rate = np.where(still, 0.0, beta / 2 / np.where(still, 1.0, larger))
-    limit = np.where(still, 0.0, np.copysign(np.inf, larger))
-    return SteadyPrecession(
-        slow_rate, np.where(level, limit, larger / np.where(level, 1.0, cosine))
-    )
+    slow = np.where(still, 0.0, beta / 2 / np.where(still, 1.0, larger))
+    far = np.where(still, 0.0, np.copysign(np.inf, larger))
+    fast = np.where(level, far, larger / np.where(level, 1.0, cosine))
+    return SteadyPrecession(slow, fast)
+
+
+def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
+    """Raise an error that names the first spin that is below the minimum."""
+    if np.any(slow):
+        spin, theta, least = (
+            float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))
+        )
+        raise UndefinedError(
+            f"a spin of {spin!r} rad/s is too slow for steady precession at theta = {theta!r} "
+            f"rad; give at least {least:.6g} rad/s, either way round"
+        )
 
 
 def slow_precession_limit(top: HeavyTop) -> FloatArray:
@@ -117,7 +122,8 @@ def slow_precession_limit(top: HeavyTop) -> FloatArray:
     """
     if np.any(top.spin == 0):
         raise UndefinedError("a top without spin has no slow precession; give a spin other than 0")
-    return top.weight_moment / (top.axial_moment * top.spin)
+    limit: FloatArray = top.weight_moment / (top.axial_moment * top.spin)
+    return limit
 
 
 def sleeping_top(top: HeavyTop) -> SleepingTop:
@@ -133,11 +139,12 @@ def sleeping_top(top: HeavyTop) -> SleepingTop:
     lifted = np.maximum(top.weight_moment, 0.0)
     critical = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
     a, _, _, beta = top_constants(top)
-    spin, scale = np.abs(top.spin), top.axial_moment / top.transverse_moment
+    spin = np.abs(top.spin)
     stable = spin >= critical
-    # a^2 - 2 beta, as a product of differences where the top is heavy
-    heavy = top.weight_moment > 0
-    excess = np.where(heavy, scale**2 * (spin - critical) * (spin + critical), a**2 - 2 * beta)
+    # a^2 - 2 beta; near the critical spin a user means the difference from it
+    scale = top.axial_moment / top.transverse_moment
+    from_critical = scale**2 * (spin - critical) * (spin + critical)
+    excess = np.where(lifted > 0, from_critical, a**2 - 2 * beta)
     nutation = np.sqrt(np.maximum(excess, 0.0))
     fast = (a + np.where(a < 0, -1.0, 1.0) * nutation) / 2
     moves = fast != 0

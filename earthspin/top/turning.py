@@ -78,10 +78,9 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
     """
     nutation = nutation_of(top)
     start = nutation.start
-    asleep = (start.sine2 == 0) & (start.rate2 == 0)
     for_ever = nutation.complement == 0
     still = np.where(for_ever, start.b / 2, start.phi_rate)
-    moving = ~asleep & ~for_ever & (nutation.stiffness > 0)
+    moving = ~start.asleep & ~for_ever & (nutation.stiffness > 0)
     return np.where(moving, mean_precession(nutation), still) * start.rate_unit
 
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import mpmath as mp
 
-DIGITS = 100
+DIGITS = 80
 
 
 class State(NamedTuple):
