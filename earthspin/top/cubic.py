@@ -1,0 +1,230 @@
+"""Roots of the cubic of the nutation, in a form that keeps close roots apart (I.7.16).
+
+    u'^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2 = beta (u - u1)(u - u2)(u - u3),  u = cos(theta)
+
+Slow nutation, the sleeping top and the fast top each make two or three roots nearly equal, and
+a general root finder then loses half the digits or two thirds of them. But the signs are
+known: the cubic is never positive at either pole and never negative at the start,
+
+    -1 <= u1 <= u(0) <= u2 <= 1 <= u3        (beta >= 0),
+
+so that every difference of roots is a sum of the gaps between these six points, none of them
+negative. The gaps are what is computed here. One root stands well apart from the other two.
+With that one divided out, the pair straddles either the start or the upper pole, and the
+quadratic for the two gaps on either side has a discriminant that is a sum of squares.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.top.start import HeavyTop, axis_heights
+
+FloatArray = NDArray[np.float64]
+
+
+class AxisStart(NamedTuple):
+    """How the axis starts, told so that the weight pulls its tip down or not at all.
+
+    A top with a negative weight moment is described by the other end of its axis: theta,
+    spin and weight then change sign together. Rates are in units of `rate_unit`.
+
+    Attributes
+    ----------
+    turned : ndarray of bool
+        Whether the other end is meant.
+    rate_unit : ndarray
+        A power of two near the fastest rate, rad/s, so that nothing overflows.
+    below, above, cosine : ndarray
+        1 - u, 1 + u and u at the start.
+    theta_rate, phi_rate, a, beta : ndarray
+        In units of `rate_unit`, or its square.
+    """
+
+    turned: NDArray[np.bool_]
+    rate_unit: FloatArray
+    below: FloatArray
+    above: FloatArray
+    cosine: FloatArray
+    theta_rate: FloatArray
+    phi_rate: FloatArray
+    a: FloatArray
+    beta: FloatArray
+
+    @property
+    def sine2(self) -> FloatArray:
+        """sin^2(theta)."""
+        return self.below * self.above
+
+    @property
+    def rate2(self) -> FloatArray:
+        """theta'^2 + phi'^2 sin^2(theta), squared speed of the tip of the axis."""
+        return self.theta_rate**2 + self.phi_rate**2 * self.sine2
+
+    @property
+    def asleep(self) -> NDArray[np.bool_]:
+        """Whether the axis is on the vertical and stays, if only for want of the least push."""
+        return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
+
+    @property
+    def b_minus_a(self) -> FloatArray:
+        """Difference b - a, which vanishes if the axis can pass the upper pole."""
+        return self.below * (self.phi_rate * self.above - self.a)
+
+    @property
+    def b_plus_a(self) -> FloatArray:
+        """Sum b + a, which vanishes if the axis can pass the lower pole."""
+        return self.above * (self.phi_rate * self.below + self.a)
+
+    @property
+    def b(self) -> FloatArray:
+        """Vertical angular momentum over I1."""
+        return self.phi_rate * self.sine2 + self.a * self.cosine
+
+
+class Gaps(NamedTuple):
+    """Distances between the poles, the roots and the start, none of them negative.
+
+    Attributes
+    ----------
+    lower_pole : ndarray
+        1 + u1.
+    lower : ndarray
+        u(0) - u1.
+    upper : ndarray
+        u2 - u(0).
+    upper_pole : ndarray
+        1 - u2.
+    outer : ndarray
+        beta (u3 - 1); finite also without weight, where u3 is infinite.
+    """
+
+    lower_pole: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    upper_pole: FloatArray
+    outer: FloatArray
+
+
+def axis_start(top: HeavyTop) -> AxisStart:
+    """The start of the axis, turned over if the weight moment is negative."""
+    below, above, cosine = axis_heights(top.theta)
+    a = top.axial_moment / top.transverse_moment * top.spin
+    beta = 2 * top.weight_moment / top.transverse_moment
+    across = top.phi_rate * np.sqrt(below * above)
+    rates = np.abs(np.stack([top.theta_rate, across, a, np.sqrt(np.abs(beta))]))
+    unit = np.ldexp(1.0, np.frexp(np.max(rates, axis=0))[1])
+    turned = np.asarray(beta < 0)
+    sign = np.where(turned, -1.0, 1.0)
+    return AxisStart(
+        turned,
+        unit,
+        np.where(turned, above, below),
+        np.where(turned, below, above),
+        sign * cosine,
+        sign * top.theta_rate / unit,
+        top.phi_rate / unit,
+        sign * a / unit,
+        np.abs(beta) / unit / unit,
+    )
+
+
+def cubic_gaps(start: AxisStart) -> Gaps:
+    """Gaps between the roots of the cubic, the poles and the start (I.7.16)."""
+    # Expanded about the start, u = u(0) + x, and times beta^2 with X = beta x:
+    # X^3 + c2 X^2 + beta c1 X + beta^2 c0.
+    beta = start.beta
+    # a^2 - 2 beta is nearly nothing for a sleeping top near its critical spin.
+    c2 = -(start.rate2 + (start.a**2 - 2 * beta) + 2 * beta * start.below)
+    pull = 2 * start.phi_rate * (start.a - start.cosine * start.phi_rate) - beta
+    c1 = start.sine2 * pull - 2 * start.cosine * start.theta_rate**2
+    c0 = start.sine2 * start.theta_rate**2
+    centre = -c2 / 3
+    # At the mean of the roots the cubic is negative if the lower two are closer together.
+    outer_apart = ((centre + c2) * centre + beta * c1) * centre + beta**2 * c0 <= 0
+    from_start = _pair_about_start(start, c0, c1, c2, outer_apart)
+    from_pole = _pair_about_pole(start, c0, ~outer_apart)
+    lower, upper, upper_pole, outer = (
+        np.where(outer_apart, x, y) for x, y in zip(from_start, from_pole, strict=True)
+    )
+    # The cubic at the lower pole is -(b + a)^2: the product of the gaps there.
+    near_pole = _ratio(start.b_plus_a**2, (start.above + upper) * (2 * beta + outer))
+    lower_pole = np.where(lower <= 0.75 * start.above, start.above - lower, near_pole)
+    return Gaps(lower_pole, lower, upper, upper_pole, outer)
+
+
+def _pair_about_start(
+    start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Gaps where the third root stands apart: u1 and u2 straddle the start."""
+    beta, below = start.beta, start.below
+    far = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
+    product = _ratio(c0, far)
+    lower, upper = _straddling(-_ratio(c1 + beta * product, far), product)
+    # The cubic at the upper pole is -(b - a)^2, the product of the gaps there: it gives the gap
+    # that the start tells badly. They are never both small beside 1 - u(0).
+    known = upper <= 0.75 * below
+    at_pole = _ratio(start.b_minus_a**2, below + lower)
+    closely = known & (far < 2 * beta * below)
+    outer = np.where(closely, _ratio(at_pole, below - upper), far - beta * below)
+    upper_pole = np.where(known, below - upper, _ratio(at_pole, outer))
+    return lower, upper, upper_pole, outer
+
+
+def _pair_about_pole(
+    start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Gaps where the first root stands apart: u2 and u3 straddle the upper pole."""
+    beta, below = start.beta, start.below
+    # Expanded about the pole, u = 1 - p, and times beta^2 with P = beta p:
+    # P^3 - d2 P^2 - 2 beta d1 P + beta^2 (b - a)^2.
+    d2 = (2 * beta - start.a**2) - start.rate2 + beta * below
+    tilt = start.above * start.phi_rate * (start.phi_rate - start.a) + start.a**2 - beta
+    d1 = start.theta_rate**2 + below * tilt
+    d0 = start.b_minus_a**2
+    far = _largest_root(-d2, -2 * beta * d1, beta**2 * d0, wanted)  # beta (1 - u1)
+    depth = _ratio(far, beta)
+    product = _ratio(d0, far)
+    outer, upper_pole = _straddling(_ratio(2 * d1 - beta * product, far), product)
+    outer = beta * outer
+    # The cubic at the start is sin^2 theta'^2: the product of the gaps there.
+    third = beta * below + outer
+    lower = np.where(depth >= 1.5 * below, depth - below, 0.0)
+    upper = np.where(upper_pole <= 0.75 * below, below - upper_pole, _ratio(c0, lower * third))
+    lower = np.where(depth >= 1.5 * below, lower, _ratio(c0, upper * third))
+    return lower, upper, upper_pole, outer
+
+
+def _largest_root(
+    c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: NDArray[np.bool_]
+) -> FloatArray:
+    """Largest root of x^3 + c2 x^2 + c1 x + c0, known to be real and apart from the others.
+
+    Newton's method comes down to it from above and never overshoots.
+    """
+    centre = -c2 / 3
+    spread = np.sqrt(np.maximum(centre**2 - c1 / 3, 0.0))
+    x = centre + 2 * spread
+    wanted = wanted & (x > 0)
+    x = np.where(wanted, x, 0.0)
+    for _ in range(6):  # from at most 16 % above, quadratically
+        slope = (3 * x + 2 * c2) * x + c1
+        value = ((x + c2) * x + c1) * x + c0
+        x = x - np.where(wanted, _ratio(value, slope), 0.0)
+    return x
+
+
+def _straddling(middle: FloatArray, product: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Gaps g, h >= 0 with g - h = middle and g h = product."""
+    larger = (np.hypot(middle, 2 * np.sqrt(product)) + np.abs(middle)) / 2
+    smaller = _ratio(product, larger)
+    return np.where(middle > 0, larger, smaller), np.where(middle > 0, smaller, larger)
+
+
+def _ratio(numerator: FloatArray, denominator: FloatArray) -> FloatArray:
+    """Quotient, zero where the denominator vanishes: there the gap is closed."""
+    empty = denominator == 0
+    return np.where(empty, 0.0, numerator / np.where(empty, 1.0, denominator))

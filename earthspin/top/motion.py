@@ -1,0 +1,208 @@
+"""The motion of a heavy top in time, in closed form (I.7.8 to I.7.17)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from earthspin.errors import BodyError
+from earthspin.top.cubic import AxisStart
+from earthspin.top.nutation import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
+from earthspin.top.patterns import nutation_pattern
+from earthspin.top.precession import turned_at
+from earthspin.top.start import HeavyTop
+from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
+
+FloatArray = NDArray[np.float64]
+
+#: Times beyond this are a mistake, and would overflow.
+_LONGEST = 1e100
+
+# e^(i pi n/4)
+_EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
+
+
+@dataclass(frozen=True, eq=False)
+class HeavyTopMotion:
+    """How a top moves. Arrays over time have the shape of the tops, then that of the times.
+
+    Attributes
+    ----------
+    theta, phi, psi : ndarray
+        Euler angles of I.7.1, rad; phi and psi are not reduced to one turn. Where the axis
+        passes exactly over a pole they jump by pi, to and fro; `attitude` does not.
+    attitude : ndarray, shape (..., 4)
+        Unit quaternion w, x, y, z, body to inertial, continuous in time.
+    omega_body : ndarray, shape (..., 3)
+        Angular velocity along the principal axes of the body (I.7.3), rad/s.
+    turning_angle : ndarray, shape of the tops, then (2,)
+        Least and greatest theta, rad.
+    pattern : ndarray of str, shape of the tops
+        ``wave``, ``cusp``, ``loop``, ``steady`` or ``sleeping`` (I.7.19).
+    nutation_period : ndarray, shape of the tops
+        s; for a steady top that of a small nutation, infinite where theta never comes back.
+    precession_rate : ndarray, shape of the tops
+        Mean of phi' over a nutation, rad/s.
+    """
+
+    theta: FloatArray
+    phi: FloatArray
+    psi: FloatArray
+    attitude: FloatArray
+    omega_body: FloatArray
+    turning_angle: FloatArray
+    pattern: NDArray[np.str_]
+    nutation_period: FloatArray
+    precession_rate: FloatArray
+
+
+class Angle(NamedTuple):
+    """An angle that may have gone round many times.
+
+    Attributes
+    ----------
+    quarters : ndarray
+        Whole quarter turns.
+    rest : ndarray
+        rad.
+    """
+
+    quarters: FloatArray
+    rest: FloatArray
+
+    @property
+    def radians(self) -> FloatArray:
+        """The angle itself, not reduced to one turn."""
+        return np.pi / 2 * self.quarters + self.rest
+
+    @property
+    def half(self) -> NDArray[np.complex128]:
+        """Phase of half the angle, e^(i angle/2)."""
+        eighths = np.mod(self.quarters, 8).astype(int)
+        phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
+        return phase
+
+    def plus(self, other: FloatArray) -> Angle:
+        """Sum with an angle in rad."""
+        return Angle(self.quarters, self.rest + other)
+
+    def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
+        """Another angle in rad, where the condition holds."""
+        return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
+
+
+def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
+    """Motion of a heavy top, by elliptic functions.
+
+    Parameters
+    ----------
+    top : HeavyTop
+        One top or a batch.
+    times : float or ndarray
+        Since the start, s; negative times are the past.
+
+    Returns
+    -------
+    HeavyTopMotion
+
+    Raises
+    ------
+    BodyError
+        If a time is not a finite number.
+    """
+    times = np.asarray(times, dtype=np.float64)
+    usable = np.abs(times) <= _LONGEST
+    if not np.all(usable):
+        bad = float(times[~usable].flat[0])
+        raise BodyError("heavy top", "times", bad, f"give seconds up to {_LONGEST:g}")
+    spread = _with_axes(top, times.ndim)
+    nutation = nutation_of(spread)
+    place = place_at(nutation, times * nutation.start.rate_unit)
+    height = height_at(nutation, place)
+    theta = _inclination(nutation, height.below, height.above)
+    phi, psi = _phi_and_psi(spread, nutation, times, place)
+    return HeavyTopMotion(
+        theta=theta,
+        phi=phi.radians,
+        psi=psi.radians,
+        attitude=_attitude(theta, phi, psi),
+        omega_body=_omega_body(spread, nutation, height, psi),
+        turning_angle=turning_angles(top),
+        pattern=nutation_pattern(top),
+        nutation_period=nutation_period(top),
+        precession_rate=mean_precession_rate(top),
+    )
+
+
+def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
+    """Tops with axes of length 1 behind their own, for the times."""
+    shape = top.shape + (1,) * count
+    return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
+
+
+def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> FloatArray:
+    """Angle theta from both half-angle sides, of the end of the axis that was given."""
+    up, down = np.sqrt(below), np.sqrt(above)
+    turned = nutation.start.turned
+    theta: FloatArray = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
+    return theta
+
+
+def _phi_and_psi(
+    top: HeavyTop, nutation: Nutation, times: FloatArray, place: Place
+) -> tuple[Angle, Angle]:
+    """Angles phi and psi: their starts, and what they have turned since."""
+    quarters, rest = turned_at(nutation, place)
+    first_quarters, first_rest = turned_at(
+        nutation, place_at(nutation, np.zeros((1,) * times.ndim))
+    )
+    phi, psi = (
+        Angle(now - then, angle - begin)
+        for now, then, angle, begin in zip(quarters, first_quarters, rest, first_rest, strict=True)
+    )
+    # Seen from the other end of the axis the body turns the other way.
+    sense = np.where(nutation.start.turned, -1.0, 1.0)
+    slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment * top.spin
+    psi = Angle(sense * psi.quarters, sense * psi.rest + slack * times)
+    # Asleep, phi and psi share the turning out as they did at the start.
+    asleep = nutation.start.asleep
+    psi_rate = top.spin - top.phi_rate * np.cos(top.theta)
+    phi = phi.replaced(asleep, top.phi_rate * times)
+    psi = psi.replaced(asleep, psi_rate * times)
+    return phi.plus(top.phi), psi.plus(top.psi)
+
+
+def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
+    """Quaternion of Rz(phi) Rx(theta) Rz(psi).
+
+    Half of phi and half of psi turn one after the other: their sum would round away the slow
+    precession of a top that has spun for long.
+    """
+    upright = np.cos(theta / 2) * phi.half * psi.half
+    tilted = np.sin(theta / 2) * phi.half * np.conj(psi.half)
+    return np.stack([upright.real, tilted.real, tilted.imag, upright.imag], axis=-1)
+
+
+def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angle) -> FloatArray:
+    """Angular velocity in the body, omega1 + i omega2 = (theta' + i phi' sin(theta)) e^(-i psi)."""
+    start = nutation.start
+    sine = np.sqrt(height.below * height.above)
+    tilted = sine > 0
+    sine = np.where(tilted, sine, 1.0)
+    theta_rate = np.where(tilted, -height.u_rate, 0.0) / sine
+    theta_rate = np.where(start.turned, -theta_rate, theta_rate)
+    across = np.where(tilted, _vertical_excess(start, height), 0.0) / sine
+    transverse = (theta_rate + 1j * across) * np.conj(psi.half) ** 2 * start.rate_unit
+    spin = np.broadcast_to(top.spin, transverse.shape)
+    return np.stack([transverse.real, transverse.imag, spin], axis=-1)
+
+
+def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
+    """The sum b - a u = phi' sin^2(theta), told from the start or from the poles."""
+    first, second = start.phi_rate * start.sine2, start.a * height.climb
+    upper, lower = start.b_plus_a * height.below, start.b_minus_a * height.above
+    from_start = np.abs(first) + np.abs(second) < (np.abs(upper) + np.abs(lower)) / 2
+    return np.where(from_start, first - second, (upper + lower) / 2)

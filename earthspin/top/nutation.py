@@ -1,0 +1,211 @@
+"""The nutation of a top: how its axis goes to and fro between two heights (I.7.16, I.7.17).
+
+    u = cos(theta) = u1 + (u2 - u1) sn^2(Omega t, m),
+    4 Omega^2 = beta (u3 - u1),    m = (u2 - u1)/(u3 - u1)
+
+with t counted from the lower turning point. Seen from the upper one, a quarter period K later,
+
+    u2 - u = (u2 - u1)(1 - m) sn^2/dn^2.
+
+Each instant is reckoned from the turning point next to it, so that the way left to that point
+has full relative accuracy and no argument exceeds K/2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ellipkm1, elliprf
+
+from earthspin.top.cubic import AxisStart, Gaps, axis_start, cubic_gaps
+from earthspin.top.elliptic import jacobi_sncndn
+from earthspin.top.start import HeavyTop
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+#: Half period of a motion on the separatrix: longer than any time in the rate unit.
+_NEVER = 1e290
+#: A moment so short that nothing changes but the side of the pole.
+_MOMENT = 1e-120
+
+
+class Nutation(NamedTuple):
+    """All that the nutation needs beside the times; rates and times in the start's rate unit.
+
+    Attributes
+    ----------
+    start : AxisStart
+    gaps : Gaps
+    swing : ndarray
+        u2 - u1.
+    stiffness : ndarray
+        beta (u3 - u1) = 4 Omega^2; for a small swing, the nutation's frequency squared.
+    stiffness_above : ndarray
+        beta (u3 - u2).
+    complement : ndarray
+        1 - m.
+    half_period : ndarray
+        From one turning point to the next; a number beyond all times if it never gets there.
+    at_upper : ndarray of bool
+        Whether the start is reckoned from the upper turning point.
+    phase : ndarray
+        Time since that turning point, negative before it.
+    """
+
+    start: AxisStart
+    gaps: Gaps
+    swing: FloatArray
+    stiffness: FloatArray
+    stiffness_above: FloatArray
+    complement: FloatArray
+    half_period: FloatArray
+    at_upper: BoolArray
+    phase: FloatArray
+
+    @property
+    def rate(self) -> FloatArray:
+        """Omega; 1 where nothing moves, so that it can be divided by."""
+        return np.sqrt(np.where(self.stiffness > 0, self.stiffness, 4.0)) / 2
+
+    @property
+    def crosses_lower_pole(self) -> BoolArray:
+        """Whether the axis passes exactly through the lower pole."""
+        return np.asarray((self.gaps.lower_pole == 0) & (self.swing > 0))
+
+    @property
+    def crosses_upper_pole(self) -> BoolArray:
+        """Whether the axis passes exactly through the upper pole."""
+        return np.asarray((self.gaps.upper_pole == 0) & (self.swing > 0))
+
+    @property
+    def depth(self) -> FloatArray:
+        """1 - u1, from the upper pole down to the lower turning point."""
+        return self.start.below + self.gaps.lower
+
+    @property
+    def height(self) -> FloatArray:
+        """1 + u2, from the lower pole up to the upper turning point."""
+        return self.start.above + self.gaps.upper
+
+
+class Place(NamedTuple):
+    """Where in its nutation the axis is, at given times.
+
+    Attributes
+    ----------
+    halves : ndarray
+        Half periods from the first lower turning point to the turning point next to the
+        instant: even at lower ones, odd at upper ones.
+    upper : ndarray of bool
+        Whether that is an upper turning point.
+    phase : ndarray
+        Omega times the time since that turning point, from -K/2 to K/2.
+    sn, cn, dn : ndarray
+        Jacobi's functions of the phase.
+    """
+
+    halves: FloatArray
+    upper: BoolArray
+    phase: FloatArray
+    sn: FloatArray
+    cn: FloatArray
+    dn: FloatArray
+
+
+class AxisHeight(NamedTuple):
+    """The height of the axis and its rate.
+
+    Attributes
+    ----------
+    below, above : ndarray
+        1 - u and 1 + u.
+    climb : ndarray
+        u - u(0).
+    u_rate : ndarray
+        u', in the rate unit.
+    """
+
+    below: FloatArray
+    above: FloatArray
+    climb: FloatArray
+    u_rate: FloatArray
+
+
+def nutation_of(top: HeavyTop) -> Nutation:
+    """Work out the nutation of a batch of tops from their starts."""
+    start = axis_start(top)
+    gaps = cubic_gaps(start)
+    gaps = gaps._replace(lower=np.where(start.asleep, 0.0, gaps.lower))
+    swing = gaps.lower + gaps.upper
+    stiffness = gaps.outer + start.beta * (start.below + gaps.lower)
+    above = gaps.outer + start.beta * gaps.upper_pole
+    moving = stiffness > 0
+    complement = np.where(moving, above / np.where(moving, stiffness, 1.0), 1.0)
+    returns = moving & (complement > 0)
+    quarter = ellipkm1(np.where(returns, complement, 1.0))
+    half_period = np.where(returns, 2 * quarter / np.sqrt(np.where(moving, stiffness, 1)), _NEVER)
+    at_upper = (gaps.upper < gaps.lower) & returns
+    nutation = Nutation(
+        start, gaps, swing, stiffness, above, complement, half_period, at_upper, swing
+    )
+    return nutation._replace(phase=_phase_of_start(nutation))
+
+
+def _phase_of_start(nutation: Nutation) -> FloatArray:
+    """Time since the turning point next to the start, by an integral of the first kind."""
+    start, gaps = nutation.start, nutation.gaps
+    third = start.beta * start.below + gaps.outer  # beta (u3 - u(0))
+    moves = (nutation.swing > 0) & (third > 0)
+    scale = np.where(moves, nutation.swing * third, 1.0)
+    stiffness, above = nutation.stiffness, nutation.stiffness_above
+    upper = nutation.at_upper
+    sn2 = np.where(upper, gaps.upper * stiffness, gaps.lower * third) / scale
+    cn2 = np.where(upper, gaps.lower * above, gaps.upper * third) / scale
+    dn2 = np.where(upper, above * nutation.swing / scale, third / np.where(moves, stiffness, 1.0))
+    integral = np.sqrt(sn2) * elliprf(np.where(moves, cn2, 1), np.where(moves, dn2, 1), 1.0)
+    since = np.where(moves, integral / nutation.rate, 0.0)
+    # On a pole the start lies just past it, or just before it if theta is said to shrink.
+    since = np.where(moves & (start.sine2 == 0), _MOMENT, since)
+    leaving = np.where(start.theta_rate < 0, -1.0, 1.0)
+    return since * np.where(upper, leaving, -leaving)
+
+
+def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
+    """Where in its nutation the axis is.
+
+    Parameters
+    ----------
+    nutation : Nutation
+    elapsed : ndarray
+        Time since the start, in the rate unit; broadcasts with the tops.
+    """
+    half_period = nutation.half_period
+    # fmod is exact: a long time loses nothing but what the period itself lacks.
+    rest = np.fmod(elapsed, half_period)
+    halves = np.rint((elapsed - rest) / half_period) + nutation.at_upper
+    rest = rest + nutation.phase
+    shift = np.rint(rest / half_period)
+    halves, since = halves + shift, rest - shift * half_period
+    upper = np.fmod(halves, 2) != 0
+    on_pole = np.where(upper, nutation.crosses_upper_pole, nutation.crosses_lower_pole)
+    since = np.where(on_pole & (since == 0), _MOMENT, since)
+    phase = nutation.rate * since
+    return Place(halves, upper, phase, *jacobi_sncndn(phase, nutation.complement))
+
+
+def height_at(nutation: Nutation, place: Place) -> AxisHeight:
+    """Height of the axis from both poles, as sums of positive terms, and its rate."""
+    gaps, swing, complement = nutation.gaps, nutation.swing, nutation.complement
+    upper, sn, cn, dn = place.upper, place.sn, place.cn, place.dn
+    climbed = swing * np.where(upper, cn / dn, sn) ** 2  # u - u1
+    left = swing * np.where(upper, complement * (sn / dn) ** 2, cn**2)  # u2 - u
+    rate = 2 * nutation.rate * swing * sn * cn * np.where(upper, -complement / dn**3, dn)
+    return AxisHeight(
+        gaps.upper_pole + left,
+        gaps.lower_pole + climbed,
+        np.where(upper, gaps.upper - left, climbed - gaps.lower),
+        rate,
+    )

@@ -1,0 +1,278 @@
+"""How phi and psi advance: integrals of the third kind that stay regular over the poles (I.7.9).
+
+Half the sum and half the difference of phi and psi (for I1 = I3),
+
+    sigma' = (a + b)/(2 (1 + u)),    delta' = (b - a)/(2 (1 - u)),
+
+are the phases of the Cayley-Klein parameters cos(theta/2) e^(i sigma), sin(theta/2) e^(i delta).
+Reckoned from a turning point ur, with us the other one, each is an arc tangent and a regular
+integral:
+
+    sigma = arctan[(a + b)(u - ur)/((1 + ur) u')] + int (a + b)/2 w(1 + ur) dt
+    delta = arctan[(b - a)(u - ur)/((1 - ur) u')] - int (b - a)/2 w(ur - 1) dt
+    w(x)  = (u - ur)/((ur - us)(ur - u3) + x (u - ur))
+
+The arc tangent takes up the quick half turn that a passage near a pole brings. The integral is
+in proportion to the weight, so that a free rotor has the arc tangents alone; and as a function
+of the phase it is the same from either turning point,
+
+    int w dt = beta/(4 Omega^3) sn^3/3 RJ(cn^2, dn^2, 1, 1 + (1 + u1)/(u3 - u1) sn^2)
+
+for sigma, and 1 - (1 - u1)/(u3 - u1) sn^2 for delta. For |b| < |a|, as in a fast top, the arc
+tangents wind in opposite senses and cancel, while the integrals add up: the slow precession
+keeps its digits. Far from the pole, beside the distance of u3, there is no quick half turn; the
+two parts of delta would then cancel, those of sigma be large, and Legendre's form is taken.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ellipkm1, elliprj
+
+from earthspin.top.elliptic import complete_third_kind
+from earthspin.top.nutation import Nutation, Place
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+# cos and sin of a whole number of quarter turns
+_COSINE = np.array([1.0, 0.0, -1.0, 0.0])
+_SINE = np.array([0.0, 1.0, 0.0, -1.0])
+
+
+class Turned(NamedTuple):
+    """Angles by which phi and psi have turned; psi as if I1 were I3.
+
+    Attributes
+    ----------
+    phi, psi : ndarray
+        rad.
+    """
+
+    phi: FloatArray
+    psi: FloatArray
+
+
+def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
+    """Angles phi and psi reckoned from the first lower turning point.
+
+    Returns
+    -------
+    quarters : Turned
+        Whole quarter turns: kept apart, since they lose nothing in a long time.
+    rest : Turned
+        rad.
+    """
+    full, part = _complete_integrals(nutation), _partial_integrals(nutation, place)
+    arc = _arc_tangents(nutation, place)
+    rest = Turned(
+        arc.phi + (place.halves * full.phi + part.phi),
+        arc.psi + (place.halves * full.psi + part.psi),
+    )
+    return _windings(nutation, place.halves), rest
+
+
+def mean_precession(nutation: Nutation) -> FloatArray:
+    """Mean of phi' over a nutation, in the rate unit.
+
+    A top that passes exactly over a pole is given the mean of the two limits from either side.
+    """
+    full = _complete_integrals(nutation)
+    sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))
+    delta = np.where(nutation.crosses_upper_pole, 0.0, _upper_winding(nutation))
+    return (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
+
+
+def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
+    """Quarter turns of phi and psi at a turning point, from the arc tangents.
+
+    Exactly over a pole the half turn has no sense; it is taken to and fro by turns.
+    """
+    quarter = np.mod(halves, 4).astype(int)
+    lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
+    sigma = np.where(lower, _SINE[quarter], halves * _lower_winding(nutation))
+    delta = np.where(upper, -_COSINE[quarter], halves * _upper_winding(nutation))
+    return Turned(sigma + delta, sigma - delta)
+
+
+def _lower_winding(nutation: Nutation) -> FloatArray:
+    """Quarter turns of sigma in half a period, from the arc tangent."""
+    return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
+
+
+def _upper_winding(nutation: Nutation) -> FloatArray:
+    """Quarter turns of delta in half a period, from the arc tangent."""
+    return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
+
+
+def _has_lower_arc(nutation: Nutation) -> BoolArray:
+    """Whether sigma takes the arc tangent: unless u1 is closer to u3 than to the lower pole."""
+    return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
+
+
+def _has_upper_arc(nutation: Nutation) -> BoolArray:
+    """Whether delta takes the arc tangent: unless u3 is closer to the upper pole than u2."""
+    return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
+
+
+def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
+    """Arc tangents of sigma and delta, added and subtracted as angles without cancellation.
+
+    With tan sigma = (l/h) t and tan delta = (k/g) t, h and g the distances of the turning
+    point from the two poles, the sum is arctan2(t (l g + k h), g h - k l t^2). The pole that
+    can be met here has distance h and l = pole_rate sqrt(h).
+    """
+    start, gaps, upper = nutation.start, nutation.gaps, place.upper
+    meets = np.where(upper, gaps.upper_pole, gaps.lower_pole)
+    away = np.where(upper, nutation.height, nutation.depth)
+    pole_rate = np.where(upper, _upper_pole_rate(nutation), _lower_pole_rate(nutation))
+    other = np.where(upper, start.b_plus_a, start.b_minus_a)
+    climb = np.where(upper, gaps.upper, -gaps.lower)  # ur - u(0)
+    root = np.sqrt(meets)
+
+    b_minus_au = _sum_or(
+        pole_rate * away, other * root, start.phi_rate * start.sine2, -start.a * climb, root
+    )
+    a_minus_bu = _sum_or(
+        np.where(upper, -1, 1) * pole_rate * away,
+        np.where(upper, 1, -1) * other * root,
+        start.sine2 * (start.a - start.phi_rate * start.cosine),
+        -start.b * climb,
+        root,
+    )
+    y = place.sn * np.where(upper, place.dn, 1.0)
+    x = 2 * nutation.rate * place.cn * np.where(upper, 1.0, place.dn)
+    straight, crossed = away * root * x**2, pole_rate * other * y**2
+    side = _side_of_pole(nutation, place)
+    # The arc tangents one by one, for those that take only one of them.
+    met = np.arctan2(side * pole_rate * y, side * root * x)
+    unmet = np.arctan2(other * y, away * x)
+    has_lower, has_upper = _has_lower_arc(nutation), _has_upper_arc(nutation)
+    sigma = np.where(has_lower, np.where(upper, unmet, met), 0.0)
+    delta = np.where(has_upper, np.where(upper, met, unmet), 0.0)
+    both = has_lower & has_upper
+    total = np.arctan2(side * b_minus_au * x * y, side * (straight - crossed))
+    difference = np.arctan2(side * a_minus_bu * x * y, side * (straight + crossed))
+    return Turned(np.where(both, total, sigma + delta), np.where(both, difference, sigma - delta))
+
+
+def _sum_or(
+    one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
+) -> FloatArray:
+    """Sum one + two, or 2 (three + four)/root, equal to it: whichever cancels less."""
+    open_ = root > 0
+    factor = 2 / np.where(open_, root, 1.0)
+    better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
+    return np.where(open_ & better, factor * (three + four), one + two)
+
+
+def _lower_pole_rate(nutation: Nutation) -> FloatArray:
+    """(a + b)/sqrt(1 + u1), which stays finite as the axis comes to pass the lower pole."""
+    start, gaps = nutation.start, nutation.gaps
+    size = np.sqrt(nutation.height * (2 * start.beta + gaps.outer))
+    return size * np.where(nutation.crosses_lower_pole, 1.0, np.sign(start.b_plus_a))
+
+
+def _upper_pole_rate(nutation: Nutation) -> FloatArray:
+    """(b - a)/sqrt(1 - u2), which stays finite as the axis comes to pass the upper pole."""
+    size = np.sqrt(nutation.depth * nutation.gaps.outer)
+    sense = np.sign(nutation.start.b_minus_a)
+    return size * np.where(nutation.crosses_upper_pole, 1.0, sense)
+
+
+def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
+    """Sense of the half turn at this passage over a pole; 1 for those that miss it."""
+    quarter = np.mod(place.halves, 4).astype(int)
+    lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
+    upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
+    return np.where(place.upper, upper, lower)
+
+
+class _Integral(NamedTuple):
+    """The integral first F + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2), F = Omega t."""
+
+    first: FloatArray
+    third: FloatArray
+    shape: FloatArray
+
+
+def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
+    """What sigma and delta have beside the arc tangents, from a lower or upper turning point."""
+    start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
+    return (
+        _integral(
+            nutation,
+            start.b_plus_a,
+            gaps.lower_pole,
+            nutation.height,
+            upper,
+            _has_lower_arc(nutation),
+            1 + start.beta * gaps.lower_pole / stiffness,
+        ),
+        _integral(
+            nutation,
+            -start.b_minus_a,
+            -nutation.depth,
+            -gaps.upper_pole,
+            upper,
+            _has_upper_arc(nutation),
+            gaps.outer / stiffness,
+        ),
+    )
+
+
+def _integral(
+    nutation: Nutation,
+    total: FloatArray,
+    lower_end: FloatArray,
+    upper_end: FloatArray,
+    upper: BoolArray,
+    arc: BoolArray,
+    regular_shape: FloatArray,
+) -> _Integral:
+    """Integral of total/2/(u - pole): its regular part, or all of it if it takes no arc tangent.
+
+    The ends are the turning points, reckoned from the pole.
+    """
+    pace = total / (2 * nutation.rate)
+    near = np.where(arc, 1.0, np.where(upper, upper_end, lower_end))
+    far = np.where(upper, lower_end, upper_end)
+    squeeze = np.where(upper, nutation.complement, 1.0)
+    swing = np.where(upper, nutation.swing, -nutation.swing)
+    return _Integral(
+        np.where(arc, 0.0, pace / near),
+        pace
+        / 3
+        * np.where(arc, nutation.start.beta / (4 * nutation.rate**2), squeeze * swing / near**2),
+        np.where(arc, regular_shape, squeeze * far / near),
+    )
+
+
+def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
+    """Integrals of phi and psi since the turning point."""
+    sn, cn2, dn2 = place.sn, place.cn**2, place.dn**2
+    sigma, delta = (
+        x.first * place.phase + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
+        for x in _integrals(nutation, place.upper)
+    )
+    return Turned(sigma + delta, sigma - delta)
+
+
+def _complete_integrals(nutation: Nutation) -> Turned:
+    """Integrals of phi and psi from one turning point to the next."""
+    returns = nutation.complement > 0
+    complement = np.where(returns, nutation.complement, 1.0)
+    first_kind = ellipkm1(complement)
+    sigma, delta = (
+        np.where(
+            returns,
+            x.first * first_kind + 3 * x.third * complete_third_kind(complement, shape),
+            0.0,
+        )
+        for x in _integrals(nutation, np.asarray(False))
+        for shape in (np.where(x.shape > 0, x.shape, 1.0),)  # 0 where nothing moves
+    )
+    return Turned(sigma + delta, sigma - delta)

@@ -1,0 +1,160 @@
+"""Steady precession and the sleeping top: where they exist and whether they last.
+
+With u = cos(theta) constant the precession obeys u phi'^2 - a phi' + beta/2 = 0.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+from earthspin.top.start import HeavyTop, top_constants
+
+FloatArray = NDArray[np.float64]
+
+_ROUNDING = 8 * float(np.finfo(float).eps)
+
+
+class SteadyPrecession(NamedTuple):
+    """The two rates at which a top precesses without nutation, rad/s.
+
+    Attributes
+    ----------
+    slow : ndarray
+        Tends to m g r/(I3 omega3) for a fast spin.
+    fast : ndarray
+        Tends to I3 omega3/(I1 cos(theta)) for a fast spin, as without weight; infinite for a
+        horizontal axis, which has only the slow one.
+    """
+
+    slow: FloatArray
+    fast: FloatArray
+
+
+class SleepingTop(NamedTuple):
+    """What becomes of a top set upright, theta = 0.
+
+    Attributes
+    ----------
+    critical_spin : ndarray
+        Least |omega3| at which it sleeps, rad/s; zero for a top that hangs or has no weight.
+    stable : ndarray of bool
+        Whether it sleeps at its own spin.
+    growth_rate : ndarray
+        At which a small inclination grows below the critical spin, 1/s; zero if stable.
+    fall_angle : ndarray
+        Greatest inclination after the least push, rad; zero if stable.
+    rates : ndarray, shape (..., 2)
+        At which the tip circles the vertical in its two small motions, slow and fast, rad/s;
+        below the critical spin both are that of the spiral outwards.
+    nutation_rate : ndarray
+        Difference of the two: the rate of small nutations, rad/s; zero if not stable.
+    """
+
+    critical_spin: FloatArray
+    stable: NDArray[np.bool_]
+    growth_rate: FloatArray
+    fall_angle: FloatArray
+    rates: FloatArray
+    nutation_rate: FloatArray
+
+
+def minimum_spin(top: HeavyTop) -> FloatArray:
+    """Least |omega3| that allows steady precession at the inclination of the top, rad/s.
+
+    omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero where the centre of mass is not above the pivot.
+    """
+    lifted = np.maximum(top.weight_moment * np.cos(top.theta), 0.0)
+    least: FloatArray = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
+    return least
+
+
+def steady_precession(top: HeavyTop) -> SteadyPrecession:
+    """Slow and fast steady precession at the inclination and spin of the top.
+
+    Parameters
+    ----------
+    top : HeavyTop
+        Its own phi_rate and theta_rate do not matter. Without spin the two rates are those of
+        the conical pendulum, one each way.
+
+    Raises
+    ------
+    UndefinedError
+        If the spin is below the minimum.
+    """
+    a, _, _, beta = top_constants(top)
+    cosine = np.cos(top.theta)
+    inside = a**2 - 2 * beta * cosine
+    # At the minimum spin itself rounding may take the difference just below zero.
+    inside = np.where(np.abs(inside) <= _ROUNDING * a**2, np.maximum(inside, 0.0), inside)
+    _refuse_slow_spin(top, inside < 0)
+    larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(inside)) / 2  # cos(theta) phi', fast
+    still, level = larger == 0, cosine == 0
+    slow = np.where(still, 0.0, beta / 2 / np.where(still, 1.0, larger))
+    far = np.where(still, 0.0, np.copysign(np.inf, larger))
+    fast = np.where(level, far, larger / np.where(level, 1.0, cosine))
+    return SteadyPrecession(slow, fast)
+
+
+def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
+    """Raise an error that names the first spin that is below the minimum."""
+    if np.any(slow):
+        spin, theta, least = (
+            float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))
+        )
+        raise UndefinedError(
+            f"a spin of {spin!r} rad/s is too slow for steady precession at theta = {theta!r} "
+            f"rad; give at least {least:.6g} rad/s, either way round"
+        )
+
+
+def slow_precession_limit(top: HeavyTop) -> FloatArray:
+    """Slow precession of a fast top, m g r/(I3 omega3), whatever its inclination, rad/s.
+
+    Raises
+    ------
+    UndefinedError
+        Without spin.
+    """
+    if np.any(top.spin == 0):
+        raise UndefinedError("a top without spin has no slow precession; give a spin other than 0")
+    limit: FloatArray = top.weight_moment / (top.axial_moment * top.spin)
+    return limit
+
+
+def sleeping_top(top: HeavyTop) -> SleepingTop:
+    """Critical spin of the upright top, omega3^2 = 4 I1 m g r/I3^2, and what happens at its own.
+
+    A small inclination xi = theta e^(i phi) obeys xi'' - i a xi' - (beta/2) xi = 0.
+
+    Parameters
+    ----------
+    top : HeavyTop
+        Only its moments, weight and spin matter.
+    """
+    lifted = np.maximum(top.weight_moment, 0.0)
+    critical = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
+    a, _, _, beta = top_constants(top)
+    spin = np.abs(top.spin)
+    stable = spin >= critical
+    # a^2 - 2 beta; near the critical spin a user means the difference from it
+    scale = top.axial_moment / top.transverse_moment
+    from_critical = scale**2 * (spin - critical) * (spin + critical)
+    excess = np.where(lifted > 0, from_critical, a**2 - 2 * beta)
+    nutation = np.sqrt(np.maximum(excess, 0.0))
+    fast = (a + np.where(a < 0, -1.0, 1.0) * nutation) / 2
+    moves = fast != 0
+    slow = np.where(stable, np.where(moves, beta / 2 / np.where(moves, fast, 1.0), 0.0), fast)
+    short = np.sqrt(np.maximum((critical - spin) * (critical + spin), 0.0))
+    return SleepingTop(
+        critical_spin=critical,
+        stable=stable,
+        growth_rate=np.sqrt(np.maximum(-excess, 0.0)) / 2,
+        fall_angle=np.where(stable, 0.0, 2 * np.arctan2(short, spin)),
+        rates=np.stack([slow, fast], axis=-1),
+        nutation_rate=nutation,
+    )

@@ -1,0 +1,131 @@
+"""Where theta turns back, and the potential that turns it (I.7.16, I.7.18)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from earthspin.errors import BodyError
+from earthspin.top.cubic import axis_start, cubic_gaps
+from earthspin.top.nutation import nutation_of
+from earthspin.top.precession import mean_precession
+from earthspin.top.start import HeavyTop, axis_heights, top_constants
+
+FloatArray = NDArray[np.float64]
+
+
+def cubic_roots(top: HeavyTop) -> FloatArray:
+    """Roots A, B, C of the cubic in u = cos(theta) (I.7.16).
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        In ascending order. The axis moves between the two that lie from -1 to 1; the third is
+        1 or more, or -1 or less for a negative weight moment, and infinite without weight.
+    """
+    start = axis_start(top)
+    gaps = cubic_gaps(start)
+    weight = start.beta > 0
+    beyond = np.where(weight, gaps.outer / np.where(weight, start.beta, 1.0), np.inf)
+    roots = np.stack(
+        [
+            _cosine(start.below + gaps.lower, gaps.lower_pole),
+            _cosine(gaps.upper_pole, start.above + gaps.upper),
+            1 + beyond,
+        ],
+        axis=-1,
+    )
+    return np.where(start.turned[..., np.newaxis], -roots[..., ::-1], roots)
+
+
+def turning_angles(top: HeavyTop) -> FloatArray:
+    """Least and greatest inclination theta1, theta2, to full accuracy near the poles too.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+        rad; equal for steady motion.
+    """
+    nutation = nutation_of(top)
+    gaps, start = nutation.gaps, nutation.start
+    high = 2 * np.arctan2(np.sqrt(gaps.upper_pole), np.sqrt(nutation.height))
+    low = 2 * np.arctan2(np.sqrt(nutation.depth), np.sqrt(gaps.lower_pole))
+    upright = np.stack([high, low], axis=-1)
+    other_end = 2 * np.arctan2(
+        np.sqrt(np.stack([gaps.lower_pole, nutation.height], axis=-1)),
+        np.sqrt(np.stack([nutation.depth, gaps.upper_pole], axis=-1)),
+    )
+    return np.where(start.turned[..., np.newaxis], other_end, upright)
+
+
+def nutation_period(top: HeavyTop) -> FloatArray:
+    """Time in which theta goes once to and fro, s.
+
+    For steady motion that of a small nutation about it; infinite where theta comes to the
+    upright without ever reaching it, or never turns.
+    """
+    nutation = nutation_of(top)
+    period = 2 * nutation.half_period / nutation.start.rate_unit
+    never = (nutation.stiffness == 0) | (nutation.complement == 0)
+    return np.where(never, np.inf, period)
+
+
+def mean_precession_rate(top: HeavyTop) -> FloatArray:
+    """Mean of phi' over a nutation, rad/s.
+
+    A top that passes exactly over a pole has the mean of the limits from either side, one that
+    sleeps the phi' it was given, one that comes to the upright for ever the limit b/2.
+    """
+    nutation = nutation_of(top)
+    start = nutation.start
+    for_ever = nutation.complement == 0
+    still = np.where(for_ever, start.b / 2, start.phi_rate)
+    moving = ~start.asleep & ~for_ever & (nutation.stiffness > 0)
+    return np.where(moving, mean_precession(nutation), still) * start.rate_unit
+
+
+def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
+    """Effective potential of theta, alpha = theta'^2 + V(theta) (I.7.18).
+
+    V = (b - a cos(theta))^2/sin^2(theta) + beta cos(theta); I1 V/2 is an energy in J.
+
+    Parameters
+    ----------
+    top : HeavyTop
+    theta : float or ndarray
+        From 0 to pi, rad; its axes come behind those of the tops.
+
+    Returns
+    -------
+    ndarray
+        rad2/s2; infinite on a pole that the axis cannot reach.
+    """
+    theta = np.asarray(theta, dtype=np.float64)
+    outside = ~((theta >= 0) & (theta <= np.pi))
+    if np.any(outside):
+        bad = float(theta[outside].flat[0])
+        raise BodyError("heavy top", "theta", bad, "give an angle from 0 to pi rad")
+    own = axis_heights(top.theta)
+    a, _, _, beta = top_constants(top)
+    to_upper = own.below * (top.phi_rate * own.above - a)  # b - a
+    to_lower = own.above * (top.phi_rate * own.below + a)  # b + a
+    shape = top.shape + (1,) * theta.ndim
+    a, beta, to_upper, to_lower = (np.reshape(x, shape) for x in (a, beta, to_upper, to_lower))
+    below, above, cosine = axis_heights(theta)
+    # (b - a u)/sin(theta)
+    rate = (
+        _over_root(to_lower * below, below * above) + _over_root(to_upper * above, below * above)
+    ) / 2
+    return rate**2 + beta * cosine
+
+
+def _over_root(numerator: FloatArray, radicand: FloatArray) -> FloatArray:
+    """numerator/sqrt(radicand); where the radicand is 0, zero for 0 and infinite otherwise."""
+    open_ = radicand > 0
+    limit = np.where(numerator == 0, 0.0, np.copysign(np.inf, numerator))
+    return np.where(open_, numerator / np.sqrt(np.where(open_, radicand, 1.0)), limit)
+
+
+def _cosine(below: FloatArray, above: FloatArray) -> FloatArray:
+    """Height u from 1 - u and 1 + u, by the smaller of the two."""
+    return np.where(below < above, 1 - below, above - 1)

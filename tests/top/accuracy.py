@@ -1,0 +1,161 @@
+"""Accuracy and run time of the closed form: ``python -m tests.top.accuracy [cases]``.
+
+Errors are against the textbook's form at eighty digits: of theta relative to itself, of phi
+and psi relative to how far they have gone, of the transverse angular velocity relative to its
+largest value, and of the elements of the attitude matrix. Where an error is beyond 1e-13 it is
+set against what one unit in the last place of each input does to the same number.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any, NamedTuple
+
+import mpmath as mp
+import numpy as np
+
+from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
+from earthspin.top.start import HeavyTop
+from tests.top.families import FAMILIES, Start, cases
+from tests.top.textbook import DIGITS, State, Textbook
+
+#: Times in nutation periods: within a few, and after ten thousand.
+FRACTIONS = (-0.83, 0.31, 3.17)
+LATE = 9999.37
+#: Errors up to this are as good as asked for.
+GOOD = 1e-13
+#: Where a unit in the last place does more than this, the start does not tell the motion.
+UNDETERMINED = 1e-3
+
+
+class Errors(NamedTuple):
+    """Worst of a motion: error, and error over the effect of a unit in the last place.
+
+    The second is 0 where the error itself is good.
+    """
+
+    error: float
+    ulps: float
+
+
+def errors(start: Start, fractions: tuple[float, ...]) -> Errors:
+    """Worst error of a motion at times given in its nutation periods."""
+    with mp.workdps(DIGITS):
+        book = Textbook(start)
+        times = np.array(fractions) * float(book.period)
+        exact = [book.at(moment) for moment in times]
+        found = heavy_top_motion(HeavyTop(**start), times)
+        scales = _scales(start, float(book.period), exact)
+        worst, ulps = 0.0, 0.0
+        for index, state in enumerate(exact):
+            off = np.abs(_differences(_found(found, index), _numbers(state), scales))
+            if off.max() > GOOD:
+                effect = _ulp_effect(start, float(times[index]), state, scales)
+                if effect.max() > UNDETERMINED:
+                    continue
+                bad = off > GOOD
+                ulps = max(ulps, float((off[bad] / np.maximum(effect[bad], 1e-300)).max()))
+            worst = max(worst, float(off.max()))
+    return Errors(worst, ulps)
+
+
+def _numbers(state: State) -> list[Any]:
+    """All that is compared, as one list."""
+    return [state.theta, state.phi, state.psi, state.transverse, *state.attitude]
+
+
+def _found(motion: HeavyTopMotion, index: int) -> list[Any]:
+    omega = motion.omega_body[index]
+    return [
+        mp.mpf(motion.theta[index]),
+        mp.mpf(motion.phi[index]),
+        mp.mpf(motion.psi[index]),
+        mp.mpc(*map(float, omega[:2])),
+        *matrix(motion.attitude[index]).flat,
+    ]
+
+
+def _scales(start: Start, period: float, exact: list[State]) -> list[Any]:
+    """What each difference is relative to: the largest in a few periods for signed numbers."""
+    grid = heavy_top_motion(HeavyTop(**start), np.linspace(-1, 1, 200) * period)
+    phi, psi = (
+        max(*(abs(getattr(state, name)) for state in exact), np.abs(getattr(grid, name)).max())
+        for name in ("phi", "psi")
+    )
+    transverse = np.abs(grid.omega_body[:, 0] + 1j * grid.omega_body[:, 1]).max()
+    return [None, phi, psi, transverse] + [mp.mpf(1)] * 9
+
+
+def _differences(found: list[Any], exact: list[Any], scales: list[Any]) -> Any:
+    """Relative differences; None scales by the number itself."""
+    return np.array(
+        [
+            float(abs(x - y) / (abs(y) if scale is None else scale))
+            for x, y, scale in zip(found, exact, scales, strict=True)
+        ]
+    )
+
+
+def _ulp_effect(start: Start, moment: float, state: State, scales: list[Any]) -> Any:
+    """Sum over the inputs of what one unit in the last place of each does."""
+    total = np.zeros(13)
+    for name, value in [*start.items(), ("time", moment)]:
+        if value == 0 or (name == "theta" and value == np.pi):
+            continue
+        step = mp.mpf(value) + mp.mpf(float(np.spacing(value)))
+        if name == "time":
+            moved = Textbook(start).at(step)
+        else:
+            moved = Textbook(start | {name: step}).at(moment)
+        total += _differences(_numbers(moved), _numbers(state), scales)
+    return total
+
+
+def matrix(q: Any) -> Any:
+    """Rotation matrix of a unit quaternion."""
+    w, x, y, z = map(float, q)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def microseconds(family: str) -> float:
+    """Run time per top and time, for a hundred tops at a thousand times."""
+    starts = list(cases(family, 100))
+    names = {name for start in starts for name in start}
+    fields = {name: np.array([start.get(name, 0.0) for start in starts]) for name in names}
+    top = HeavyTop(**fields)
+    rate = np.sqrt(np.abs(top.weight_moment / top.transverse_moment)).max()
+    times = np.linspace(0, 1e3, 1000) / (rate or 1.0)
+    begin = time.perf_counter()
+    heavy_top_motion(top, times)
+    return (time.perf_counter() - begin) / (len(starts) * len(times)) * 1e6
+
+
+def main() -> None:
+    """Print the table."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
+    wanted = sys.argv[2:] or list(FAMILIES)
+    print("| family | cases | worst, 3 periods | ulps | worst, 10^4 periods | ulps | us |")
+    print("|---|---|---|---|---|---|---|")
+    for family in wanted:
+        early, late = [], []
+        for start in cases(family, count):
+            early.append(errors(start, FRACTIONS))
+            late.append(errors(start, (LATE,)))
+        row = [
+            f"{max(e.error for e in es):.1e} | {max(e.ulps for e in es):.2f}"
+            for es in (early, late)
+        ]
+        print(
+            f"| {family} | {count} | {' | '.join(row)} | {microseconds(family):.2f} |", flush=True
+        )
+
+
+if __name__ == "__main__":
+    main()
