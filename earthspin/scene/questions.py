@@ -53,6 +53,9 @@ QUESTIONS: dict[str, Question] = {
         )
     ),
     "torque": Question(wants=("torque-series",)),
+    "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
+    "top": Question(wants=("heavy-top",), tables=("top",)),
+    "spheroid": Question(wants=("spheroid-field",), tables=("spheroid",)),
     "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
 }
 
