@@ -18,7 +18,10 @@ if TYPE_CHECKING:
     from earthspin.bodies import MOON as MOON
     from earthspin.bodies import SUN as SUN
     from earthspin.bodies import Body as Body
+    from earthspin.calls import free_rotor as free_rotor
+    from earthspin.calls import heavy_top as heavy_top
     from earthspin.calls import precession as precession
+    from earthspin.calls import spheroid_field as spheroid_field
     from earthspin.calls import torque_series as torque_series
     from earthspin.calls import wobble_ladder as wobble_ladder
     from earthspin.calls import write_series as write_series
@@ -41,7 +44,15 @@ if TYPE_CHECKING:
 
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body"),
-    "earthspin.calls": ("precession", "torque_series", "wobble_ladder", "write_series"),
+    "earthspin.calls": (
+        "free_rotor",
+        "heavy_top",
+        "precession",
+        "spheroid_field",
+        "torque_series",
+        "wobble_ladder",
+        "write_series",
+    ),
     "earthspin.errors": (
         "AccuracyError",
         "BodyError",

@@ -186,3 +186,90 @@ def wobble_ladder(*, body: Body | str = "earth") -> xr.Dataset:
         Whatever is wrong, in one line.
     """
     return run(Scene(compute="wobble", body=body))
+
+
+def free_rotor(moments: Any, omega: Any, times: Any) -> xr.Dataset:
+    """Motion of a body without torque, in closed form (I.4 to I.6).
+
+    Parameters
+    ----------
+    moments : sequence of three, or mapping
+        Principal moments about the x, y, z axes of the body, in any order of size, kg m2; or
+        ``{"A": ..., "B-A": ..., "C-A": ...}``, so that no digits are lost.
+    omega : sequence of three, or array of shape (k, 3)
+        Angular velocity along the principal axes at t = 0, rad/s; k starts at once.
+    times : array of shape (n,)
+        s from the start.
+
+    Returns
+    -------
+    Dataset
+        Over `time` (s): `omega_body`, `angular_momentum_body`, `omega_inertial` (along
+        `component`), `attitude` (unit quaternion along `quaternion`, body to inertial; the
+        inertial axes are those of the body at t = 0), `energy`; and, for one start, Poinsot's
+        ellipsoids, polhode and herpolhode.
+
+    Raises
+    ------
+    EarthspinError
+        For moments that no body has, a start without angular momentum, or numbers that are
+        not finite.
+    """
+    rotor = {"moments": moments, "omega": omega, "times": times}
+    return run(Scene(compute="free-rotor", tables={"rotor": rotor}))
+
+
+def heavy_top(times: Any, **top: Any) -> xr.Dataset:
+    """Motion of a heavy symmetric top, by elliptic functions (I.7).
+
+    Parameters
+    ----------
+    times : array of shape (n,)
+        s from the start.
+    **top
+        `transverse_moment` I1 about the pivot, `axial_moment` I3 (kg m2), `weight_moment` m g r
+        (N m), `theta` (rad), `spin` omega3 (rad/s), and, if not zero, `phi_rate`,
+        `theta_rate` (rad/s), `phi`, `psi` (rad). Text and Quantity carry units.
+
+    Returns
+    -------
+    Dataset
+        Over `time` (s): `theta`, `phi`, `psi` (rad), `attitude`, `omega_body`; `turning_angle`
+        along `turning`, `pattern` (wave, cusp, loop, sleeping, steady), `nutation_period`,
+        `precession_rate`, and the effective potential along `inclination`.
+
+    Raises
+    ------
+    EarthspinError
+        For a top that cannot be, or a start out of range.
+    """
+    return run(Scene(compute="top", tables={"top": {**top, "times": times}}))
+
+
+def spheroid_field(
+    position: Any, *, body: Body | str = "earth", point_mass: Any = 1.0
+) -> xr.Dataset:
+    """Exact field of a homogeneous spheroid with the mass and figure of a body (I.9).
+
+    Parameters
+    ----------
+    position : array of shape (n, 3)
+        From the centre, z along the axis, m.
+    body : Body or str
+        Its `gm`, `radius` and `flattening` are used; the flattening may be negative (prolate)
+        or zero (sphere).
+    point_mass : float
+        Mass at each point, kg, whose torque on the body is given.
+
+    Returns
+    -------
+    Dataset
+        Along `point`: `potential`, `attraction`, `torque`.
+
+    Raises
+    ------
+    EarthspinError
+        For a body without a figure, or positions that are not finite.
+    """
+    table = {"position": position, "point_mass": point_mass}
+    return run(Scene(compute="spheroid", body=body, tables={"spheroid": table}))

@@ -57,6 +57,9 @@ QUESTIONS: dict[str, Question] = {
         relative_accuracy=True,
     ),
     "torque": Question(wants=("torque-series",)),
+    "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
+    "top": Question(wants=("heavy-top",), tables=("top",)),
+    "spheroid": Question(wants=("spheroid-field",), tables=("spheroid",)),
     "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
 }
 

@@ -12,11 +12,14 @@ from earthspin.scene.parts import (
     averaging,
     earth_models,
     free_wobble,
+    tops,
     iau_comparison,
     kernel,
     ladder,
     nutation_nodes,
+    rotation,
     seasons,
+    spheroid_points,
     standstills,
     torque_at_times,
 )
@@ -39,5 +42,9 @@ PARTS: dict[str, Part] = {
         torque_at_times.TIMES,
         torque_at_times.TORQUE_SERIES,
         ladder.WOBBLE_LADDER,
+        rotation.FREE_ROTATION,
+        rotation.POINSOT,
+        tops.HEAVY_TOP,
+        spheroid_points.SPHEROID_FIELD,
     )
 }

@@ -1,0 +1,167 @@
+"""Three-dimensional pictures that can be turned and played, for the HTML page.
+
+A solid is plain data: meshes, lines and arrows, fixed in space or carried by the body, and the
+body's attitude in time. The page draws it on a canvas with a few lines of script of its
+own, so it works offline.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+BLUE, RED, GREEN, GREY, BLACK = "#0072B2", "#D55E00", "#009E73", "#999999", "#1d1f21"
+
+Item = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A three-dimensional picture.
+
+    Attributes
+    ----------
+    title, caption : str
+    items : sequence of dict
+        As `mesh`, `line`, `arrow` and `moving_arrow` make them.
+    radius : float
+        Half the extent that is shown at first.
+    times : sequence of float
+        In `unit`; one entry for a still picture.
+    attitude : sequence of quaternions
+        w, x, y, z, body to space, one a time; carries what has the frame "body".
+    turn, tilt : float
+        The first view: azimuth and elevation, rad.
+    """
+
+    title: str
+    caption: str
+    items: Sequence[Item]
+    radius: float
+    times: Sequence[float] = (0.0,)
+    unit: str = "s"
+    attitude: Sequence[Sequence[float]] = field(default=((1.0, 0.0, 0.0, 0.0),))
+    turn: float = 0.6
+    tilt: float = 0.35
+
+    def json(self) -> str:
+        """The picture as the page's script reads it, numbers to five digits."""
+        content = {
+            "items": list(self.items),
+            "radius": self.radius,
+            "times": list(self.times),
+            "unit": self.unit,
+            "attitude": [list(q) for q in self.attitude],
+            "turn": self.turn,
+            "tilt": self.tilt,
+        }
+        return json.dumps(_rounded(content), separators=(",", ":"))
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _rounded(inner) for key, inner in value.items()}
+    if isinstance(value, np.ndarray):
+        return _rounded(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [_rounded(inner) for inner in value]
+    return float(f"{value:.5g}") if isinstance(value, float) else value
+
+
+def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str = "space") -> Item:
+    """A surface through a grid of points, shape (m, n, 3)."""
+    return {
+        "kind": "mesh",
+        "points": points,
+        "colour": colour,
+        "opacity": opacity,
+        "frame": frame,
+    }
+
+
+def line(
+    points: FloatArray,
+    colour: str,
+    *,
+    width: float = 2.0,
+    frame: str = "space",
+    grows: bool = False,
+) -> Item:
+    """A line through points, shape (n, 3); one that grows is drawn up to the time shown."""
+    return {
+        "kind": "line",
+        "points": points,
+        "colour": colour,
+        "width": width,
+        "frame": frame,
+        "grows": grows,
+    }
+
+
+def arrow(tip: FloatArray, colour: str, label: str = "", *, frame: str = "space") -> Item:
+    """An arrow from the centre to a point, shape (3,)."""
+    return {
+        "kind": "arrow",
+        "tip": tip,
+        "colour": colour,
+        "label": label,
+        "width": 2.5,
+        "frame": frame,
+    }
+
+
+def moving_arrow(track: FloatArray, colour: str, label: str = "") -> Item:
+    """An arrow in space whose tip moves, shape (n, 3), one point a time."""
+    return {
+        "kind": "arrow",
+        "track": track,
+        "colour": colour,
+        "label": label,
+        "width": 2.5,
+        "frame": "space",
+    }
+
+
+def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> FloatArray:
+    """Points on an ellipsoid along its principal axes, shape (rows, columns, 3)."""
+    polar, azimuth = np.meshgrid(
+        np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns), indexing="ij"
+    )
+    unit = [np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]
+    return np.stack([a * u for a, u in zip(semi_axes, unit, strict=True)], axis=-1)
+
+
+def cone(half_angle: float, length: float, columns: int = 41) -> FloatArray:
+    """Points on a cone about the third axis with its tip at the centre, shape (2, columns, 3).
+
+    Parameters
+    ----------
+    half_angle : float
+        rad.
+    length : float
+        Along the surface.
+    """
+    azimuth = np.linspace(0, 2 * np.pi, columns)
+    rim = length * np.stack(
+        [
+            np.sin(half_angle) * np.cos(azimuth),
+            np.sin(half_angle) * np.sin(azimuth),
+            np.full(columns, np.cos(half_angle)),
+        ],
+        axis=-1,
+    )
+    return np.stack([np.zeros_like(rim), rim])
+
+
+def square(half: float, height: float, cells: int = 8) -> FloatArray:
+    """Points of a level square, shape (cells + 1, cells + 1, 3)."""
+    side = np.linspace(-half, half, cells + 1)
+    x, y = np.meshgrid(side, side, indexing="ij")
+    return np.stack([x, y, np.full_like(x, height)], axis=-1)
