@@ -236,7 +236,7 @@ def heavy_top(times: Any, **top: Any) -> xr.Dataset:
     Dataset
         Over `time` (s): `theta`, `phi`, `psi` (rad), `attitude`, `omega_body`; `turning_angle`
         along `turning`, `pattern` (wave, cusp, loop, sleeping, steady), `nutation_period`,
-        `precession_rate`, and the effective potential along `inclination`.
+        `mean_precession_rate`, and the effective potential along `inclination`.
 
     Raises
     ------

@@ -141,8 +141,17 @@ def _run(given: argparse.Namespace) -> None:
 
         print_tables(result)
     if given.out is not None:
-        path = storage.write(result, Path(given.out) / f"{name}.nc")
-        print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
+        from earthspin.views.report import scene_views
+
+        place = Path(given.out)
+        with (
+            storage.replacing(place / f"{name}.html") as page,
+            storage.replacing(place / f"{name}.nc") as data,
+        ):
+            page.write_text(scene_views(result), encoding="utf-8")
+            storage.write_netcdf(result, data)
+        for path in (place / f"{name}.html", place / f"{name}.nc"):
+            print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
 
 
 def _plan(given: argparse.Namespace) -> None:

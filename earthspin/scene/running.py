@@ -175,9 +175,11 @@ def _attributes(planned: Plan, given: Mapping[str, Any]) -> dict[str, str | floa
         "earthspin_version": __version__,
         "numpy_version": version("numpy"),
         "compute": scene.compute,
-        "body": scene.body.name,
-        "effects": " ".join(scene.effects or ()),
     }
+    if "body" in used:
+        attributes["body"] = scene.body.name
+    if scene.effects:
+        attributes["effects"] = " ".join(scene.effects)
     if "perturbers" in used:
         attributes["perturbers"] = " ".join(p.name for p in scene.perturbers)
     if "ephemeris" in given:

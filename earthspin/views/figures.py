@@ -6,7 +6,6 @@ No pyplot: it costs half a second and keeps global state.
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from matplotlib.figure import Figure
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.dataset import si
+from earthspin.views.drawing import Drawing
 from earthspin.views.stars import STARS
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008) and in print.
@@ -38,22 +38,6 @@ STYLE: Any = {
     "svg.hashsalt": "earthspin",
     "svg.fonttype": "none",
 }
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A figure ready for the page.
-
-    Attributes
-    ----------
-    title, caption : str
-    svg : str
-        Text of the picture, without an XML head.
-    """
-
-    title: str
-    caption: str
-    svg: str
 
 
 def _axes(ax: Axes | None, **size: Any) -> Axes:
@@ -293,6 +277,7 @@ def circle_of_pole(result: xr.Dataset) -> Drawing:
             "The sky from inside, centred on the pole of the ecliptic, at the present rate and "
             "obliquity; stars where they stand today.",
             _svg(ax.figure),
+            square=True,
         )
 
 
@@ -301,3 +286,98 @@ def _svg(figure: Figure) -> str:
     figure.savefig(text, format="svg", metadata={"Date": None})
     svg = text.getvalue()
     return svg[svg.index("<svg") :]
+
+
+def free_rotor_drawings(result: xr.Dataset) -> list[Drawing]:
+    """Angular velocity in the body in time, and the herpolhode."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(8, 3.4), layout="constrained")
+        plot_components(result, ax=figure.subplots())
+        drawn = [
+            Drawing(
+                "Angular velocity in the body",
+                "Components along the principal axes.",
+                _svg(figure),
+            )
+        ]
+        if "herpolhode" in result:
+            ax = plot_herpolhode(result)
+            assert isinstance(ax.figure, Figure)
+            drawn.append(
+                Drawing(
+                    "Herpolhode",
+                    "The tip of the angular velocity in the invariable plane, between its bounds "
+                    f"(dashed). A round of the polhode, {float(result.polhode_period):.4g} s, "
+                    f"turns it by {float(np.degrees(result.herpolhode_advance)):.4f} deg.",
+                    _svg(ax.figure),
+                    square=True,
+                )
+            )
+        return drawn
+
+
+def top_drawings(result: xr.Dataset) -> list[Drawing]:
+    """Effective potential, and inclination in time."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(8, 3.4), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        plot_effective_potential(result, ax=left)
+        right.plot(result.time, np.degrees(result.theta), color=_CYCLE[0], lw=1.2)
+        right.set_xlabel("time (s)")
+        right.set_ylabel("inclination (deg)")
+        return [
+            Drawing(
+                "Effective potential and nutation",
+                "Left: the effective potential of the inclination and the top's own energy "
+                "(dashed); it swings where the energy lies above. Right: the inclination in time.",
+                _svg(figure),
+            )
+        ]
+
+
+def plot_components(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Angular velocity along the principal axes in time."""
+    ax = _axes(ax)
+    for number, component in enumerate(result.component.values):
+        ax.plot(
+            result.time,
+            result.omega_body.sel(component=component),
+            color=_CYCLE[number],
+            lw=1.2,
+            label=f"{component}",
+        )
+    ax.set_xlabel("time (s)")
+    ax.set_ylabel("angular velocity (rad/s)")
+    _legend_above(ax)
+    return ax
+
+
+def plot_herpolhode(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Path of the angular velocity in the invariable plane, and its two bounds."""
+    ax = _axes(ax, figsize=(5, 5))
+    turn = np.linspace(0, 2 * np.pi, 181)
+    for radius in result.herpolhode_radius.values:
+        ax.plot(radius * np.cos(turn), radius * np.sin(turn), color="0.5", lw=0.8, ls="--")
+    x, y = result.herpolhode.transpose("in_plane", ...).values
+    ax.plot(x, y, color=_CYCLE[1], lw=1.0)
+    ax.set_aspect("equal")
+    ax.set_xlabel("rad/s")
+    ax.set_ylabel("rad/s")
+    return ax
+
+
+def plot_effective_potential(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Effective potential of a top against its inclination, with the level of its energy."""
+    ax = _axes(ax)
+    at_turning = np.interp(
+        np.degrees(result.turning_angle.values), result.inclination, result.effective_potential
+    )
+    level = float(at_turning.max())
+    lowest = float(result.effective_potential.min())
+    reach = max(level - lowest, 0.05 * abs(lowest), 1e-9)
+    ax.plot(result.inclination, result.effective_potential, color=_CYCLE[0], lw=1.2)
+    ax.axhline(level, color="0.4", lw=0.9, ls="--")
+    ax.set_ylim(lowest - 0.2 * reach, level + 2 * reach)
+    ax.set_xlabel("inclination (deg)")
+    ax.set_ylabel("effective potential (rad$^2$/s$^2$)")
+    return ax

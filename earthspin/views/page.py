@@ -1,43 +1,85 @@
-"""The HTML page of a report: one file that works offline."""
+"""HTML pages: one file each that works offline."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from earthspin._version import __version__
+from earthspin.views.drawing import Drawing
 from earthspin.views.tables import run_times, tables_for, with_error
 
+if TYPE_CHECKING:
+    from earthspin.views.solids import Solid
 
-def page(result: xr.Dataset, drawings: Sequence[object] = ()) -> str:
-    """Write the page.
+
+def precession_page(result: xr.Dataset, drawings: Sequence[Drawing]) -> str:
+    """Page of the precession report.
 
     Parameters
     ----------
     result : Dataset
         Of the scene ``precession``.
     drawings : sequence of Drawing
-        Figures with their captions.
 
     Returns
     -------
     str
         HTML, self-contained.
     """
-    environment = Environment(
-        loader=PackageLoader("earthspin.views"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     total = result.isel(perturber=-1)
-    return environment.get_template("report.html.j2").render(
-        result=result,
-        period=with_error(total.precession_period, total.precession_period_error, "years"),
+    period = with_error(total.precession_period, total.precession_period_error, "years")
+    pullers = " and ".join(name.capitalize() for name in result.attrs["perturbers"].split())
+    return scene_page(
+        result,
+        drawings,
+        lead=f"The axis of the {result.attrs['body'].capitalize()} goes once round in {period} "
+        f"under the pull of {pullers} on its bulge.",
+    )
+
+
+def scene_page(
+    result: xr.Dataset,
+    drawings: Sequence[Drawing] = (),
+    solids: Sequence[Solid] = (),
+    lead: str = "",
+) -> str:
+    """Page of any result: its tables, figures and solids, and what ran for it.
+
+    Parameters
+    ----------
+    result : Dataset
+    drawings : sequence of Drawing
+    solids : sequence of Solid
+    lead : str
+        A sentence at the head.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    note = (
+        "Every error is the half-width of a 95 % interval. Under each table stand the parts that "
+    )
+    note += "made it and their run times."
+    kernel = result.attrs.get("ephemeris")
+    footer = f"{result.attrs['source']}."
+    if kernel:
+        footer += f" Kernel {kernel}, SHA-256 {result.attrs['ephemeris_sha256']}."
+    if result.attrs["references"]:
+        footer += f" Numbers of the bodies: {result.attrs['references']}."
+    return _render(
+        title=result.attrs["title"],
+        lead=lead,
+        note=note,
+        footer=footer,
         tables=[(table, run_times(result, table.parts)) for table in tables_for(result)],
         drawings=drawings,
+        solids=solids,
         parts=[
             {
                 "name": str(name),
@@ -48,3 +90,41 @@ def page(result: xr.Dataset, drawings: Sequence[object] = ()) -> str:
             for name, of in ((n, result.sel(part=n)) for n in result.part.values)
         ],
     )
+
+
+def solids_page(title: str, lead: str, solids: Sequence[Solid]) -> str:
+    """Page of solids alone.
+
+    Parameters
+    ----------
+    title, lead : str
+    solids : sequence of Solid
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    return _render(
+        title=title,
+        lead=lead,
+        note="",
+        footer=f"earthspin {__version__}.",
+        tables=[],
+        drawings=[],
+        solids=solids,
+        parts=[],
+    )
+
+
+def _render(**content: Any) -> str:
+    loader = PackageLoader("earthspin.views")
+    environment = Environment(
+        loader=loader,
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    script = loader.get_source(environment, "solid.js")[0]
+    return environment.get_template("page.html.j2").render(script=script, **content)

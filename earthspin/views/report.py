@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +30,8 @@ def write_report(
     Parameters
     ----------
     folder : str or Path
-        Gets ``index.html`` and ``precession.nc``.
+        Gets ``index.html``, ``precession.nc``, and ``rotors.html``, where free rotors and tops
+        can be turned and played.
     ephemeris : str, path or Skyfield kernel
     figures : bool
         Without them, nothing is drawn and the scenes behind them are not run.
@@ -45,7 +47,8 @@ def write_report(
     EarthspinError
         Whatever is wrong; the folder's old files are then as they were.
     """
-    from earthspin.views.page import page
+    from earthspin.views.page import precession_page, solids_page
+    from earthspin.views.rotor_solids import gallery
 
     place = storage.check_writable(folder)
     session = Session()
@@ -53,12 +56,17 @@ def write_report(
         result = run(load_scene("precession", {"ephemeris": ephemeris}), session=session)
         advance(1)
         drawn = _draw(result, ephemeris, session, advance) if figures else []
-        text = page(result, drawn)
-    paths = [place / "index.html", place / "precession.nc"]
-    with storage.replacing(paths[0]) as html, storage.replacing(paths[1]) as data:
-        html.write_text(text, encoding="utf-8")
-        storage.write_netcdf(result, data)
-    return result, paths
+        pages = {"index.html": precession_page(result, drawn)}
+        if figures:
+            pages["rotors.html"] = solids_page(*gallery())
+    with ExitStack() as together:
+        for name, text in pages.items():
+            draft = together.enter_context(storage.replacing(place / name))
+            draft.write_text(text, encoding="utf-8")
+        storage.write_netcdf(
+            result, together.enter_context(storage.replacing(place / "precession.nc"))
+        )
+    return result, [*(place / name for name in pages), place / "precession.nc"]
 
 
 def _draw(result: xr.Dataset, ephemeris: Any, session: Session, advance: Any) -> list[Any]:
@@ -85,3 +93,21 @@ def _draw(result: xr.Dataset, ephemeris: Any, session: Session, advance: Any) ->
     drawn += [figures.convergence_of_windows(result), figures.circle_of_pole(result)]
     advance(1)
     return drawn
+
+
+def scene_views(result: xr.Dataset) -> str:
+    """Page of one scene: its tables, figures and, where there are any, its solids."""
+    from earthspin.views import figures, rotor_solids
+    from earthspin.views.page import precession_page, scene_page
+
+    question = result.attrs["compute"]
+    if question == "precession":
+        return precession_page(result, [figures.convergence_of_windows(result)])
+    if question == "torque":
+        return scene_page(result, [figures.torque_through(result, "Declination and torque")])
+    if question == "free-rotor":
+        solids = rotor_solids.of_free_rotor(result) if "polhode" in result else []
+        return scene_page(result, figures.free_rotor_drawings(result), solids)
+    if question == "top":
+        return scene_page(result, figures.top_drawings(result), [rotor_solids.path_of_top(result)])
+    return scene_page(result)

@@ -7,6 +7,7 @@ import xarray as xr
 
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.rotor.quaternion import multiply, rotate
+from earthspin.scene.running import run
 from earthspin.views.solids import (
     BLACK,
     BLUE,
@@ -57,9 +58,9 @@ def rolling_ellipsoid(result: xr.Dataset) -> Solid:
     half = 1.15 * max(outer, float(semi_axes.max()))
     return Solid(
         title="The ellipsoid rolls on the invariable plane",
-        caption="In space, with the angular momentum upright: the inertia ellipsoid touches a fixed "
-        "plane at the tip of the angular velocity and rolls on it without slipping. The "
-        "ellipsoid is marked along the polhode (black), the plane along the herpolhode (red).",
+        caption="In space, with the angular momentum upright: the inertia ellipsoid touches a "
+        "fixed plane at the tip of the angular velocity and rolls on it without slipping. It is "
+        "marked along the polhode (black), the plane along the herpolhode (red).",
         items=[
             mesh(ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
             line(result.polhode.values, BLACK, width=2.5, frame="body"),
@@ -90,7 +91,7 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
         f"{roll} the space cone (blue) about the angular momentum. They touch along the angular "
         "velocity (green). "
         + (
-            "Oblate: the axis leans away beyond the angular velocity's side."
+            "Oblate: the angular momentum lies between the axis and the angular velocity."
             if inside
             else "Prolate: the angular velocity lies between the angular momentum and the axis."
         ),
@@ -148,4 +149,25 @@ def _turn_to_z(vector: np.ndarray) -> np.ndarray:
     """Quaternion of the shortest turn that brings a vector to the third axis."""
     unit = vector / np.linalg.norm(vector)
     half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
-    return half / np.linalg.norm(half)
+    return np.asarray(half / np.linalg.norm(half))
+
+
+def of_free_rotor(result: xr.Dataset) -> list[Solid]:
+    """The solids of one free rotor."""
+    return [ellipsoids_with_polhodes(result), rolling_ellipsoid(result)]
+
+
+def gallery() -> tuple[str, str, list[Solid]]:
+    """Title, lead and solids of the page of rotors and tops that comes with the report."""
+    poinsot = run("poinsot")
+    solids = of_free_rotor(poinsot)
+    prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
+    oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
+    solids.append(rolling_cones(prolate, "Rolling cones, prolate"))
+    solids.append(rolling_cones(oblate, "Rolling cones, oblate"))
+    solids += [path_of_top(run(name)) for name in ("top-wave", "top-cusp", "top-loop")]
+    lead = (
+        "How bodies turn without torque (I.5, I.6), and how a heavy top moves (I.7). "
+        "Every picture can be turned with the mouse and played in time."
+    )
+    return "Rotors and tops", lead, solids

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
@@ -45,9 +45,9 @@ class Solid:
     caption: str
     items: Sequence[Item]
     radius: float
-    times: Sequence[float] = (0.0,)
+    times: ArrayLike = (0.0,)
     unit: str = "s"
-    attitude: Sequence[Sequence[float]] = field(default=((1.0, 0.0, 0.0, 0.0),))
+    attitude: ArrayLike = ((1.0, 0.0, 0.0, 0.0),)
     turn: float = 0.6
     tilt: float = 0.35
 
@@ -56,9 +56,9 @@ class Solid:
         content = {
             "items": list(self.items),
             "radius": self.radius,
-            "times": list(self.times),
+            "times": np.asarray(self.times, dtype=float),
             "unit": self.unit,
-            "attitude": [list(q) for q in self.attitude],
+            "attitude": np.asarray(self.attitude, dtype=float),
             "turn": self.turn,
             "tilt": self.tilt,
         }

@@ -56,6 +56,9 @@ def tables_for(result: xr.Dataset) -> list[Table]:
         "standstill_declination": standstills,
         "torque_magnitude": torque_summary,
         "period_solar": ladder,
+        "energy": free_rotor,
+        "turning_angle": top,
+        "potential": spheroid,
     }
     tables = [make(_first_of_draws(result)) for name, make in makers.items() if name in result]
     return [table for table in tables if table.rows]
@@ -314,6 +317,77 @@ def ladder(result: xr.Dataset) -> Table:
         note,
         ("wobble-ladder",),
     )
+
+
+def free_rotor(result: xr.Dataset) -> Table:
+    """Constants of a free rotor's motion."""
+    one = result.isel(start=0) if "start" in result.dims else result
+    momentum = float(np.linalg.norm(one.angular_momentum_body.isel(time=0)))
+    rows = [
+        ("kinetic energy, J", f"{float(one.energy.isel(time=0)):.10g}"),
+        ("angular momentum, kg m2/s", f"{momentum:.10g}"),
+    ]
+    if "polhode_period" in one:
+        inner, outer = one.herpolhode_radius.values
+        rows += [
+            ("period of the polhode, s", f"{float(one.polhode_period):.10g}"),
+            ("invariable plane, rad/s", f"{float(one.invariable_plane_distance):.10g}"),
+            ("herpolhode between, rad/s", f"{inner:.8g} and {outer:.8g}"),
+            (
+                "turn of the herpolhode per round, deg",
+                f"{float(np.degrees(one.herpolhode_advance)):.8f}",
+            ),
+            ("growth rate about x, y, z, 1/s", _list(one.growth_rate.values)),
+        ]
+    return Table(
+        "Free rotor",
+        ("", "value"),
+        rows,
+        "Constants of the motion; the growth rate is that of a small tilt off each axis, 0 where "
+        "the axis is stable.",
+        ("free-rotation", "poinsot"),
+    )
+
+
+def top(result: xr.Dataset) -> Table:
+    """What a heavy top does."""
+    upper, lower = np.degrees(result.turning_angle.values)
+    return Table(
+        "Heavy top",
+        ("", "value"),
+        [
+            ("pattern", str(result.pattern.values)),
+            ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"),
+            ("period of nutation, s", f"{float(result.nutation_period):.10g}"),
+            ("mean precession, rad/s", f"{float(result.mean_precession_rate):.10g}"),
+        ],
+        "",
+        ("heavy-top",),
+    )
+
+
+def spheroid(result: xr.Dataset) -> Table:
+    """Field of a spheroid at each point."""
+    rows = [
+        (
+            _list(of.position.values),
+            f"{float(of.potential):.10e}",
+            _list(of.attraction.values),
+            f"{float(np.linalg.norm(of.torque)):.6e}",
+        )
+        for of in (result.isel(point=n) for n in range(result.sizes["point"]))
+    ]
+    return Table(
+        "Field of the spheroid",
+        ("position, m", "potential, J/kg", "attraction, m/s2", "torque, N m"),
+        rows,
+        "Homogeneous, with the mass, radius and flattening of the body.",
+        ("spheroid-field",),
+    )
+
+
+def _list(values: Any) -> str:
+    return ", ".join(f"{float(v):.6g}" for v in values)
 
 
 def run_times(result: xr.Dataset, parts: tuple[str, ...]) -> str:

@@ -12,7 +12,6 @@ from earthspin.scene.parts import (
     averaging,
     earth_models,
     free_wobble,
-    tops,
     iau_comparison,
     kernel,
     ladder,
@@ -21,6 +20,7 @@ from earthspin.scene.parts import (
     seasons,
     spheroid_points,
     standstills,
+    tops,
     torque_at_times,
 )
 

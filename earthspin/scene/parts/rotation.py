@@ -96,7 +96,7 @@ def _laid(values: Any, *dims: str) -> xr.DataArray:
 def _one_start(scene: Scene) -> str | None:
     import numpy as np
 
-    omega = scene.tables.get("rotor", {}).get("omega", ROTOR.defaults["omega"])
+    omega = (scene.tables or {}).get("rotor", {}).get("omega", ROTOR.defaults["omega"])
     return None if np.ndim(np.asarray(omega, dtype=object)) == 1 else "there are several starts"
 
 

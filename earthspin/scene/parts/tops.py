@@ -47,7 +47,9 @@ def heavy_top(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     import numpy as np
 
     from earthspin.dataset import build
-    from earthspin.top import HeavyTop, effective_potential, heavy_top_motion
+    from earthspin.top.motion import heavy_top_motion
+    from earthspin.top.start import HeavyTop
+    from earthspin.top.turning import effective_potential
 
     settings = read_table(TOP, scene)
     times = settings.pop("times")
@@ -66,7 +68,7 @@ def heavy_top(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
             "turning_angle": motion.turning_angle,
             "pattern": motion.pattern,
             "nutation_period": motion.nutation_period,
-            "precession_rate": motion.precession_rate,
+            "mean_precession_rate": motion.precession_rate,
             "effective_potential": effective_potential(top, inclination),
         },
         coords={
@@ -102,7 +104,7 @@ HEAVY_TOP = Part(
         "turning_angle": Variable(("turning",), "rad", "least and greatest theta"),
         "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
         "nutation_period": Variable((), "s", "time in which theta goes once to and fro"),
-        "precession_rate": Variable((), "rad/s", "mean rate of phi"),
+        "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
         "effective_potential": Variable(
             ("inclination",), "rad2 / s2", "effective potential V of alpha = theta'^2 + V"
         ),

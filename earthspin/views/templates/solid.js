@@ -14,7 +14,8 @@ function makeSolid(figure) {
   const slider = figure.querySelector("input[type=range]"), button = figure.querySelector("button");
   const clock = figure.querySelector("output");
   const frames = scene.times.length;
-  const view = { turn: scene.turn, tilt: scene.tilt, zoom: 1, frame: 0, playing: false };
+  // The last moment first: what grows in time is then there to be seen.
+  const view = { turn: scene.turn, tilt: scene.tilt, zoom: 1, frame: frames - 1, playing: false };
 
   // Place of a point of an item at the current time, in space.
   const inSpace = (item, point) =>
@@ -122,7 +123,7 @@ function makeSolid(figure) {
     view.zoom = Math.max(0.3, Math.min(8, view.zoom * Math.exp(-e.deltaY / 600)));
     paint();
   }, { passive: false });
-  slider.max = frames - 1;
+  slider.max = slider.value = frames - 1;
   slider.addEventListener("input", () => { view.frame = Number(slider.value); paint(); });
   button.addEventListener("click", () => {
     view.playing = !view.playing;
