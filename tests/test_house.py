@@ -78,7 +78,7 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
         "for name in earthspin.__all__: getattr(earthspin, name)\n"
         "assert 'wobble' in earthspin.scene.spec.shipped_scenes()\n"
         "from earthspin.views.page import PackageLoader\n"
-        "PackageLoader('earthspin.views').get_source(None or "
-        "__import__('jinja2').Environment(), 'report.html.j2')\n"
+        "PackageLoader('earthspin.views').get_source("
+        "__import__('jinja2').Environment(), 'page.html.j2')\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, cwd=tmp_path)

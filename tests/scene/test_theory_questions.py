@@ -1,0 +1,134 @@
+"""The questions of the rotor, the top and the spheroid, asked as a user would."""
+
+from pathlib import Path
+
+import astropy.units as u
+import numpy as np
+import pytest
+
+import earthspin
+from earthspin import EARTH, EarthspinError, storage
+from earthspin.rotor.euler import integrate_rotation
+from earthspin.scene.spec import scene_from_table
+from earthspin.top.integration import integrate_heavy_top
+from earthspin.top.start import HeavyTop
+
+TIMES = np.linspace(0.0, 20.0, 41)
+TOP = {
+    "transverse_moment": 1.0,
+    "axial_moment": 1.2,
+    "weight_moment": 1.5,
+    "theta": 0.7,
+    "spin": 3.0,
+    "phi_rate": 0.3,
+}
+
+
+def test_free_rotor_against_the_full_equations() -> None:
+    result = earthspin.free_rotor([2.0, 1.0, 3.0], [0.3, 1.0, 0.1], TIMES)
+    numeric = integrate_rotation([2.0, 1.0, 3.0], [0.3, 1.0, 0.1], TIMES)
+    assert np.allclose(result.omega_body, numeric.omega_body, rtol=0, atol=1e-10)
+    assert np.allclose(result.attitude, numeric.attitude, rtol=0, atol=1e-10)
+    assert np.ptp(result.energy.values) < 1e-15 * float(result.energy[0]) * 4
+    assert result.attrs["compute"] == "free-rotor"
+    assert list(result.quaternion.values) == ["w", "x", "y", "z"]
+    momentum = np.linalg.norm(result.angular_momentum_body, axis=1)
+    assert np.ptp(momentum) < 4e-15
+
+
+def test_differences_keep_their_digits() -> None:
+    """A cone of one microarcsecond on a body like the Earth, from differences of moments."""
+    moments = {"A": 8.0e37, "B-A": 1.7e33, "C-A": 2.6e35}
+    cone = np.radians(1e-6 / 3600)
+    period = 86164.0 * 8.0e37 / 2.6e35
+    result = earthspin.free_rotor(moments, [7.29e-5 * cone, 0.0, 7.29e-5], [0.0, period / 2])
+    assert float(result.omega_body[1, 0]) == pytest.approx(-7.29e-5 * cone, rel=0.05)
+
+
+def test_several_starts_at_once() -> None:
+    starts = [[0.3, 1.0, 0.1], [0.0, 0.0, 1.0]]
+    many = earthspin.free_rotor([1.0, 2.0, 3.0], starts, TIMES)
+    one = earthspin.free_rotor([1.0, 2.0, 3.0], starts[0], TIMES)
+    assert many.omega_body.dims == ("time", "component", "start")
+    assert np.array_equal(many.omega_body.isel(start=0), one.omega_body)
+    assert "polhode" in one
+    assert "polhode" not in many
+
+
+def test_heavy_top_against_the_full_equations() -> None:
+    result = earthspin.heavy_top(TIMES, **TOP)
+    numeric = integrate_heavy_top(HeavyTop(**TOP), TIMES)
+    assert np.allclose(result.attitude, numeric.attitude, rtol=0, atol=1e-9)
+    assert str(result.pattern.values) == "wave"
+    assert result.theta.min() >= result.turning_angle[0] - 1e-12
+    assert result.theta.max() <= result.turning_angle[1] + 1e-12
+
+
+@pytest.mark.parametrize(
+    ("scene", "pattern"),
+    [
+        ("top-wave", "wave"),
+        ("top-cusp", "cusp"),
+        ("top-loop", "loop"),
+        ("sleeping-top", "sleeping"),
+    ],
+)
+def test_shipped_tops(scene: str, pattern: str) -> None:
+    assert str(earthspin.run(scene).pattern.values) == pattern
+
+
+def test_the_racket_turns_over() -> None:
+    result = earthspin.run("tennis-racket")
+    middle = result.omega_body.sel(component="y")
+    assert float(middle.min()) < -0.99
+    assert float(middle.max()) > 0.99
+    assert np.argmax(result.growth_rate.values) == 1
+
+
+def test_spheroid_field_far_away_is_maccullaghs() -> None:
+    position = np.array([[3.5e8, 0.0, 1.6e8]])
+    result = earthspin.spheroid_field(position, point_mass=7.346e22)
+    difference = 0.2 * EARTH.mass * (EARTH.radius**2) * (1 - (1 - EARTH.flattening) ** 2)
+    r = np.linalg.norm(position)
+    x, _, z = position[0]
+    expected = -3 * 6.67430e-11 * 7.346e22 * difference * z * x / r**5
+    assert float(result.torque.sel(component="y")[0]) == pytest.approx(expected, rel=3e-4)
+    assert result.torque.attrs["frame"]
+
+
+@pytest.mark.parametrize("scene", ["poinsot", "top-loop", "spheroid"])
+def test_results_come_back_from_disk(tmp_path: Path, scene: str) -> None:
+    import xarray as xr
+
+    result = earthspin.run(scene)
+    xr.testing.assert_identical(storage.read(storage.write(result, tmp_path / "r.nc")), result)
+
+
+def test_quantities_and_text_carry_units() -> None:
+    plain = earthspin.heavy_top([1.0], **TOP)
+    given = {**TOP, "theta": 0.7 * u.rad, "spin": "3 rad/s"}
+    assert float(earthspin.heavy_top([1.0], **given).theta[0]) == float(plain.theta[0])
+
+
+WRONG = [
+    ({"compute": "free-rotor", "rotor": {"moments": ["1 kg m2", "1 kg m2", "3 kg m2"]}}, "moment"),
+    ({"compute": "free-rotor", "rotor": {"moments": ["1 m", "1 m", "1 m"]}}, "rotor.moments"),
+    ({"compute": "free-rotor", "rotor": {"omega": ["0 rad/s"] * 3}}, "angular"),
+    ({"compute": "free-rotor", "rotor": {"omga": 1}}, "did you mean 'omega'"),
+    ({"compute": "free-rotor", "rotor": {"duration": "5 kg"}}, "rotor.duration"),
+    ({"compute": "free-rotor", "rotor": {"points": 0}}, "1 or more"),
+    ({"compute": "top", "top": {"theta": "200 deg"}}, "theta"),
+    ({"compute": "top", "top": {"axial_moment": "3 kg m2"}}, "axial_moment"),
+    ({"compute": "top", "top": {"transverse_moment": "-1 kg m2"}}, "transverse_moment"),
+    ({"compute": "spheroid"}, "spheroid.position"),
+    ({"compute": "spheroid", "spheroid": {"position": ["1 m", "2 m"]}}, "position"),
+    ({"compute": "wobble", "top": {}}, "no such table"),
+]
+
+
+@pytest.mark.parametrize(("table", "words"), WRONG, ids=[w for _, w in WRONG])
+def test_what_is_wrong_is_one_line(table: dict, words: str) -> None:
+    with pytest.raises(EarthspinError) as error:
+        earthspin.run(scene_from_table(table, source="my.toml"))
+    assert words in str(error.value)
+    assert "\n" not in str(error.value)

@@ -1,0 +1,73 @@
+"""The page of rotors and tops, opened in a headless browser."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+from earthspin.views.page import solids_page
+from earthspin.views.rotor_solids import gallery
+
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = (
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+    *("--hide-scrollbars", "--enable-logging=stderr", "--virtual-time-budget=4000"),
+)
+
+
+@pytest.fixture(scope="module")
+def browser() -> str:
+    if BROWSER is None:
+        if os.environ.get("EARTHSPIN_NEEDS_BROWSER"):
+            pytest.fail("chromium is needed here and is not installed")
+        pytest.skip("chromium is not installed")
+    return BROWSER
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("page") / "rotors.html"
+    path.write_text(solids_page(*gallery()), encoding="utf-8")
+    return path
+
+
+def opened(browser: str, page: Path, profile: Path, *words: str) -> tuple[str, str]:
+    done = subprocess.run(
+        [browser, *FLAGS, f"--user-data-dir={profile}", *words, page.as_uri()],
+        capture_output=True,
+        text=True,
+        timeout=90,
+        check=True,
+    )
+    return done.stdout, done.stderr
+
+
+def test_every_picture_is_painted_and_the_console_is_clean(
+    browser: str, page: Path, tmp_path: Path
+) -> None:
+    html, log = opened(browser, page, tmp_path, "--dump-dom")
+    assert html.count('data-painted="yes"') == len(gallery()[2]) == 7
+    assert "CONSOLE" not in log, log
+
+
+def test_there_is_something_to_see(browser: str, page: Path, tmp_path: Path) -> None:
+    shot = tmp_path / "shot.png"
+    opened(browser, page, tmp_path, f"--screenshot={shot}", "--window-size=1000,5200")
+    picture = matplotlib.image.imread(shot)[..., :3]
+    coloured = np.ptp(picture, axis=-1) > 0.1
+    # seven canvases of 480 pixels' height, each with a good deal of colour
+    rows = coloured.sum(axis=1)
+    assert coloured.mean() > 0.01
+    assert (rows > 20).sum() > 7 * 100
+
+
+def test_the_page_needs_no_network(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert not re.search(r"(?:src|href)\s*=", text)
+    assert "http" not in text

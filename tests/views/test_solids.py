@@ -1,0 +1,73 @@
+"""Solids: what is drawn is what the theory says."""
+
+import json
+
+import numpy as np
+import pytest
+
+import earthspin
+from earthspin.rotor.axisymmetric import SymmetricRotor
+from earthspin.views import rotor_solids, solids
+
+
+@pytest.fixture(scope="module")
+def poinsot() -> object:
+    return earthspin.run("poinsot")
+
+
+def test_every_solid_is_plain_json() -> None:
+    _, lead, found = rotor_solids.gallery()
+    assert lead
+    for solid in found:
+        content = json.loads(solid.json())
+        frames = len(content["times"])
+        assert len(content["attitude"]) == frames
+        for item in content["items"]:
+            assert item["kind"] in {"mesh", "line", "arrow"}
+            if "track" in item:
+                assert len(item["track"]) == frames
+        assert solid.caption.endswith(".")
+
+
+def test_the_polhode_lies_on_both_ellipsoids(poinsot: object) -> None:
+    polhode = poinsot.polhode.values
+    for name in ("inertia_ellipsoid", "momentum_ellipsoid"):
+        on = np.sum((polhode / poinsot[name].values) ** 2, axis=1)
+        assert np.allclose(on, 1.0, rtol=0, atol=1e-13)
+
+
+def test_the_rolling_ellipsoid_touches_the_plane(poinsot: object) -> None:
+    """At every time the highest point of the ellipsoid is the tip of omega, on the plane."""
+    solid = rotor_solids.rolling_ellipsoid(poinsot)
+    height = float(poinsot.invariable_plane_distance)
+    track = next(i["track"] for i in solid.items if i["kind"] == "arrow" and "track" in i)
+    assert np.allclose(track[:, 2], height, rtol=1e-12)
+    from earthspin.rotor.quaternion import rotate
+
+    body = solids.ellipsoid(poinsot.inertia_ellipsoid.values, 61, 121).reshape(-1, 3)
+    for q in np.asarray(solid.attitude)[::120]:
+        turned = rotate(np.broadcast_to(q, (len(body), 4)), body)
+        assert turned[:, 2].max() <= height * (1 + 1e-12)
+        assert turned[:, 2].max() > height * 0.998
+
+
+@pytest.mark.parametrize(("difference", "alpha"), [(-0.6, 0.35), (0.8, 0.6)])
+def test_the_cones_touch_along_omega(difference: float, alpha: float) -> None:
+    rotor = SymmetricRotor(equatorial=1.0, difference=difference, speed=1.0, alpha=alpha)
+    times = np.linspace(0, 30, 50)
+    omega, axis = rotor.omega_inertial(times), rotor.figure_axis(times)
+    to_axis = np.arctan2(
+        np.linalg.norm(np.cross(omega, axis), axis=1), np.sum(omega * axis, axis=1)
+    )
+    to_momentum = np.arctan2(np.hypot(omega[:, 0], omega[:, 1]), omega[:, 2])
+    assert np.allclose(to_axis, alpha, atol=1e-14)
+    assert np.allclose(to_momentum, abs(rotor.space_cone), atol=1e-14)
+
+
+def test_shapes() -> None:
+    points = solids.ellipsoid((1.0, 2.0, 3.0))
+    assert np.allclose(np.sum((points / [1.0, 2.0, 3.0]) ** 2, axis=-1), 1.0)
+    rim = solids.cone(0.3, 2.0)[1]
+    assert np.allclose(np.linalg.norm(rim, axis=-1), 2.0)
+    assert np.allclose(np.arctan2(np.hypot(rim[:, 0], rim[:, 1]), rim[:, 2]), 0.3)
+    assert np.all(solids.square(1.5, 0.7)[..., 2] == 0.7)
