@@ -42,6 +42,10 @@ IntArray = NDArray[np.intp]
 
 #: A component of omega this far below the largest counts as zero: its square would underflow.
 _NEGLIGIBLE = 2.0**-450
+#: Below this the power of two that takes differences to order one has no inverse.
+_LEAST_CONTRAST = 2.0**-1000
+#: A slower rate, rad/s, has a period that no float can hold.
+_SLOWEST = 1e-280
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,7 +121,7 @@ class JacobiMotion:
     def exact_period(self) -> DoubleDouble:
         """Time in which omega comes back in the body, 4K/lambda, s; 0 if it never does."""
         quarter = self.descent.quarter_period
-        moves = self.rate.hi > 0
+        moves = self.rate.hi > _SLOWEST
         return where(moves, quarter.scaled(4.0) / where(moves, self.rate, 1.0), 0.0)
 
     @property
@@ -137,7 +141,7 @@ class _Start(NamedTuple):
     g: DoubleDouble
     twice_energy: DoubleDouble
     span: DoubleDouble  # I3 - I1
-    side: DoubleDouble  # G^2 - 2T I2
+    side: DoubleDouble  # (G^2 - 2T I2)/(I3 - I1) = r x3 - s x1
     r: DoubleDouble
     s: DoubleDouble
     d1: DoubleDouble
@@ -179,9 +183,9 @@ def _constants(
 ) -> JacobiMotion:
     i1, i2, i3 = _components(start.moment)
     r, d1, d3 = start.r, start.d1, start.d3
-    # No cone, or no difference of moments: anything circular will do.
+    # With no cone, or no difference of moments, anything circular will do.
     circular = (d1.hi == 0) | (start.span.hi == 0)
-    k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1 * start.span))
+    k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1))
     k_complementary = k2_complementary.sqrt()
     descent = landen_descent(k_complementary)
 
@@ -264,10 +268,12 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
     spin = spin * signs
     momentum = moment * spin
     x1, x2, x3 = _components(momentum * spin)  # m^2/I
-    i32, i13, i21 = _components(_take(unit.difference, axes).scaled(parity[..., np.newaxis]))
+    difference = _take(unit.difference, axes).scaled(parity[..., np.newaxis])
+    contrast = np.maximum(_power_of_two(difference.hi), _LEAST_CONTRAST)
+    i32, i13, i21 = _components(difference.scaled(1 / contrast[..., np.newaxis]))
     sphere = i13.hi == 0
-    divisor = where(sphere, 1.0, -i13)
-    r, s = where(sphere, 1.0, i32 / divisor), where(sphere, 0.0, i21 / divisor)
+    i31 = where(sphere, 1.0, -i13)
+    r, s = where(sphere, 1.0, i32 / i31), where(sphere, 0.0, i21 / i31)
     m1, m2, m3 = _components(momentum * momentum)
     return _Start(
         axes=axes,
@@ -276,9 +282,9 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
         spin=spin,
         g=(m1 + m2 + m3).sqrt(),
         twice_energy=x1 + x2 + x3,
-        span=-i13,
-        # No quotients here: a start in whole numbers is on the separatrix exactly.
-        side=i32 * x3 - i21 * x1,
+        span=-i13.scaled(contrast),
+        # The quotient last: a start in whole numbers is on the separatrix exactly.
+        side=(i32 * x3 - i21 * x1) / i31,
         r=r,
         s=s,
         d1=s * x2 + x3,

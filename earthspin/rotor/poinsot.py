@@ -149,10 +149,12 @@ def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
     motion = jacobi_motion(moments, omega)
     phase = phase_at(motion, np.concatenate([[0.0], finite(times, "times", "s")]))
     across = quaternion.rotate(momentum_frame(motion, phase), _across(motion, phase))
-    path = across[..., 0] + 1j * across[..., 1]  # a quarter turn behind omega
-    size = np.abs(path[..., :1])
-    path = path * np.conj(np.where(size > 0, path[..., :1], 1.0)) / np.where(size > 0, size, 1.0)
-    return np.stack([path.real, path.imag], axis=-1)[..., 1:, :]
+    # A quarter turn from the path itself, which turning the start to the first axis undoes.
+    x, y = across[..., 0], across[..., 1]
+    size = np.hypot(x[..., :1], y[..., :1])
+    divisor = np.where(size > 0, size, 1.0)
+    cosine, sine = x[..., :1] / divisor, y[..., :1] / divisor
+    return np.stack([x * cosine + y * sine, y * cosine - x * sine], axis=-1)[..., 1:, :]
 
 
 def herpolhode_radii(moments: Moments, omega: Any) -> FloatArray:

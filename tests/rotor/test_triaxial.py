@@ -254,6 +254,25 @@ def test_a_rotation_across_the_axis_of_symmetry_stays(moments: Any) -> None:
         np.testing.assert_allclose(found.attitude[1], wanted, atol=1e-15)
 
 
+@pytest.mark.parametrize("size", [1e-270, 1e-250, 1e-100])
+def test_differences_beyond_any_digit_of_the_moments(size: float) -> None:
+    """The polhode has the shape that their ratio gives it; only its period is out of reach."""
+    motion = jacobi_motion({"A": 1.0, "B-A": size, "C-A": 3 * size}, [0.3, 0.2, 1.0])
+    like = jacobi_motion({"A": 1.0, "B-A": 1e-20, "C-A": 3e-20}, [0.3, 0.2, 1.0])
+    np.testing.assert_allclose(motion.amplitudes, like.amplitudes, rtol=1e-15)
+    assert motion.period * size == pytest.approx(float(like.period) * 1e-20, rel=1e-15)
+
+
+@pytest.mark.parametrize("size", [5e-324, -5e-324, 1e-310, 1e-290, -1e-100])
+def test_differences_that_no_time_is_long_enough_for(size: float) -> None:
+    omega = [0.3, 0.2, 1.0]
+    found = free_rotation({"A": 1.0, "B-A": size, "C-A": 3 * size}, omega, [7.0])
+    sphere = free_rotation([1.0, 1.0, 1.0], omega, [7.0])
+    assert jacobi_motion({"A": 1.0, "B-A": size, "C-A": 3 * size}, omega).period > 1e100
+    np.testing.assert_allclose(found.omega_body, sphere.omega_body, atol=1e-15)
+    np.testing.assert_allclose(found.attitude, sphere.attitude, atol=1e-15)
+
+
 def test_the_separatrix_ends_on_the_middle_axis() -> None:
     """A = 3, B = 4, C = 6 and w1 = 2 w3 make G2 = 2T B in whole numbers."""
     found = free_rotation([3.0, 4.0, 6.0], [2.0, 0.0, 1.0], [-400.0, 0.0, 0.7, 400.0])
