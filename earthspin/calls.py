@@ -168,21 +168,40 @@ def write_series(scene: Scene | str | Path, path: str | Path) -> Path:
         return storage.write_blocks(blocks(), path)
 
 
-def wobble_ladder(*, body: Body | str = "earth") -> xr.Dataset:
-    """Period of the free wobble of a rigid body, rung by rung (I.6).
+def wobble_ladder(
+    *, body: Body | str = "earth", ocean: str = "real", anelastic_exponent: float | None = None
+) -> xr.Dataset:
+    """Period of the free wobble, from a formula of flattening to a body that yields (I.6).
 
     Parameters
     ----------
     body : Body or str
+        Its `interior` says how far the ladder goes.
+    ocean : str
+        ``"real"``, ``"global"`` or ``"none"``.
+    anelastic_exponent : float, optional
+        Of the mantle's loss; 0.09 by default.
 
     Returns
     -------
     Dataset
-        Along `rung`: `period_solar` (d of 86400 s), `period_sidereal` and `factor`.
+        Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
+        `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
+        `quality_factor`; apart, `observed_period`. Along `input`: what the last rung depends
+        on. The free core nutation, by the shape of the core.
 
     Raises
     ------
     EarthspinError
         Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> print(earthspin.wobble_ladder().period_solar.round(1).values)
+    [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
-    return run(Scene(compute="wobble", body=body))
+    settings: dict[str, Any] = {"ocean": ocean}
+    if anelastic_exponent is not None:
+        settings["anelastic_exponent"] = anelastic_exponent
+    return run(Scene(compute="wobble", body=body, tables={"wobble": settings}))

@@ -53,7 +53,10 @@ QUESTIONS: dict[str, Question] = {
         )
     ),
     "torque": Question(wants=("torque-series",)),
-    "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
+    "wobble": Question(
+        wants=("wobble-ladder", "interior-response", "wobble-sensitivity", "observed-wobble"),
+        tables=("wobble",),
+    ),
 }
 
 #: Every table that some question has.

@@ -318,7 +318,7 @@ def _body_from_table(table: Mapping[str, Any], source: str) -> Body:
                     "body.pole", value, "give right ascension and declination", source=source
                 )
             changes[key] = tuple(units.quantity(v, "rad", where, "317.7 deg") for v in value)
-        elif key == "pole":
+        elif key in ("pole", "interior"):
             changes[key] = value
         elif key in _BODY_UNITS:
             changes[key] = units.quantity(value, _BODY_UNITS[key][0], where, _BODY_UNITS[key][1])

@@ -38,5 +38,7 @@ PARTS: dict[str, Part] = {
         standstills.STANDSTILLS,
         torque_at_times.TORQUE_SERIES,
         ladder.WOBBLE_LADDER,
+        ladder.INTERIOR_RESPONSE,
+        ladder.WOBBLE_SENSITIVITY,
     )
 }
