@@ -18,7 +18,12 @@ if TYPE_CHECKING:
     from earthspin.bodies import MOON as MOON
     from earthspin.bodies import SUN as SUN
     from earthspin.bodies import Body as Body
+    from earthspin.calls import excitation as excitation
+    from earthspin.calls import fit_chandler as fit_chandler
+    from earthspin.calls import polar_motion as polar_motion
+    from earthspin.calls import polar_motion_from as polar_motion_from
     from earthspin.calls import precession as precession
+    from earthspin.calls import read_excitation as read_excitation
     from earthspin.calls import torque_series as torque_series
     from earthspin.calls import wobble_ladder as wobble_ladder
     from earthspin.calls import write_series as write_series
@@ -30,6 +35,7 @@ if TYPE_CHECKING:
     from earthspin.errors import MissingExtraError as MissingExtraError
     from earthspin.errors import OutputError as OutputError
     from earthspin.errors import SceneError as SceneError
+    from earthspin.errors import SeriesError as SeriesError
     from earthspin.errors import UndefinedError as UndefinedError
     from earthspin.errors import UnitsError as UnitsError
     from earthspin.scene.planning import plan as plan
@@ -41,7 +47,17 @@ if TYPE_CHECKING:
 
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body"),
-    "earthspin.calls": ("precession", "torque_series", "wobble_ladder", "write_series"),
+    "earthspin.calls": (
+        "excitation",
+        "fit_chandler",
+        "polar_motion",
+        "polar_motion_from",
+        "precession",
+        "read_excitation",
+        "torque_series",
+        "wobble_ladder",
+        "write_series",
+    ),
     "earthspin.errors": (
         "AccuracyError",
         "BodyError",
@@ -51,6 +67,7 @@ _HOME = {
         "MissingExtraError",
         "OutputError",
         "SceneError",
+        "SeriesError",
         "UndefinedError",
         "UnitsError",
     ),

@@ -57,6 +57,7 @@ QUESTIONS: dict[str, Question] = {
         wants=("wobble-ladder", "interior-response", "wobble-sensitivity", "observed-wobble"),
         tables=("wobble",),
     ),
+    "polar-motion": Question(wants=("polar-motion", "chandler"), tables=("polar_motion",)),
 }
 
 #: Every table that some question has.

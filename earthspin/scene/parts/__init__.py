@@ -16,6 +16,7 @@ from earthspin.scene.parts import (
     kernel,
     ladder,
     nutation_nodes,
+    polar_motion,
     seasons,
     standstills,
     torque_at_times,
@@ -40,5 +41,7 @@ PARTS: dict[str, Part] = {
         ladder.WOBBLE_LADDER,
         ladder.INTERIOR_RESPONSE,
         ladder.WOBBLE_SENSITIVITY,
+        polar_motion.POLAR_MOTION,
+        polar_motion.CHANDLER,
     )
 }
