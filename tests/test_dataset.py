@@ -17,6 +17,8 @@ KINDS = {
     "sday": "time",
     "s": "time",
     "deg": "angle",
+    "arcsec": "angle",
+    "mas": "angle",
     "m": "length",
     "N m": "torque",
     "kg m2": "moment of inertia",
@@ -25,7 +27,9 @@ KINDS = {
 
 
 @pytest.fixture(
-    scope="module", params=["precession", "sun-only", "torque", "wobble"], ids=lambda name: name
+    scope="module",
+    params=["precession", "sun-only", "torque", "wobble", "polar-motion"],
+    ids=lambda name: name,
 )
 def result(request: pytest.FixtureRequest) -> xr.Dataset:
     return earthspin.run(request.param)
@@ -87,6 +91,7 @@ def _scene_of(result: xr.Dataset) -> str:
     titles = {
         "Precession of the equinoxes": "precession",
         "Free wobble, from the rigid to the yielding body": "wobble",
+        "Observed polar motion and the free wobble in it": "polar-motion",
     }
     title = result.attrs["title"]
     return titles.get(title) or ("sun-only" if "alone" in title else "torque")

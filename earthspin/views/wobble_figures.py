@@ -8,9 +8,8 @@ import numpy as np
 import xarray as xr
 from matplotlib import rc_context
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.dates import AutoDateLocator, ConciseDateFormatter, date2num
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from earthspin.constants import MAS
 from earthspin.views.figures import STYLE, Drawing, _axes, _svg
@@ -62,8 +61,8 @@ def plot_ladder(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 def plot_polhode(result: xr.Dataset, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
     """Path of the pole in milliarcseconds, and in metres on the far sides.
 
-    The x axis points down along the prime meridian, y to the right along 90 degrees west:
-    the ground as seen from above the pole, as the IERS draws it.
+    The prime meridian points up and 90 degrees west to the right: the ground as seen from
+    above, where the spin and the free wobble turn counter-clockwise.
 
     Parameters
     ----------
@@ -74,13 +73,13 @@ def plot_polhode(result: xr.Dataset, *, years: float | None = 6.0, ax: Axes | No
         ``result.sel(time=slice("1990", "1996"))``.
     ax : Axes, optional
     """
-    ax = _axes(ax, figsize=(6.8, 6))
+    ax = _axes(ax, figsize=(7.6, 6))
     if years is not None:
         first = result.time.values[-1] - np.timedelta64(round(years * 365.25), "D")
         result = result.sel(time=slice(first, None))
     scale = 1e3 if result.x.attrs.get("units") == "arcsec" else 1.0
     x, y = result.x.values * scale, result.y.values * scale
-    when = date2num(result.time.values)
+    when = 1970 + (result.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
     ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
     dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
     ax.plot(y[-1], x[-1], "o", color=_ORANGE, ms=6, zorder=3)
@@ -89,29 +88,20 @@ def plot_polhode(result: xr.Dataset, *, years: float | None = 6.0, ax: Axes | No
         xytext=(7, 0), textcoords="offset points", color=_ORANGE, fontsize=8,
     )  # fmt: skip
     ax.set_aspect("equal")
-    ax.invert_yaxis()
     ax.set_ylabel("x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if "polar_radius" in result:
         metres = float(result.polar_radius) * MAS
         ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("m")
         ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
-    _date_bar(ax, dots)
+    bar = ax.figure.colorbar(dots, ax=ax, pad=0.05, aspect=35, format="%.0f")
+    bar.locator = MaxNLocator(8, integer=True)
     return ax
 
 
 def _times(factor: float) -> Any:
     """A scale and its inverse, for a second axis."""
     return lambda v: v * factor, lambda v: v / factor
-
-
-def _date_bar(ax: Axes, dots: ScalarMappable) -> None:
-    figure = ax.figure
-    locator = AutoDateLocator(maxticks=7)
-    bar = figure.colorbar(dots, ax=ax, pad=0.12, aspect=35)
-    bar.ax.yaxis.set_major_locator(locator)
-    bar.ax.yaxis.set_major_formatter(ConciseDateFormatter(locator))
-    bar.outline.set_visible(False)
 
 
 def plot_spectra(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:

@@ -76,7 +76,7 @@ def sensitivity(result: xr.Dataset) -> Table:
         "What the last rung depends on",
         ("input", "value", "days per unit", "days from its error"),
         rows,
-        f"The other root of the same system is the free core nutation, among the stars: {nutation}.",
+        f"The system's other root is the free core nutation; among the stars: {nutation}.",
         ("wobble-sensitivity",),
     )
 
