@@ -267,7 +267,7 @@ def fit_chandler(
     EarthspinError
         If the series is uneven, has no numbers, or is too short; it says how long is needed.
     """
-    from earthspin.scene.parts.polar_motion import chandler_in
+    from earthspin.scene.parts.observed_pole import chandler_in
 
     return chandler_in(ds, method, window).rename(middle="time")
 
@@ -290,7 +290,7 @@ def excitation(
     Dataset
         `chi1`, `chi2` (mas) over `time`, the middles of the steps.
     """
-    from earthspin.scene.parts.polar_motion import excitation_of
+    from earthspin.scene.parts.observed_pole import excitation_of
 
     return excitation_of(ds, period, quality_factor)
 
@@ -318,7 +318,7 @@ def polar_motion_from(
     Dataset
         `x`, `y` (arcsec) over `time`, the ends of the steps.
     """
-    from earthspin.scene.parts.polar_motion import pole_from
+    from earthspin.scene.parts.observed_pole import pole_from
 
     return pole_from(chi, period, quality_factor, start)
 
@@ -335,6 +335,6 @@ def read_excitation(path: str | Path) -> xr.Dataset:
     Dataset
         `chi1`, `chi2` (mas) over `time`: mass and motion terms together.
     """
-    from earthspin.scene.parts.polar_motion import excitation_from_file
+    from earthspin.scene.parts.observed_pole import excitation_from_file
 
     return excitation_from_file(path)

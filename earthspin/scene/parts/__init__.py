@@ -16,7 +16,7 @@ from earthspin.scene.parts import (
     kernel,
     ladder,
     nutation_nodes,
-    polar_motion,
+    observed_pole,
     seasons,
     standstills,
     torque_at_times,
@@ -41,7 +41,7 @@ PARTS: dict[str, Part] = {
         ladder.WOBBLE_LADDER,
         ladder.INTERIOR_RESPONSE,
         ladder.WOBBLE_SENSITIVITY,
-        polar_motion.POLAR_MOTION,
-        polar_motion.CHANDLER,
+        observed_pole.POLAR_MOTION,
+        observed_pole.CHANDLER,
     )
 }

@@ -190,7 +190,7 @@ _MIDDLE = ("middle",)
 POLAR_MOTION = Part(
     name="polar-motion",
     does="observed polar motion from a table of the IERS",
-    function="earthspin.scene.parts.polar_motion:observed_pole",
+    function="earthspin.scene.parts.observed_pole:observed_pole",
     keys=("body", "span", "tables"),
     left_out=_not_observed,
     gives={
@@ -203,7 +203,7 @@ POLAR_MOTION = Part(
 CHANDLER = Part(
     name="chandler",
     does="period, quality factor and amplitude of the free wobble in the observed pole",
-    function="earthspin.scene.parts.polar_motion:chandler",
+    function="earthspin.scene.parts.observed_pole:chandler",
     needs=("polar-motion",),
     keys=("tables",),
     gives={
@@ -249,7 +249,7 @@ def excitation_of(pole: xr.Dataset, period: float, quality_factor: float) -> xr.
     """Mean excitation between labelled positions of the pole."""
     from earthspin.constants import MAS
     from earthspin.dataset import build
-    from earthspin.wobble import excitation as ex
+    from earthspin.wobble import resonance as ex
 
     time, p = complex_pole(pole)
     step = _even_step(time)
@@ -280,7 +280,7 @@ def pole_from(
     from earthspin.constants import MAS
     from earthspin.dataset import build, si
     from earthspin.units import days
-    from earthspin.wobble import excitation as ex
+    from earthspin.wobble import resonance as ex
 
     known = chi.attrs
     for name in ("chi1", "chi2"):
