@@ -38,6 +38,7 @@ def page(result: xr.Dataset, drawings: Sequence[object] = ()) -> str:
         period=with_error(total.precession_period, total.precession_period_error, "years"),
         tables=[(table, run_times(result, table.parts)) for table in tables_for(result)],
         drawings=drawings,
+        square_last=True,
         parts=[
             {
                 "name": str(name),

@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from earthspin.constants import ARCSEC, Constant
+from earthspin.constants import ARCSEC, Constant, G
 from earthspin.wobble.interior import (
     PREM,
-    PREM_WITH_OCEAN,
     LayeredBody,
     Yielding,
     equilibrium,
@@ -125,8 +124,6 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
     """Omega2 R5/(3 G A): products of inertia over A per radian of wobble and unit of k2."""
-    from earthspin.constants import G
-
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)
 
@@ -214,6 +211,3 @@ INTERIORS: dict[str, Interior] = {
         ),
     )
 }
-
-#: Layered models by name, for their moments alone.
-LAYERED = {layers.name: layers for layers in (PREM, PREM_WITH_OCEAN)}

@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky_banded, solve_banded
 from scipy.optimize import brentq, minimize
+from scipy.signal import lfilter
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
@@ -553,8 +554,6 @@ def simulate(
 
     def process(rate: complex, size: float) -> Complex:
         """Stationary complex process with covariance size2 exp(rate |lag|)."""
-        from scipy.signal import lfilter
-
         kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
         keep = np.exp(rate * step)
         kick[1:] *= np.sqrt(1 - abs(keep) ** 2)

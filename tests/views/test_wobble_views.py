@@ -1,11 +1,14 @@
 """Tables and figures of the free wobble."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
+from earthspin.cli import main
 from earthspin.constants import MAS
 from earthspin.views import wobble_figures
 from earthspin.views.tables import tables_for
@@ -98,3 +101,13 @@ def test_drawings(ladder: xr.Dataset, pole: xr.Dataset) -> None:
 def test_figures_draw_on_given_axes(ladder: xr.Dataset) -> None:
     mine = Figure().add_subplot()
     assert wobble_figures.plot_ladder(ladder, ax=mine) is mine
+
+
+def test_report(tmp_path: Path) -> None:
+    assert main(["report", "wobble", "--out", str(tmp_path)]) == 0
+    text = (tmp_path / "wobble.html").read_text()
+    assert "303.62464 ± 0.00018 days" in text
+    assert text.count("<svg") == 4
+    assert "http://" not in text.replace("http://www.w3.org", "")
+    for name in ("wobble", "polar-motion"):
+        assert earthspin.read(tmp_path / f"{name}.nc").attrs["compute"] == name

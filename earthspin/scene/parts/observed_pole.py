@@ -277,6 +277,8 @@ def pole_from(
     start: tuple[float, float] | None,
 ) -> xr.Dataset:
     """Polar motion that labelled excitation drives."""
+    import numpy as np
+
     from earthspin.constants import MAS
     from earthspin.dataset import build, si
     from earthspin.units import days
@@ -300,8 +302,6 @@ def pole_from(
     driving = (si(chi.chi1).values + 1j * si(chi.chi2).values) / MAS
     s = ex.chandler_frequency(period, quality_factor)
     p = ex.polar_motion_from(driving, step, s, complex(x, -y))
-    import numpy as np
-
     ends = time[0] - step / 2 + step * np.arange(p.size)
     return build(
         "polar-motion-from",
