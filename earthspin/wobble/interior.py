@@ -158,7 +158,7 @@ def _prem(*outermost: Layer) -> tuple[Layer, ...]:
     )
 
 
-_PREM_SOURCE = "Dziewonski & Anderson 1981, Phys. Earth Planet. Inter. 25, 297, table I"
+_PREM_SOURCE = "Dziewonski & Anderson 1981, PEPI 25, 297, table I"
 
 #: As published, with three kilometres of ocean all over.
 PREM_WITH_OCEAN = LayeredBody(
