@@ -18,9 +18,14 @@ if TYPE_CHECKING:
     from earthspin.bodies import MOON as MOON
     from earthspin.bodies import SUN as SUN
     from earthspin.bodies import Body as Body
+    from earthspin.calls import excitation as excitation
+    from earthspin.calls import fit_chandler as fit_chandler
     from earthspin.calls import free_rotor as free_rotor
     from earthspin.calls import heavy_top as heavy_top
+    from earthspin.calls import polar_motion as polar_motion
+    from earthspin.calls import polar_motion_from as polar_motion_from
     from earthspin.calls import precession as precession
+    from earthspin.calls import read_excitation as read_excitation
     from earthspin.calls import spheroid_field as spheroid_field
     from earthspin.calls import torque_series as torque_series
     from earthspin.calls import wobble_ladder as wobble_ladder
@@ -33,6 +38,7 @@ if TYPE_CHECKING:
     from earthspin.errors import MissingExtraError as MissingExtraError
     from earthspin.errors import OutputError as OutputError
     from earthspin.errors import SceneError as SceneError
+    from earthspin.errors import SeriesError as SeriesError
     from earthspin.errors import UndefinedError as UndefinedError
     from earthspin.errors import UnitsError as UnitsError
     from earthspin.scene.planning import plan as plan
@@ -49,6 +55,11 @@ _HOME = {
         "heavy_top",
         "precession",
         "spheroid_field",
+        "excitation",
+        "fit_chandler",
+        "polar_motion",
+        "polar_motion_from",
+        "read_excitation",
         "torque_series",
         "wobble_ladder",
         "write_series",
@@ -62,6 +73,7 @@ _HOME = {
         "MissingExtraError",
         "OutputError",
         "SceneError",
+        "SeriesError",
         "UndefinedError",
         "UnitsError",
     ),

@@ -60,6 +60,10 @@ class Body:
     slow_swing : float
         Of a perturber: how far its mean pull swings more slowly than any window, half-width of
         95 % over the pull.
+    interior : str or None
+        Name of what lies under the surface, a word of `earthspin.wobble.named`; None is rigid.
+    observed_wobble : Constant or None
+        Period of the free wobble as observed, d.
     relative_uncertainty : mapping
         One standard deviation over value, by field name.
     reference : str
@@ -85,6 +89,8 @@ class Body:
     orbital_period: float | None = None
     cycle: float = c.JUPITER_ORBITAL_PERIOD.value
     slow_swing: float = 2e-7  # measured: `python -m data_tools windows`
+    interior: str | None = None
+    observed_wobble: c.Constant | None = None
     relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
     reference: str = ""
 
@@ -271,6 +277,7 @@ BODY_KEYS = (
     "spin_period",
     "pole",
     "orbit_pole",
+    "interior",
 )
 
 
@@ -296,6 +303,8 @@ EARTH = Body(
     spin_period=c.EARTH_SPIN_PERIOD.value,
     pole=IAU_2006,
     orbital_period=c.SIDEREAL_YEAR.value,
+    interior="prem",
+    observed_wobble=c.CHANDLER_PERIOD,
     relative_uncertainty={
         "gm": c.GM_EARTH.relative_uncertainty,
         "radius": c.EARTH_RADIUS.relative_uncertainty,
@@ -313,6 +322,7 @@ MARS = Body(
     radius=c.MARS_RADIUS.value,
     j2=c.MARS_J2.value,
     dynamical_flattening=c.MARS_J2.value / c.MARS_POLAR_MOMENT.value,
+    triaxiality=c.MARS_TRIAXIALITY.value,
     flattening=c.MARS_FLATTENING.value,
     spin_period=c.MARS_SPIN_PERIOD.value,
     # Archinal et al. 2011, Celest. Mech. 109, 101, at J2000.0
@@ -320,6 +330,8 @@ MARS = Body(
     # from i = 1.84969142, node = 49.55953891 deg to the ecliptic (Standish & Williams)
     orbit_pole=(math.radians(273.37323), math.radians(65.32299)),
     orbital_period=c.MARS_ORBITAL_PERIOD.value,
+    interior="mars-insight",
+    observed_wobble=c.MARS_CHANDLER_PERIOD,
     relative_uncertainty={
         "j2": c.MARS_J2.relative_uncertainty,
         "dynamical_flattening": c.MARS_POLAR_MOMENT.relative_uncertainty,

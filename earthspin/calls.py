@@ -168,24 +168,43 @@ def write_series(scene: Scene | str | Path, path: str | Path) -> Path:
         return storage.write_blocks(blocks(), path)
 
 
-def wobble_ladder(*, body: Body | str = "earth") -> xr.Dataset:
-    """Period of the free wobble of a rigid body, rung by rung (I.6).
+def wobble_ladder(
+    *, body: Body | str = "earth", ocean: str = "real", anelastic_exponent: float | None = None
+) -> xr.Dataset:
+    """Period of the free wobble, from a formula of flattening to a body that yields (I.6).
 
     Parameters
     ----------
     body : Body or str
+        Its `interior` says how far the ladder goes.
+    ocean : str
+        ``"real"``, ``"global"`` or ``"none"``.
+    anelastic_exponent : float, optional
+        Of the mantle's loss; 0.09 by default.
 
     Returns
     -------
     Dataset
-        Along `rung`: `period_solar` (d of 86400 s), `period_sidereal` and `factor`.
+        Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
+        `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
+        `quality_factor`; apart, `observed_period`. Along `input`: what the last rung depends
+        on. The free core nutation, by the shape of the core.
 
     Raises
     ------
     EarthspinError
         Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> print(earthspin.wobble_ladder().period_solar.round(1).values)
+    [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
-    return run(Scene(compute="wobble", body=body))
+    settings: dict[str, Any] = {"ocean": ocean}
+    if anelastic_exponent is not None:
+        settings["anelastic_exponent"] = anelastic_exponent
+    return run(Scene(compute="wobble", body=body, tables={"wobble": settings}))
 
 
 def free_rotor(moments: Any, omega: Any, times: Any) -> xr.Dataset:
@@ -273,3 +292,136 @@ def spheroid_field(
     """
     table = {"position": position, "point_mass": point_mass}
     return run(Scene(compute="spheroid", body=body, tables={"spheroid": table}))
+
+
+def polar_motion(
+    *,
+    file: str | Path = "c04",
+    kind: str | None = None,
+    span: tuple[Any, Any] | None = None,
+    method: str = "burg",
+) -> xr.Dataset:
+    """Observed polar motion, and the free wobble in it.
+
+    Parameters
+    ----------
+    file : str or Path
+        ``"c04"``, the daily table of the IERS that astropy carries, or a local file.
+    kind : str, optional
+        ``"c04"``, ``"c01"`` or ``"finals2000A"``; told from the file by default.
+    span : pair of dates, optional
+    method : str
+        As of `fit_chandler`.
+
+    Returns
+    -------
+    Dataset
+        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. Over `middle`, the
+        middles of sliding windows, what `fit_chandler` gives.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong with the file or the span, in one line.
+    """
+    settings = {"file": str(file), "kind": kind, "method": method}
+    return run(Scene(compute="polar-motion", span=span, tables={"polar_motion": settings}))
+
+
+def fit_chandler(
+    ds: xr.Dataset, *, method: str = "burg", window: float | None = None
+) -> xr.Dataset:
+    """Period, quality factor and amplitude of the free wobble in polar motion.
+
+    Parameters
+    ----------
+    ds : Dataset
+        `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas").
+    method : str
+        ``"burg"``, ``"likelihood"``, or ``"least-squares"``, which gives no quality factor.
+    window : float, optional
+        Length of the sliding windows, d; one beat of annual and free wobble by default.
+
+    Returns
+    -------
+    Dataset
+        `chandler_period` (d) and `chandler_quality_factor`, `..._low`, `..._high` with 95 %
+        intervals; over `time`, the middles of the windows, `chandler_amplitude` (mas) and
+        its phase, the annual amplitudes and the mean pole.
+
+    Raises
+    ------
+    EarthspinError
+        If the series is uneven, has no numbers, or is too short; it says how long is needed.
+    """
+    from earthspin.scene.parts.observed_pole import chandler_in
+
+    return chandler_in(ds, method, window).rename(middle="time")
+
+
+def excitation(
+    ds: xr.Dataset, *, period: float = 433.0, quality_factor: float = 100.0
+) -> xr.Dataset:
+    """Excitation that polar motion asks for: exact means over each step.
+
+    Parameters
+    ----------
+    ds : Dataset
+        `x` and `y` over `time`, evenly spaced.
+    period : float
+        Of the free wobble, d.
+    quality_factor : float
+
+    Returns
+    -------
+    Dataset
+        `chi1`, `chi2` (mas) over `time`, the middles of the steps.
+    """
+    from earthspin.scene.parts.observed_pole import excitation_of
+
+    return excitation_of(ds, period, quality_factor)
+
+
+def polar_motion_from(
+    chi: xr.Dataset,
+    *,
+    period: float | None = None,
+    quality_factor: float | None = None,
+    start: tuple[float, float] | None = None,
+) -> xr.Dataset:
+    """Polar motion that an excitation drives: the inverse of `excitation`.
+
+    Parameters
+    ----------
+    chi : Dataset
+        `chi1`, `chi2` (mas) over `time`, means over even steps.
+    period, quality_factor : float, optional
+        Of the free wobble; those that `excitation` noted by default.
+    start : pair of float, optional
+        x and y at the start, mas; as noted, or zero.
+
+    Returns
+    -------
+    Dataset
+        `x`, `y` (arcsec) over `time`, the ends of the steps.
+    """
+    from earthspin.scene.parts.observed_pole import pole_from
+
+    return pole_from(chi, period, quality_factor, start)
+
+
+def read_excitation(path: str | Path) -> xr.Dataset:
+    """Read effective angular momentum functions in the common ASCII layout.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Dataset
+        `chi1`, `chi2` (mas) over `time`: mass and motion terms together.
+    """
+    from earthspin.scene.parts.observed_pole import excitation_from_file
+
+    return excitation_from_file(path)

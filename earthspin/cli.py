@@ -65,7 +65,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
 
-    report = commands.add_parser("report", help="print and write the precession report")
+    report = commands.add_parser("report", help="print and write the precession or wobble report")
+    report.add_argument(
+        "topic", nargs="?", default="precession", choices=("precession", "wobble"), help="of what"
+    )
     report.add_argument("--out", default="report", metavar="DIR", help="folder (default: report)")
     report.add_argument("--no-figures", action="store_true", help="tables alone, much faster")
     _add_ephemeris(report)
@@ -108,13 +111,21 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def _report(given: argparse.Namespace) -> None:
-    from earthspin.views.report import write_report
     from earthspin.views.tables import print_tables
 
-    result, written = write_report(
-        given.out, ephemeris=given.ephemeris or "de421", figures=not given.no_figures
-    )
-    print_tables(result)
+    if given.topic == "wobble":
+        from earthspin.views.wobble_report import write_wobble_report
+
+        results, written = write_wobble_report(given.out, figures=not given.no_figures)
+    else:
+        from earthspin.views.report import write_report
+
+        result, written = write_report(
+            given.out, ephemeris=given.ephemeris or "de421", figures=not given.no_figures
+        )
+        results = [result]
+    for each in results:
+        print_tables(each)
     for path in written:
         print(f"wrote {path}")
 

@@ -113,6 +113,13 @@ MARS_J2 = Constant(
     "Konopliv et al. 2011, Icarus 211, 401 (MRO110B, normalised C20 = -8.7502e-4)",
 )
 MARS_POLAR_MOMENT = Constant(0.3644, "", 0.0005, "C/(M R2), Konopliv et al. 2011, Icarus 211, 401")
+# (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|, normalised: C22 = -8.4636e-5, S22 = 4.8935e-5.
+MARS_TRIAXIALITY = Constant(
+    4 * math.sqrt(5 / 12) * math.hypot(8.4636e-5, 4.8935e-5),
+    "",
+    None,
+    "Konopliv et al. 2011, Icarus 211, 401 (MRO110B), degree 2, order 2",
+)
 MARS_FLATTENING = Constant(
     (3396.19 - 3376.20) / 3396.19, "", 4e-5, "Archinal et al. 2018, Celest. Mech. 130:22, table 4"
 )
@@ -146,10 +153,16 @@ CHANDLER_PERIOD = Constant(
     430.9, "d", 0.7, "Nastula & Gross 2015, JGR Solid Earth 120, 6474: observed, with Q = 127"
 )
 
+MARS_CHANDLER_PERIOD = Constant(
+    206.9, "d", 0.5, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568: observed"
+)
+
 # --- conversions -----------------------------------------------------------------------------
 DAY = 86400.0
 JULIAN_YEAR = 365.25 * DAY
 ARCSEC = math.pi / 648000.0
+MAS = ARCSEC / 1000.0
 ARCSEC_PER_YEAR = ARCSEC / JULIAN_YEAR  # rad/s
 J2000_JD = 2451545.0
+MJD_0 = 2400000.5  # Julian date of the modified Julian date 0
 NORMAL_95 = 1.959963984540054  # half-width of a 95 % interval in standard deviations

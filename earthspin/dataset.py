@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
 from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ CONVENTIONS = "CF-1.11"
 #: Factor from SI to each unit that results are shown in; units not listed are SI themselves.
 FROM_SI: dict[str, float] = {
     "arcsec/yr": 1 / ARCSEC_PER_YEAR,
+    "arcsec": 1 / ARCSEC,
+    "mas": 1 / MAS,
     "deg": 180 / math.pi,
     "d": 1 / DAY,
     "yr": 1 / JULIAN_YEAR,

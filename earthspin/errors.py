@@ -113,6 +113,23 @@ class UndefinedError(EarthspinError, ValueError):
     """A quantity that has no value here, with the reason."""
 
 
+class SeriesError(EarthspinError, ValueError):
+    """A file of observations that cannot be used as it is.
+
+    Attributes
+    ----------
+    path : str
+        The file, as named.
+    line : int or None
+        The first offending line, counted from 1.
+    """
+
+    def __init__(self, path: Any, problem: str, remedy: str = "", line: int | None = None) -> None:
+        self.path, self.line = str(path), line
+        where = f"file '{path}'" + (f", line {line}" if line else "")
+        super().__init__(_sentence(where, problem, remedy))
+
+
 class AccuracyError(EarthspinError, ValueError):
     """An accuracy that was asked for and cannot be given.
 

@@ -60,7 +60,11 @@ QUESTIONS: dict[str, Question] = {
     "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
     "top": Question(wants=("heavy-top",), tables=("top",)),
     "spheroid": Question(wants=("spheroid-field",), tables=("spheroid",)),
-    "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
+    "wobble": Question(
+        wants=("wobble-ladder", "interior-response", "wobble-sensitivity", "observed-wobble"),
+        tables=("wobble",),
+    ),
+    "polar-motion": Question(wants=("polar-motion", "chandler"), tables=("polar_motion",)),
 }
 
 #: Every table that some question has.

@@ -343,7 +343,7 @@ def _body_from_table(table: Mapping[str, Any], source: str) -> Body:
                     f"body.{key}", value, "give right ascension and declination", source=source
                 )
             changes[key] = tuple(units.number(v, "rad", where, "317.7 deg") for v in value)
-        elif key in ("pole", "orbit_pole"):
+        elif key in ("pole", "orbit_pole", "interior"):
             changes[key] = value
         elif key in _BODY_UNITS:
             changes[key] = units.number(value, _BODY_UNITS[key][0], where, _BODY_UNITS[key][1])

@@ -6,6 +6,7 @@ No pyplot: it costs half a second and keeps global state.
 from __future__ import annotations
 
 import io
+import re
 from typing import Any
 
 import numpy as np
@@ -285,7 +286,8 @@ def _svg(figure: Figure) -> str:
     text = io.StringIO()
     figure.savefig(text, format="svg", metadata={"Date": None})
     svg = text.getvalue()
-    return svg[svg.index("<svg") :]
+    # The metadata name the drawing library, and addresses that no page needs.
+    return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
 
 
 def free_rotor_drawings(result: xr.Dataset) -> list[Drawing]:

@@ -62,34 +62,61 @@ def scene_page(
     str
         HTML, self-contained.
     """
-    note = (
-        "Every error is the half-width of a 95 % interval. Under each table stand the parts that "
-    )
-    note += "made it and their run times."
-    kernel = result.attrs.get("ephemeris")
-    footer = f"{result.attrs['source']}."
-    if kernel:
-        footer += f" Kernel {kernel}, SHA-256 {result.attrs['ephemeris_sha256']}."
-    if result.attrs["references"]:
-        footer += f" Numbers of the bodies: {result.attrs['references']}."
+    return results_page(result.attrs["title"], lead, [result], drawings, solids)
+
+
+def results_page(
+    title: str,
+    lead: str,
+    results: Sequence[xr.Dataset],
+    drawings: Sequence[Drawing] = (),
+    solids: Sequence[Solid] = (),
+) -> str:
+    """Page of several results together.
+
+    Parameters
+    ----------
+    title, lead : str
+    results : sequence of Dataset
+    drawings : sequence of Drawing
+    solids : sequence of Solid
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    first = results[0].attrs
+    footer = f"{first['source']}."
+    if "ephemeris" in first:
+        footer += f" Kernel {first['ephemeris']}, SHA-256 {first['ephemeris_sha256']}."
+    if first["references"]:
+        footer += f" Numbers of the bodies: {first['references']}."
     return _render(
-        title=result.attrs["title"],
+        title=title,
         lead=lead,
-        note=note,
+        note="Every error is the half-width of a 95 % interval. Under each table stand the parts "
+        "that made it and their run times.",
         footer=footer,
-        tables=[(table, run_times(result, table.parts)) for table in tables_for(result)],
+        tables=[(t, run_times(of, t.parts)) for of in results for t in tables_for(of)],
         drawings=drawings,
         solids=solids,
-        parts=[
-            {
-                "name": str(name),
-                "status": str(of.part_status.values),
-                "reason": str(of.part_reason.values),
-                "milliseconds": float(of.part_run_time) * 1e3,
-            }
-            for name, of in ((n, result.sel(part=n)) for n in result.part.values)
-        ],
+        parts=[row for of in results for row in _plan_rows(of, all_parts=len(results) == 1)],
     )
+
+
+def _plan_rows(result: xr.Dataset, all_parts: bool) -> list[dict[str, Any]]:
+    """What ran, and, on a page of one result, what was left out."""
+    rows = [
+        {
+            "name": str(name),
+            "status": str(of.part_status.values),
+            "reason": str(of.part_reason.values),
+            "milliseconds": float(of.part_run_time) * 1e3,
+        }
+        for name, of in ((n, result.sel(part=n)) for n in result.part.values)
+    ]
+    return [row for row in rows if all_parts or row["status"] == "ran"]
 
 
 def solids_page(title: str, lead: str, solids: Sequence[Solid]) -> str:

@@ -47,6 +47,8 @@ def tables_for(result: xr.Dataset) -> list[Table]:
     result : Dataset
         As `run` gives it.
     """
+    from earthspin.views import wobble_tables
+
     makers: dict[str, Callable[[xr.Dataset], Table]] = {
         "precession_rate": rates,
         "general_precession": sky_and_calendar,
@@ -55,7 +57,10 @@ def tables_for(result: xr.Dataset) -> list[Table]:
         "iau_rate": iau,
         "standstill_declination": standstills,
         "torque_magnitude": torque_summary,
-        "period_solar": ladder,
+        "period_solar": wobble_tables.ladder,
+        "days_per_unit": wobble_tables.sensitivity,
+        "chandler_period": wobble_tables.observed,
+        "chandler_amplitude": wobble_tables.statements,
         "energy": free_rotor,
         "turning_angle": top,
         "potential": spheroid,
@@ -293,29 +298,6 @@ def torque_summary(result: xr.Dataset) -> Table:
         rows,
         f"{result.time.size} times from {first} to {last} TDB, {result.torque.attrs['frame']}.",
         ("torque-series",),
-    )
-
-
-def ladder(result: xr.Dataset) -> Table:
-    """The wobble ladder."""
-    rows = [
-        (
-            str(rung),
-            f"{float(of.period_solar):.3f}",
-            f"{float(of.period_sidereal):.3f}",
-            f"{float(of.factor):.6f}",
-        )
-        for rung, of in ((r, result.sel(rung=r)) for r in result.rung.values)
-    ]
-    note = ""
-    if "observed_period" in result:
-        note = f"Observed: {_value(result, 'observed_period')} d (Nastula & Gross 2015)."
-    return Table(
-        "Free wobble, rung by rung",
-        ("rung", "days of 86400 s", "sidereal days", "factor"),
-        rows,
-        note,
-        ("wobble-ladder",),
     )
 
 

@@ -48,7 +48,12 @@ def test_reasons() -> None:
 
 def test_a_wobble_needs_no_kernel() -> None:
     plan = earthspin.plan(load_scene("wobble"))
-    assert [p.name for p in plan.parts] == ["wobble-ladder", "observed-wobble"]
+    assert [p.name for p in plan.parts] == [
+        "wobble-ladder",
+        "interior-response",
+        "wobble-sensitivity",
+        "observed-wobble",
+    ]
 
 
 def test_the_words_of_a_plan() -> None:

@@ -58,7 +58,7 @@ WRONG = [
     ({"compute": "torque", "body": {"moments": ["1 kg m2", "1 kg m2", "3 kg m2"]}}, "C cannot"),
     ({"compute": "torque", "body": {"pole": ["1 deg"]}}, "right ascension and declination"),
     ({"compute": "torque", "body": {"dynamical_flattening": 0.6}}, "at most 0.5"),
-    ({"compute": "torque", "rotor": 3}, "unknown key"),
+    ({"compute": "torque", "rotor": 3}, "it is a table"),
     ({"compute": "torque", "step": True}, "step"),
 ]
 

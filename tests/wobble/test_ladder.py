@@ -1,4 +1,4 @@
-"""The rigid rungs of the ladder."""
+"""The ladder: rigid rungs, and those of a body that yields."""
 
 import numpy as np
 import pytest
@@ -8,11 +8,20 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import earthspin
-from earthspin import EARTH, UndefinedError
+from earthspin import EARTH, MARS, SceneError, UndefinedError, load_scene
 from earthspin.wobble import ladder
+from earthspin.wobble.interior import PREM
+from earthspin.wobble.named import INTERIORS, elastic
 from tests.conftest import load_pins
 
-PINS = load_pins("precession")
+PINS = load_pins("precession") | load_pins("wobble")
+E = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
+SPIN = ladder.Spin(EARTH.gm, EARTH.radius, EARTH.spin_period)
+FIGURE = {
+    "dynamical_flattening": EARTH.dynamical_flattening,
+    "j2": EARTH.j2,
+    "triaxiality": EARTH.triaxiality,
+}
 
 
 def test_rungs() -> None:
@@ -94,3 +103,164 @@ def test_many_bodies_at_once() -> None:
     result = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=h))
     assert result.period_solar.dims == ("rung", "draw")
     assert result.factor.dims == ("rung", "draw")
+
+
+# --- a body that yields ------------------------------------------------------------------------
+
+
+def published(**changes: float) -> ladder.Inputs:
+    """Inputs of the independent calculation behind the pins: k2/ks with the equatorial radius."""
+    numbers = {**FIGURE, "triaxiality": 0.0, "k2": 0.29830, "core_fraction": 0.11368}
+    return ladder.Inputs(**({**numbers, "core_ellipticity": 2.547e-3} | changes))
+
+
+def scalar_roots(
+    kappa: complex, x: float, gamma: float, beta: float, e_f: float
+) -> tuple[complex, complex]:
+    """Wobble and core nutation from the polynomial of the axisymmetric body."""
+    left = np.polymul([1 + kappa, kappa - E], [1 + beta, 1 + e_f])
+    s = np.roots(np.polysub(left, np.polymul([1, 1], [x * (1 + gamma), 0])))
+    return s[np.argmin(abs(s))], s[np.argmax(abs(s))]
+
+
+@given(st.floats(0, 2e-3), st.floats(0.01, 0.6), st.floats(0, 5e-3), st.floats(0, 1e-5))
+def test_roots_against_the_polynomial(k: float, fraction: float, e_f: float, loss: float) -> None:
+    inputs = published(core_fraction=fraction, core_ellipticity=e_f)
+    kappa = k - 1j * loss
+    found = ladder.roots(inputs, 1.0, (kappa, 2e-3 * fraction, 2e-4, 6e-4 * fraction))
+    wobble, core = scalar_roots(kappa, fraction + 2e-4, 2e-3, 6e-4, e_f)
+    assert abs(found.wobble - wobble) < 1e-14
+    assert abs(found.core - core) < 1e-13
+
+
+def test_rungs_of_the_independent_calculation() -> None:
+    """Its elastic rung is 1/(e - kappa), which leaves out kappa in (1 + kappa)/(e - kappa)."""
+    unit = E / 0.93832
+    gamma, beta = 1.965e-3, 6.16e-4
+    compliance = (0.29830, gamma * 0.11368 / unit, gamma * 0.11368 / unit, beta * 0.11368 / unit)
+    solid = ladder.roots(published(core_fraction=0.0), unit, compliance)
+    kappa = unit * 0.29830
+    PINS["elastic, short form"].check(solid.turns / (1 + kappa))
+    core = ladder.roots(published(), unit, compliance)
+    PINS["fluid core"].check(core.turns)
+    PINS["free core nutation, hydrostatic"].check(core.core_turns_in_space)
+    observed = ladder.roots(published(core_ellipticity=2.668e-3), unit, compliance)
+    PINS["free core nutation, observed"].check(observed.core_turns_in_space)
+    assert abs(observed.turns - core.turns) < 0.01
+    water = unit * np.array([[0.0505, -0.0011], [-0.0011, 0.0400]])
+    PINS["ocean"].check(ladder.roots(published(), unit, compliance, water).turns)
+
+
+def test_the_published_ocean_is_the_independent_one() -> None:
+    """The IERS coefficients as Love numbers, beside a sea-level equation with real coasts."""
+    ocean = np.array(INTERIORS["prem"].ocean) / SPIN.centrifugal(EARTH.radius)
+    assert np.allclose(ocean, [[0.0505, -0.0011], [-0.0011, 0.0400]], atol=3e-4)
+
+
+def test_a_core_that_slips_under_a_rigid_mantle() -> None:
+    found = ladder.roots(
+        published(core_ellipticity=0.0, core_fraction=0.11368), 1.0, (0.0, 0.0, 0.0, 0.0)
+    )
+    PINS["decoupled core, rigid mantle"].check(found.turns)
+
+
+def test_without_yielding_the_roots_are_the_rigid_rungs() -> None:
+    rigid = ladder.roots(
+        ladder.Inputs(**FIGURE, k2=0, core_fraction=0.0, core_ellipticity=0), 1.0, (0, 0, 0, 0)
+    )
+    assert np.isclose(
+        rigid.turns,
+        ladder.turns_triaxial(
+            **{"h": EARTH.dynamical_flattening, "j2": EARTH.j2, "triaxiality": EARTH.triaxiality}
+        ),
+        rtol=1e-12,
+    )
+    assert np.isinf(rigid.quality_factor)
+
+
+def test_all_rungs() -> None:
+    result = earthspin.wobble_ladder()
+    assert list(result.rung.values) == list(ladder.RUNGS)
+    for rung in ("elastic", "fluid-core", "ocean", "anelastic"):
+        PINS[f"{rung} rung"].check(result.period_sidereal.sel(rung=rung))
+    PINS["anelastic quality factor"].check(result.quality_factor.sel(rung="anelastic"))
+    assert np.all(np.isinf(result.quality_factor[:-1]))
+    assert np.allclose(result.period_sidereal * EARTH.spin_period, result.period_solar * 86400)
+    last = result.isel(rung=-1)
+    off = abs(float(last.period_solar - result.observed_period))
+    assert off < float(last.period_solar_error + result.observed_period_error)
+
+
+def test_free_core_nutation_by_shape() -> None:
+    nutation = earthspin.wobble_ladder().free_core_nutation_sidereal
+    assert float(nutation.sel(core_shape="hydrostatic")) == pytest.approx(-458, abs=1.5)
+    assert float(nutation.sel(core_shape="observed")) == pytest.approx(-431, abs=1.0)
+
+
+def test_days_from_each_input_against_the_sampled_error() -> None:
+    result = earthspin.wobble_ladder()
+    in_line = float(np.sqrt((result.days_from_input**2).sum()))
+    # An even spread is not normal, and the exponent is not linear: a quarter apart.
+    assert float(result.period_solar_error[-1]) == pytest.approx(in_line, rel=0.45)
+
+
+def test_mars() -> None:
+    result = earthspin.wobble_ladder(body="mars")
+    PINS["mars"].check(result.period_solar.sel(rung="fluid-core"))
+    assert list(result.rung.values) == list(ladder.RUNGS[:5])
+    assert "has no ocean" in result.rung.left_out
+    assert float(result.observed_period) == pytest.approx(206.9)
+    assert float(result.free_core_nutation[0]) == pytest.approx(-242.25, abs=2.7)
+
+
+def test_a_body_without_an_interior_stops_at_the_rigid_rungs() -> None:
+    result = earthspin.wobble_ladder(body=EARTH.replace(interior=None))
+    assert list(result.rung.values) == list(ladder.RUNGS[:3])
+    assert "no interior of earth is kept" in result.rung.left_out
+    reasons = dict(zip(result.part.values, result.part_reason.values, strict=True))
+    assert "no interior" in reasons["wobble-sensitivity"]
+    heavy = earthspin.wobble_ladder(body=EARTH.replace(mass=7e24))
+    assert "another mass" in heavy.rung.left_out
+
+
+def test_an_exponent_of_zero_is_the_limit() -> None:
+    year = 3e7
+    near, at = (ladder.anelastic_strain(year, a) for a in (1e-9, 0.0))
+    assert abs(near - at) < 1e-6
+    assert at == pytest.approx(-2 / np.pi * np.log(year) + 1j)
+    x = (year / 200) ** 0.15
+    growth = (1 - x) / np.tan(0.075 * np.pi)
+    expected = -2 / np.pi * np.log(200) + growth + 1j * x
+    assert ladder.anelastic_strain(year, 0.15) == pytest.approx(expected, rel=1e-12)
+
+
+def test_settings_of_the_ladder() -> None:
+    everywhere = earthspin.wobble_ladder(ocean="global").period_sidereal
+    assert float(everywhere.sel(rung="ocean")) == pytest.approx(440.2, abs=0.1)
+    dry = earthspin.wobble_ladder(ocean="none")
+    assert "ocean" not in dry.rung.values
+    firm = earthspin.wobble_ladder(anelastic_exponent=0.0).quality_factor[-1]
+    assert float(firm) == pytest.approx(458, abs=5)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"wobble.ocean": "rael"}, "did you mean 'real'"),
+        ({"wobble.anelastic_exponent": 0.5}, "between 0 and 0.2"),
+        ({"wobble.anelastic_exponent": "much"}, "pure number"),
+        ({"wobble.depth": 1}, "wobble.depth"),
+        ({"body.interior": "permm"}, "did you mean 'prem'"),
+        ({"body.j2": 1e-4}, "more than the body's bulge"),
+    ],
+)
+def test_wrong_settings_are_one_line(changes: dict[str, object], message: str) -> None:
+    with pytest.raises((SceneError, UndefinedError), match=message) as caught:
+        earthspin.run(load_scene("wobble", changes))
+    assert "\n" not in str(caught.value)
+
+
+def test_love_numbers_stand_in_the_result() -> None:
+    result = earthspin.wobble_ladder()
+    assert float(result.love_number.sel(love="k2")) == float(elastic(PREM).k)
+    assert "love_number" not in earthspin.wobble_ladder(body=MARS)

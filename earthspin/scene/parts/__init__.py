@@ -16,6 +16,7 @@ from earthspin.scene.parts import (
     kernel,
     ladder,
     nutation_nodes,
+    observed_pole,
     rotation,
     seasons,
     spheroid_points,
@@ -46,5 +47,9 @@ PARTS: dict[str, Part] = {
         rotation.POINSOT,
         tops.HEAVY_TOP,
         spheroid_points.SPHEROID_FIELD,
+        ladder.INTERIOR_RESPONSE,
+        ladder.WOBBLE_SENSITIVITY,
+        observed_pole.POLAR_MOTION,
+        observed_pole.CHANDLER,
     )
 }

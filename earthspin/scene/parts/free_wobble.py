@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from earthspin.bodies import IAU_2006, all_of
+from earthspin.bodies import all_of
 from earthspin.dataset import Variable, with_error
 from earthspin.scene.part import Part
 
@@ -37,19 +37,23 @@ def free_wobble(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
 
 def observed_wobble(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
-    """Quote the observed Chandler period."""
-    from earthspin.constants import CHANDLER_PERIOD, DAY, NORMAL_95
+    """Quote the observed period of the wobble."""
+    from earthspin.constants import DAY, NORMAL_95
     from earthspin.dataset import build
 
-    period = CHANDLER_PERIOD.value * DAY
-    return build(
+    observed = scene.body.observed_wobble
+    assert observed is not None
+    period = observed.value * DAY
+    result = build(
         "observed-wobble",
         OBSERVED_WOBBLE.gives,
         {
             "observed_period": period,
-            "observed_period_error": NORMAL_95 * period * CHANDLER_PERIOD.relative_uncertainty,
+            "observed_period_error": NORMAL_95 * period * observed.relative_uncertainty,
         },
     )
+    result.observed_period.attrs["references"] = observed.source
+    return result
 
 
 FREE_WOBBLE = Part(
@@ -78,10 +82,7 @@ OBSERVED_WOBBLE = Part(
     function="earthspin.scene.parts.free_wobble:observed_wobble",
     keys=("body",),
     left_out=lambda scene: (
-        None if scene.body.pole == IAU_2006 else f"no observed wobble of {scene.body.name} is kept"
+        None if scene.body.observed_wobble else f"no observed wobble of {scene.body.name} is kept"
     ),
-    gives=with_error(
-        "observed_period",
-        Variable((), "d", "observed Chandler period", (("references", "Nastula & Gross 2015"),)),
-    ),
+    gives=with_error("observed_period", Variable((), "d", "observed period of the free wobble")),
 )

@@ -1,0 +1,128 @@
+"""Polar motion and what excites it: one linear equation, solved exactly for interval means.
+
+    p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
+
+(Munk & MacDonald 1960; Barnes, Hide, White & Wilson 1983, Proc. R. Soc. A 387, 31). Where
+chi is constant over a step D, or stands for its mean weighted with the decaying response,
+the solution is p1 = a p0 + (1 - a) chi with a = exp(i s D), and either follows from the
+other without error. The other schemes are here to show how they fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from earthspin.errors import UndefinedError
+
+Complex = NDArray[np.complex128]
+
+
+def chandler_frequency(period: float, quality_factor: float) -> complex:
+    """Complex frequency s = (2 pi/T)(1 + i/(2 Q)), rad per unit of T.
+
+    Parameters
+    ----------
+    period : float
+        T, in any unit of time.
+    quality_factor : float
+        Q; infinite without loss.
+
+    Raises
+    ------
+    UndefinedError
+        If T or Q is not greater than zero.
+    """
+    if not (period > 0 and np.isfinite(period)):
+        raise UndefinedError(f"the period of the wobble is {period!r}; it is greater than zero")
+    if not quality_factor > 0:
+        raise UndefinedError(f"the quality factor is {quality_factor!r}; it is greater than zero")
+    return complex(2 * np.pi / period * (1 + 0.5j / quality_factor))
+
+
+def excitation(p: Complex, step: float, s: complex) -> Complex:
+    """Mean excitation of each step between samples of polar motion, exactly.
+
+    Parameters
+    ----------
+    p : complex array, shape (n,)
+        x - i y, evenly spaced.
+    step : float
+        D, in the unit of time of `s`.
+    s : complex
+        As `chandler_frequency` gives it.
+
+    Returns
+    -------
+    complex array, shape (n - 1,)
+        In the unit of p.
+    """
+    decay, rise = _response(step, s)
+    return np.asarray((p[1:] - decay * p[:-1]) / rise)
+
+
+def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
+    """Polar motion that a series of mean excitations drives, exactly.
+
+    Parameters
+    ----------
+    chi : complex array, shape (n,)
+        Means over consecutive steps.
+    step, s
+        As of `excitation`.
+    start : complex
+        Polar motion at the start of the first step.
+
+    Returns
+    -------
+    complex array, shape (n + 1,)
+        Polar motion at the ends of the steps, the start included.
+    """
+    decay, rise = _response(step, s)
+    driven = lfilter([rise], [1.0, -decay], chi, zi=np.array([decay * start]))[0]
+    return np.concatenate([[start], driven])
+
+
+def _response(step: float, s: complex) -> tuple[complex, complex]:
+    """exp(i s D), and 1 less it without cancellation."""
+    return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))
+
+
+# --- schemes that are only near ----------------------------------------------------------------
+
+
+def central_difference(p: Complex, step: float, s: complex) -> Complex:
+    """Excitation of the inner samples, dp/dt by central differences; shape (n - 2,)."""
+    return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
+
+
+def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
+    """Excitation midway between samples by Wilson's filter, shape (n - 1,).
+
+    chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
+    80, 551): the exact relation but for terms of second order in s D.
+    """
+    shift = np.exp(-0.5j * s.real * step)
+    return np.asarray(1j * shift / (s * step) * (p[1:] - np.exp(1j * s * step) * p[:-1]))
+
+
+def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
+    """Polar motion by explicit Euler steps, shape (n + 1,); its amplitude grows without cause."""
+    growth = 1 + 1j * s * step
+    driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
+    return np.concatenate([[start], driven])
+
+
+#: Ways from polar motion to excitation, and from excitation to polar motion, by name.
+TO_EXCITATION: dict[str, Callable[[Complex, float, complex], Complex]] = {
+    "exact": excitation,
+    "central difference": central_difference,
+    "wilson": wilson_filter,
+}
+FROM_EXCITATION: dict[str, Callable[..., Complex]] = {
+    "exact": polar_motion_from,
+    "explicit euler": euler_forward,
+}

@@ -1,0 +1,300 @@
+"""The free wobble in polar motion: simulations with a known truth, then the observed pole."""
+
+import warnings
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import toeplitz
+from scipy.signal import lfilter
+
+import earthspin
+from earthspin import SceneError, UndefinedError
+from earthspin.constants import MAS
+from earthspin.sky.eop import read_polar_motion
+from earthspin.wobble import observed
+from tests.conftest import load_pins
+
+PINS = load_pins("wobble")
+
+
+@pytest.fixture(scope="module")
+def c04() -> tuple[np.ndarray, np.ndarray]:
+    series = read_polar_motion()
+    keep = series.mjd <= 61312  # the table grows; the pins are of this much of it
+    return series.mjd[keep] - 51544.5, ((series.x - 1j * series.y) / MAS)[keep]
+
+
+@pytest.fixture(scope="module")
+def pole() -> xr.Dataset:
+    return earthspin.polar_motion(span=("1962-01-01", "2026-09-29"))
+
+
+# --- methods against a known truth -----------------------------------------------------------
+
+
+@given(st.integers(0, 1000), st.floats(0.5, 0.999), st.floats(-3, 3))
+@settings(max_examples=20)
+def test_burg_finds_an_autoregressive_process(seed: int, size: float, turn: float) -> None:
+    """Of first order: the pole within five standard deviations."""
+    pole = size * np.exp(1j * turn)
+    kicks = np.random.default_rng(seed).standard_normal((4000, 2)) @ [1, 1j]
+    x = lfilter([1], [1, -pole], kicks)[1000:]
+    found = -observed.burg(x, 1)[1]
+    assert abs(found - pole) < 5 * np.sqrt((1 - size**2) / x.size) + 1e-3
+
+
+def test_burg_is_exact_on_sinusoids() -> None:
+    t = np.arange(500)
+    x = np.exp(0.3j * t) + 0.5 * np.exp(-1.1j * t)
+    poles = np.roots(observed.burg(x, 2))
+    assert np.allclose(np.sort(np.angle(poles)), [-1.1, 0.3], atol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("method", "runs", "bias", "scatter", "coverage"),
+    [
+        # Measured in 300 runs: bias -0.2, scatter 2.1, coverage 0.97; Q 0.92.
+        ("burg", 60, 1.0, 3.0, 0.9),
+        # In 120 runs: 0.0, 2.1, 1.00; Q 0.99.
+        ("likelihood", 12, 2.0, 3.5, 0.8),
+        # In 200 runs: -0.8, 3.9, 0.92.
+        ("least-squares", 30, 2.5, 5.5, 0.85),
+    ],
+)
+def test_bias_scatter_and_coverage(
+    method: str, runs: int, bias: float, scatter: float, coverage: float
+) -> None:
+    """T = 433, Q = 100, 65 years, with seasons, drift and background."""
+    fits = [observed.fit(*observed.simulate(65, seed=seed), method) for seed in range(runs)]
+    off = np.array([fit.period for fit in fits]) - 433
+    assert abs(off.mean()) < bias
+    assert 1.0 < off.std() < scatter
+    error = np.array([fit.period_error for fit in fits])
+    assert np.mean(abs(off) < error) >= coverage
+    # And not by claiming too little: no more than twice what the scatter asks for.
+    assert error.mean() < 2 * 1.96 * max(off.std(), 1.65)
+    if method != "least-squares":
+        ends = np.array([fit.quality_bounds for fit in fits])
+        assert np.mean((ends[:, 0] < 100) & (ends[:, 1] > 100)) >= coverage - 0.1
+        assert 60 < np.median([fit.quality_factor for fit in fits]) < 160
+
+
+def test_least_squares_refuses_to_give_q() -> None:
+    fit = observed.fit(*observed.simulate(40, seed=1), "least-squares")
+    assert not fit.gives_quality
+    with pytest.raises(UndefinedError, match="no quality factor"):
+        _ = fit.quality_factor
+    with pytest.raises(UndefinedError, match="use method 'burg'"):
+        _ = fit.quality_bounds
+
+
+def test_envelope_of_steady_wobbles() -> None:
+    t = np.arange(0.0, 9000.0)
+    p = 30 - 200j + 0.01 * t + 150 * np.exp(1j * (2 * np.pi * t / 433 + 0.7))
+    p = (
+        p
+        + 90 * np.exp(2j * np.pi * t / observed.YEAR)
+        + 5 * np.exp(-2j * np.pi * t / observed.YEAR)
+    )
+    seen = observed.envelope(t, p, 433.0)
+    assert np.allclose(abs(seen.chandler), 150, rtol=2e-5)
+    assert np.allclose(np.angle(seen.chandler), 0.7, atol=1e-5)
+    assert np.allclose(abs(seen.annual), 90, rtol=2e-5)
+    assert np.allclose(abs(seen.annual_retrograde), 5, rtol=1e-4)
+
+
+def test_errors_of_the_amplitude_cover_it() -> None:
+    """Measured in 40 runs: coverage 0.95."""
+    t = np.arange(0.0, 20000.0, 10.0)
+    inside = []
+    for seed in range(12):
+        kicks = np.random.default_rng(seed).standard_normal((t.size, 2)) @ [1, 1j]
+        noise = 15 * np.sqrt(1 - 0.8**2) * lfilter([1], [1, -0.8], kicks) / np.sqrt(2)
+        seen = observed.envelope(t, 100 * np.exp(2j * np.pi * t / 433) + noise, 433.0)
+        inside.append(abs(abs(seen.chandler) - 100) < seen.error)
+    assert 0.88 < np.mean(inside) < 0.995
+
+
+def test_likelihood_against_the_full_covariance() -> None:
+    """Three diagonals against the whole Toeplitz matrix."""
+    likelihood = observed._Likelihood(*observed.simulate(40, seed=5))
+    data, lags = likelihood.data, likelihood.step * np.arange(len(likelihood.data))
+    for rate, log_decay, log_background in ((0, -9.5, -2), (1e-4, -8, -4), (-1e-4, -10, 1)):
+        decay = np.exp(log_decay)
+        driven = np.exp((1j * rate - decay) * lags) / (2 * decay * observed.YEAR)
+        slow = -2j * np.pi / observed.NEAR - 1 / observed.BACKGROUND_TIME
+        lower = np.linalg.cholesky(toeplitz(driven + np.exp(log_background + slow * lags)))
+        r = abs(np.diag(np.linalg.qr(np.linalg.solve(lower, data), mode="r")))
+        expected = 2 * likelihood.free * np.log(r[-1]) + 2 * np.log(r[:-1]).sum()
+        expected += 2 * np.log(np.diag(lower).real).sum()
+        found = likelihood(rate, log_decay, log_background)
+        assert found == pytest.approx(expected, rel=1e-11)
+
+
+def test_spectrum_tells_the_sense_of_rotation() -> None:
+    t = np.arange(0.0, 20000.0)
+    frequency, amplitude = observed.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
+    at = np.argmax(amplitude)
+    assert frequency[at] == pytest.approx(365.25 / 433, abs=0.01)
+    assert amplitude[at] == pytest.approx(100, rel=0.01)
+    assert amplitude[frequency < -0.1].max() < 0.1
+
+
+# --- the observed pole -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", ["burg", "likelihood"])
+def test_the_observed_wobble(c04: tuple[np.ndarray, np.ndarray], method: str) -> None:
+    fit = observed.fit(*c04, method)
+    PINS[f"observed period, {method}"].check(fit.period)
+    assert 1 < fit.period_error < 5
+    assert 59 < fit.quality_factor < 330
+    low, high = fit.quality_bounds
+    assert low < 101 < high
+
+
+def test_quick_look_agrees(c04: tuple[np.ndarray, np.ndarray]) -> None:
+    fit = observed.fit(*c04, "least-squares")
+    assert abs(fit.period - 432.5) < fit.period_error
+
+
+@pytest.mark.parametrize("year", [1965, 1986, 1992, 2001, 2010, 2015, 2018, 2020])
+def test_amplitudes(c04: tuple[np.ndarray, np.ndarray], year: int) -> None:
+    seen = observed.envelope(*c04, 432.5)
+    when = 2000 + seen.time / 365.25
+    at = np.argmin(abs(when - max(year, when[0])))
+    PINS[f"amplitude {year}"].check(abs(seen.chandler[at]))
+
+
+def test_the_fall_of_2018_and_the_return(c04: tuple[np.ndarray, np.ndarray]) -> None:
+    seen = observed.envelope(*c04, 432.5)
+    size, when = abs(seen.chandler), 2000 + seen.time / 365.25
+    assert 2017 < when[size.argmin()] < 2019
+    assert size.min() == pytest.approx(14, abs=3)
+    assert size[-1] > 3 * size.min()
+
+
+def test_annual_wobble_since_1984(c04: tuple[np.ndarray, np.ndarray]) -> None:
+    time, p = c04
+    late = time > (1984 - 2000) * 365.25
+    columns = np.column_stack(
+        [observed.known_terms(time[late], 1), np.exp(2j * np.pi * time[late] / 432.5)]
+    )
+    found = observed.least_squares(columns, p[late])
+    PINS["annual prograde"].check(abs(found[2]))
+    PINS["annual retrograde"].check(abs(found[3]))
+
+
+def test_the_pole_turns_forwards(c04: tuple[np.ndarray, np.ndarray]) -> None:
+    """Nearly all monthly steps turn the same way about the slowly moving mean."""
+    time, p = c04
+    smooth = observed.block_means(p, 30)
+    seasons = observed.known_terms(observed.block_means(time, 30))
+    drift = seasons[:, :4] @ observed.least_squares(seasons, smooth)[:4]
+    away = smooth - drift
+    assert np.mean(np.angle(away[1:] / away[:-1]) > 0) > 0.97
+
+
+# --- labelled --------------------------------------------------------------------------------
+
+
+def test_contract(pole: xr.Dataset) -> None:
+    assert pole.x.attrs["units"] == pole.y.attrs["units"] == "arcsec"
+    fit = earthspin.fit_chandler(pole)
+    assert fit.chandler_amplitude.dims == ("time",)
+    assert fit.chandler_amplitude.attrs["units"] == "mas"
+    assert fit.chandler_period.attrs["units"] == "d"
+    low, high = fit.chandler_quality_factor_low, fit.chandler_quality_factor_high
+    assert float(low) < float(fit.chandler_quality_factor) < float(high)
+    assert float(fit.chandler_period) == float(pole.chandler_period)
+    quick = earthspin.fit_chandler(pole, method="least-squares")
+    assert "chandler_quality_factor" not in quick
+    assert "refused" in quick.chandler_period.attrs["quality_factor"]
+
+
+def test_excitation_there_and_back(pole: xr.Dataset) -> None:
+    chi = earthspin.excitation(pole, period=432.5, quality_factor=101)
+    back = earthspin.polar_motion_from(chi)
+    for name in ("x", "y"):
+        assert np.max(abs(back[name].values - pole[name].values)) * 1e3 < 1e-10  # mas; 5e-12
+    assert np.array_equal(back.time, pole.time)
+    wrong = chi.copy()
+    wrong.chi1.attrs["units"] = "rad"
+    with pytest.raises(SceneError, match="mas"):
+        earthspin.polar_motion_from(wrong)
+    chi.attrs = {}
+    with pytest.raises(SceneError, match="quality_factor"):
+        earthspin.polar_motion_from(chi)
+
+
+def test_text_statements(pole: xr.Dataset) -> None:
+    """Six metres and 0.2 arcsec: true around 1990, not now."""
+    metres = float(pole.polar_radius) * MAS
+    assert 200 * metres == pytest.approx(6.2, abs=0.1)
+    amplitude = pole.chandler_amplitude
+    assert float(amplitude.sel(middle="1992").mean()) == pytest.approx(200, abs=20)
+    assert float(amplitude.sel(middle="2018").mean()) < 25
+
+
+def spoilt(pole: xr.Dataset, what: str) -> xr.Dataset:
+    ds = pole[["x", "y"]].copy(deep=True)
+    if what == "gap":
+        return ds.isel(time=np.r_[0:9000, 9100:20000])
+    if what == "copy":
+        return ds.isel(time=np.r_[0:9000, 8999:20000])
+    if what == "unsorted":
+        return ds.isel(time=np.r_[9000:20000, 0:9000])
+    if what == "nan":
+        ds.x.values[500] = np.nan
+    if what == "unit":
+        ds.x.attrs["units"] = "rad"
+    if what == "no unit":
+        ds.y.attrs = {}
+    if what == "mas as arcsec":
+        ds.x.values[:] *= 1e3
+    if what == "short":
+        return ds.isel(time=slice(0, 1800))
+    if what == "no y":
+        return ds[["x"]]
+    return ds
+
+
+@pytest.mark.parametrize(
+    ("what", "message"),
+    [
+        ("gap", "not evenly spaced"),
+        ("copy", "drop_duplicates"),
+        ("unsorted", "sortby"),
+        ("nan", "no numbers"),
+        ("unit", "'arcsec' or 'mas'"),
+        ("no unit", "'arcsec' or 'mas'"),
+        ("mas as arcsec", "is the unit right"),
+        ("short", "4.9 years is too short .* it takes 13 years"),
+        ("no y", "'y' along 'time'"),
+    ],
+)
+def test_bad_input_is_refused(pole: xr.Dataset, what: str, message: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises((SceneError, UndefinedError), match=message) as caught:
+            earthspin.fit_chandler(spoilt(pole, what))
+    assert "\n" not in str(caught.value)
+
+
+def test_unknown_methods_and_windows(pole: xr.Dataset) -> None:
+    with pytest.raises(SceneError, match="did you mean 'burg'"):
+        earthspin.fit_chandler(pole, method="brug")
+    with pytest.raises(UndefinedError, match="one beat"):
+        earthspin.fit_chandler(pole, window=400.0)
+    with pytest.raises(SceneError, match=r"polar_motion\.flie"):
+        earthspin.run(earthspin.load_scene("polar-motion", {"polar_motion.flie": "x"}))
+    with pytest.raises(SceneError, match="no polar motion of mars"):
+        earthspin.run(earthspin.load_scene("polar-motion", {"body": "mars", "perturbers": ["sun"]}))
+
+
+def test_windows_may_be_longer() -> None:
+    scene = earthspin.load_scene("polar-motion", {"polar_motion.window": "12 yr"})
+    assert earthspin.run(scene).middle.size < earthspin.run("polar-motion").middle.size

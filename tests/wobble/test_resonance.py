@@ -1,0 +1,93 @@
+"""Excitation: the exact pair, and how other schemes fail."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from earthspin import UndefinedError
+from earthspin.wobble import resonance as ex
+
+S = ex.chandler_frequency(433.0, 100.0)
+DAYS = 60 * 365
+
+
+def forced(days: int = DAYS) -> np.ndarray:
+    """A free wobble and an annual one, mas."""
+    t = np.arange(days + 1.0)
+    return 150 * np.exp(1j * S * t) + 90 * np.exp(2j * np.pi * t / 365.25) + 3 - 40j
+
+
+def annual(t: np.ndarray) -> np.ndarray:
+    """Exact excitation of `forced`."""
+    rate = 2 * np.pi / 365.25
+    return 90 * (1 - rate / S) * np.exp(1j * rate * t) + 3 - 40j
+
+
+def test_there_and_back_over_sixty_years() -> None:
+    p = forced()
+    back = ex.polar_motion_from(ex.excitation(p, 1.0, S), 1.0, S, p[0])
+    assert np.max(abs(back - p)) < 1e-10  # mas; measured 9e-12
+    chi = 30 * (np.random.default_rng(1).standard_normal((DAYS, 2)) @ [1, 1j])
+    again = ex.excitation(ex.polar_motion_from(chi, 1.0, S), 1.0, S)
+    assert np.max(abs(again - chi)) < 1e-9
+
+
+@given(st.floats(100, 1000), st.floats(5, 1e4), st.floats(0.1, 50))
+def test_a_constant_excitation_against_the_differential_equation(
+    period: float, q: float, step: float
+) -> None:
+    s = ex.chandler_frequency(period, q)
+    chi = np.full(6, 7 - 2j)
+    found = ex.polar_motion_from(chi, step, s, 1 + 1j)
+
+    def slope(t: float, p: np.ndarray) -> np.ndarray:
+        return 1j * s * (p - (7 - 2j))
+
+    exact = solve_ivp(slope, (0, 6 * step), [1 + 1j], rtol=1e-11, atol=1e-11).y[0, -1]
+    assert abs(found[-1] - exact) < 1e-7
+
+
+def test_a_free_wobble_has_no_excitation() -> None:
+    p = 150 * np.exp(1j * S * np.arange(1000.0))
+    assert np.max(abs(ex.excitation(p, 1.0, S))) < 1e-10
+
+
+def test_a_step_of_zero_loss_is_allowed() -> None:
+    s = ex.chandler_frequency(433.0, np.inf)
+    assert s.imag == 0
+    assert abs(abs(ex.polar_motion_from(np.zeros(5, complex), 1.0, s, 1j)[-1]) - 1) < 1e-14
+
+
+@pytest.mark.parametrize(("step", "exact", "central"), [(1, 1.5e-4, 0.011), (10, 0.015, 1.1)])
+def test_how_near_other_schemes_come(step: int, exact: float, central: float) -> None:
+    """Largest error on a smooth motion, mas; the exact pair misses by the mean over a step."""
+    p = forced()[::step]
+    t = step * np.arange(p.size - 1.0)
+    middle = annual(t + step / 2)
+    assert np.max(abs(ex.excitation(p, step, S) - middle)) < exact
+    assert 0.9 * central < np.max(abs(ex.central_difference(p, step, S) - annual(t[1:]))) < central
+    assert np.max(abs(ex.wilson_filter(p, step, S) - middle)) < central
+
+
+def test_central_differences_lose_a_rough_excitation() -> None:
+    """Where excitation changes from day to day, half of it is averaged away."""
+    chi = 30 * (np.random.default_rng(1).standard_normal((DAYS, 2)) @ [1, 1j])
+    p = ex.polar_motion_from(chi, 1.0, S)
+    lost = ex.central_difference(p, 1.0, S) - chi[:-1]
+    assert 0.6 < np.std(lost) / np.std(chi) < 0.8  # sqrt(1/2)
+    assert np.max(abs(ex.excitation(p, 1.0, S) - chi)) < 1e-9
+
+
+def test_explicit_euler_inflates_the_wobble_tenfold() -> None:
+    lossless = ex.chandler_frequency(433.0, np.inf)
+    p = ex.euler_forward(np.zeros(DAYS, complex), 1.0, lossless, 1 + 0j)
+    assert abs(p[-1]) == pytest.approx(10, rel=0.05)
+    assert abs(p[-1]) == pytest.approx((1 + abs(lossless) ** 2) ** (DAYS / 2), rel=1e-6)
+
+
+@pytest.mark.parametrize(("period", "q"), [(0.0, 100.0), (-433.0, 100.0), (433.0, 0.0)])
+def test_impossible_resonances_are_refused(period: float, q: float) -> None:
+    with pytest.raises(UndefinedError, match="greater than zero"):
+        ex.chandler_frequency(period, q)
