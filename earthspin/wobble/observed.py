@@ -332,7 +332,11 @@ def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
     rate = 2 * np.pi / NEAR + at[0]
     period = 2 * np.pi / rate
     ends = [2 * np.pi / (2 * np.pi / NEAR + r) for r in rates]
-    quality = tuple(float(rate / (2 * np.exp(v))) for v in (at[1], decays[1], decays[0]))
+    slowest, fastest = np.exp(decays)
+    if decays[0] == limits[1][0]:  # even a wobble without any loss is likely enough
+        slowest = 0.0
+    with np.errstate(divide="ignore"):
+        quality = tuple(float(v) for v in np.divide(rate / 2, [np.exp(at[1]), fastest, slowest]))
     return WobbleFit("likelihood", float(period), float(abs(ends[1] - ends[0]) / 2), quality)
 
 
