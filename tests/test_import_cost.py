@@ -40,6 +40,11 @@ assert not any(name.endswith(".bsp") for name in opened)
     assert not modules_after(program) & {"skyfield", "jplephem", "numba", "matplotlib", "erfa"}
 
 
+def test_the_observed_pole_needs_no_kernel() -> None:
+    loaded = modules_after("import earthspin; earthspin.run('polar-motion')")
+    assert not loaded & {"skyfield", "jplephem", "numba", "matplotlib", "erfa", "rich"}
+
+
 @pytest.mark.parametrize("scene", ["precession", "sun-only", "torque"])
 def test_a_scene_draws_nothing(scene: str) -> None:
     loaded = modules_after(f"import earthspin; earthspin.run({scene!r})")

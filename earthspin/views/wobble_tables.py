@@ -87,14 +87,9 @@ def observed(result: xr.Dataset) -> Table:
         ("period, d", with_error(result.chandler_period, result.chandler_period_error)),
     ]
     if "chandler_quality_factor" in result:
-        rows.append(
-            (
-                "quality factor",
-                f"{float(result.chandler_quality_factor):.0f} "
-                f"({float(result.chandler_quality_factor_low):.0f} to "
-                f"{float(result.chandler_quality_factor_high):.0f})",
-            )
-        )
+        low, high = (float(result[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
+        ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
+        rows.append(("quality factor", f"{float(result.chandler_quality_factor):.0f} ({ends})"))
     size = result.chandler_amplitude.values
     for words, at in (("largest", size.argmax()), ("smallest", size.argmin()), ("last", -1)):
         of = result.isel({_axis(result): at})

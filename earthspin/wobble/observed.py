@@ -318,7 +318,7 @@ def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
     unit = np.array([1e-4, 1.0, 1.0])
     start = np.array([0.0, np.log(2 * np.pi / NEAR / (2 * USUAL_Q)), -2.0])
     edge = 2 * np.pi / BAND[0] - 2 * np.pi / NEAR
-    limits = [(-edge, edge), (-15.0, -5.0), (-8.0, 5.0)]
+    limits = [(-edge, edge), (-13.5, -5.0), (-8.0, 5.0)]
     best = minimize(
         lambda z: likelihood(*(z * unit)),
         start / unit,
@@ -332,7 +332,11 @@ def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
     rate = 2 * np.pi / NEAR + at[0]
     period = 2 * np.pi / rate
     ends = [2 * np.pi / (2 * np.pi / NEAR + r) for r in rates]
-    quality = tuple(float(rate / (2 * np.exp(v))) for v in (at[1], decays[1], decays[0]))
+    slowest, fastest = np.exp(decays)
+    if decays[0] == limits[1][0]:  # even a wobble without any loss is likely enough
+        slowest = 0.0
+    with np.errstate(divide="ignore"):
+        quality = tuple(float(v) for v in np.divide(rate / 2, [np.exp(at[1]), fastest, slowest]))
     return WobbleFit("likelihood", float(period), float(abs(ends[1] - ends[0]) / 2), quality)
 
 
@@ -343,18 +347,21 @@ def _fall(
     limits: tuple[float, float],
     least: float,
 ) -> tuple[float, float]:
-    """Where a function has risen by the 95 % point of chi-squared on either side of its least."""
+    """Where a function has risen by the 95 % point of chi-squared on either side of its least.
+
+    A limit stands for an end that lies beyond it.
+    """
     target = least + NORMAL_95**2
     ends = []
     for sign, limit in ((-1.0, limits[0]), (1.0, limits[1])):
-        reach = step
-        while of(best + sign * reach) < target and abs(reach) < abs(limit - best):
+        room, reach = abs(limit - best), step
+        while reach < room and of(best + sign * reach) < target:
             reach *= 2
-        far = best + sign * reach
-        risen = of(far) > target
-        ends.append(
-            brentq(lambda v: of(v) - target, best, far, xtol=1e-3 * step) if risen else limit
-        )
+        far = best + sign * min(reach, room)
+        if of(far) <= target:
+            ends.append(limit)
+        else:
+            ends.append(brentq(lambda v: of(v) - target, best, far, xtol=1e-3 * step))
     return ends[0], ends[1]
 
 

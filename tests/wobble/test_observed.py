@@ -156,6 +156,16 @@ def test_the_observed_wobble(c04: tuple[np.ndarray, np.ndarray], method: str) ->
     assert low < 101 < high
 
 
+def test_a_short_span_may_leave_the_quality_factor_open(
+    c04: tuple[np.ndarray, np.ndarray],
+) -> None:
+    time, p = c04
+    short = (time > -5100) & (time < 0)
+    low, high = observed.fit(time[short], p[short], "likelihood").quality_bounds
+    assert 20 < low < 100
+    assert high == np.inf
+
+
 def test_quick_look_agrees(c04: tuple[np.ndarray, np.ndarray]) -> None:
     fit = observed.fit(*c04, "least-squares")
     assert abs(fit.period - 432.5) < fit.period_error

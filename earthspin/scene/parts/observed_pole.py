@@ -231,7 +231,9 @@ CHANDLER = Part(
 QUALITY = {
     "chandler_quality_factor": Variable((), "1", "quality factor of the free wobble"),
     "chandler_quality_factor_low": Variable((), "1", "lower end of its 95 % interval"),
-    "chandler_quality_factor_high": Variable((), "1", "upper end of its 95 % interval"),
+    "chandler_quality_factor_high": Variable(
+        (), "1", "upper end of its 95 % interval", (("comment", "infinite if open"),)
+    ),
 }
 
 CHI = {
