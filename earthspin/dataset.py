@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, SIDEREAL_DAY
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, SIDEREAL_DAY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,6 +23,9 @@ CONVENTIONS = "CF-1.11"
 FROM_SI: dict[str, float] = {
     "arcsec/yr": 1 / ARCSEC_PER_YEAR,
     "deg": 180 / math.pi,
+    "arcsec": 1 / ARCSEC,
+    "mas": 1e3 / ARCSEC,
+    "uas": 1e6 / ARCSEC,
     "d": 1 / DAY,
     "sday": 1 / SIDEREAL_DAY,
     "yr": 1 / JULIAN_YEAR,

@@ -18,12 +18,15 @@ class Question:
         The parts whose results make up the answer.
     effects : tuple of str
         The effects that it can switch on.
+    unless_named : tuple of str
+        Those of them that are off unless a scene names them.
     tables : tuple of str
         Tables of settings that belong to it.
     """
 
     wants: tuple[str, ...]
     effects: tuple[str, ...] = ()
+    unless_named: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
 
 
@@ -53,6 +56,21 @@ QUESTIONS: dict[str, Question] = {
         )
     ),
     "torque": Question(wants=("torque-series",)),
+    "pole": Question(
+        wants=("pole", "pole-angles"), effects=EFFECTS, unless_named=("nonrigid",)
+    ),
+    "iau": Question(
+        wants=(
+            "iau-budget",
+            "iau-residuals",
+            "nutation-table",
+            "core-resonance",
+            "precession-angles",
+            "inferred-flattening",
+        ),
+        effects=EFFECTS,
+        unless_named=("nonrigid",),
+    ),
     "wobble": Question(wants=("wobble-ladder", "observed-wobble")),
 }
 

@@ -47,7 +47,7 @@ class Scene:
     perturbers : sequence of Body or str
         What pulls on it.
     effects : sequence of str or None
-        Effects beside the main one; None takes all that the question has.
+        Effects beside the main one; None takes all that the question has on by default.
     equator : str
         ``"mean"`` or ``"true"``: equator of date.
     ephemeris : str, path, or Skyfield kernel
@@ -138,7 +138,8 @@ class Scene:
     def _effects(self) -> tuple[str, ...]:
         modelled = QUESTIONS[self.compute].effects
         if self.effects is None:
-            return modelled
+            off = QUESTIONS[self.compute].unless_named
+            return tuple(word for word in modelled if word not in off)
         given = (self.effects,) if isinstance(self.effects, str) else tuple(self.effects)
         for word in given:
             if word not in EFFECTS:

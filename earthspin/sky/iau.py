@@ -47,6 +47,64 @@ def mean_longitude_of_node(days: FloatArray) -> FloatArray:
     return np.asarray(erfa.faom03(days / 36525.0))
 
 
+def true_pole(days: FloatArray) -> FloatArray:
+    """Celestial intermediate pole of IAU 2006/2000A in the GCRS, bias included, shape (n, 3).
+
+    Parameters
+    ----------
+    days : ndarray, shape (n,)
+    """
+    return np.asarray(erfa.pnm06a(J2000_JD, days)[..., 2, :])
+
+
+def nutation_2000a(days: FloatArray) -> FloatArray:
+    """Nutation in longitude and obliquity of IAU 2000A itself, rad, shape (n, 2).
+
+    Without the scaling for the rate of J2 that IAU 2006 adds (`erfa.nut00a`).
+    """
+    return np.stack(erfa.nut00a(J2000_JD, days), axis=-1)
+
+
+def delaunay_arguments(days: FloatArray) -> FloatArray:
+    """Arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
+    t = days / 36525.0
+    return np.stack(
+        [erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)]
+    )
+
+
+def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
+    """Nutation angles of a pole against the mean equator of IAU 2006, rad, shape (n, 2).
+
+    Parameters
+    ----------
+    pole : ndarray, shape (n, 3)
+        Unit vectors in the GCRS.
+    days : ndarray, shape (n,)
+
+    Returns
+    -------
+    ndarray, shape (n, 2)
+        In longitude and in obliquity, referred to the ecliptic of date.
+    """
+    mean = erfa.obl06(J2000_JD, days)
+    x, y, z = np.einsum("tij,tj->it", mean_equator(days), pole)
+    # to the ecliptic of date, where the pole stands at longitude 90 degrees minus dpsi
+    y, z = np.cos(mean) * y + np.sin(mean) * z, np.cos(mean) * z - np.sin(mean) * y
+    return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z) - mean], axis=-1)
+
+
+def fixed_ecliptic() -> FloatArray:
+    """Matrix from the GCRS to ecliptic and mean equinox of J2000.0 (IAU 2006), shape (3, 3)."""
+    return np.asarray(erfa.ecm06(J2000_JD, 0.0))
+
+
+def ecliptic_of_date(days: FloatArray) -> FloatArray:
+    """Pole of the moving ecliptic in the axes of `fixed_ecliptic` (P_A, Q_A), shape (n, 3)."""
+    p, q = (np.asarray(angle) for angle in erfa.p06e(J2000_JD, days)[3:5])
+    return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
+
+
 class Nutation:
     """Nutation IAU 2000A adapted to IAU 2006, interpolated between nodes.
 
