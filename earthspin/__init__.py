@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from earthspin.bodies import MOON as MOON
     from earthspin.bodies import SUN as SUN
     from earthspin.bodies import Body as Body
+    from earthspin.calls import compare_iau as compare_iau
+    from earthspin.calls import pole as pole
     from earthspin.calls import precession as precession
     from earthspin.calls import torque_series as torque_series
     from earthspin.calls import wobble_ladder as wobble_ladder
@@ -41,7 +43,14 @@ if TYPE_CHECKING:
 
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body"),
-    "earthspin.calls": ("precession", "torque_series", "wobble_ladder", "write_series"),
+    "earthspin.calls": (
+        "compare_iau",
+        "pole",
+        "precession",
+        "torque_series",
+        "wobble_ladder",
+        "write_series",
+    ),
     "earthspin.errors": (
         "AccuracyError",
         "BodyError",

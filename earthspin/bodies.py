@@ -329,6 +329,9 @@ _PLANETS = (
 #: Every named body.
 BODIES: dict[str, Body] = {b.name: b for b in (EARTH, MARS, SUN, MOON, *_PLANETS)}
 
+#: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
+PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
+
 
 def body(name: str, *, key: str = "body", source: str = "scene") -> Body:
     """Look a body up by name.

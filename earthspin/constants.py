@@ -160,6 +160,16 @@ PUBLISHED_EFFECTS: dict[str, Constant] = {
     "j4": Constant(2.60e-5, "arcsec yr-1", None, _P03_TABLE3),
 }
 
+FIRST_ORDER_RATE = Constant(
+    54.94062986, "arcsec yr-1", None, "Capitaine et al. 2004: first order, over cos(epsilon_0)"
+)
+J2_AND_TILT_RATE = Constant(-269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2, planetary tilt")
+
+PREM_MEAN_MOMENT = Constant(
+    0.330799, "", None, "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published"
+)
+PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981")
+
 CHANDLER_PERIOD = Constant(
     430.9, "d", 0.7, "Nastula & Gross 2015, JGR Solid Earth 120, 6474: observed, with Q = 127"
 )

@@ -43,7 +43,7 @@ MULTIPLES = np.array([term.split() for term in _TERMS.split("/")], dtype=int)
 
 #: Those large enough to grow visibly in a century.
 _GROWING = ("0 0 0 0 1", "0 0 2 -2 2", "0 0 2 0 2", "0 1 0 0 0", "0 0 0 0 2")
-_SLOW_DEGREE = 3
+SLOW_DEGREE = 4
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Circles:
         rad/s at J2000.0, in space; negative if retrograde.
     amplitude : ndarray, shape (k,), complex
         Factor of exp(i phi), rad.
-    slow : ndarray, shape (4,), complex
+    slow : ndarray, shape (SLOW_DEGREE + 1,), complex
         Polynomial in Julian centuries, rad.
     """
 
@@ -98,7 +98,7 @@ class FrequencyAnalysis:
         circles = np.exp(1j * (MULTIPLES @ arguments))
         growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
         drift = centuries * circles[growing]
-        slow = centuries ** np.arange(_SLOW_DEGREE + 1)[:, np.newaxis]
+        slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
         self._design = np.concatenate([circles, circles.conj(), slow, drift, drift.conj()]).T
         self._scale = np.linalg.norm(self._design, axis=0)
         self._design /= self._scale
@@ -120,7 +120,7 @@ class FrequencyAnalysis:
             self._multiples,
             self._frequency,
             found[:count],
-            found[count : count + _SLOW_DEGREE + 1],
+            found[count : count + SLOW_DEGREE + 1],
         )
 
 

@@ -28,6 +28,11 @@ ComplexArray = NDArray[np.complex128]
 #: into the sign of this module, where retrograde is negative. They are not fitted.
 CHANDLER_WOBBLE = 0.0026010 - 0.0001361j
 INNER_CORE_NUTATION = -0.999026 + 0.000780j
+#: Multiples of the one term left out of the fit, the prograde year: IAU 2000A adds to it 0.11 mas
+#: of an atmospheric tide in step with the Sun (Mathews, Herring & Buffett 2002), which no
+#: response of the body makes.
+SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
+
 #: Where the search for the free core nutation begins (same table).
 CORE_NUTATION_START = (-1.0023181, 0.000025)
 

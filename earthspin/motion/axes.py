@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, DAY
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.motion.figure import tilt_of_figure
 from earthspin.motion.forces import Forces
@@ -193,6 +193,30 @@ def axis_path(
     )
 
 
+def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW) -> int:
+    """How many windows lead from an epoch to a span, both in s."""
+    forward, backward = (max(0.0, d) for d in (span[1] - epoch, epoch - span[0]))
+    return int(np.ceil(forward / window) + np.ceil(backward / window)) or 1
+
+
+def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
+    """95 % half-width of a direction from the uncertainty of H, rad, shape (t,).
+
+    Whatever the axis has moved since the epoch grows with H.
+
+    Parameters
+    ----------
+    path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axis.
+    u_h : float
+        Relative standard uncertainty of H.
+    """
+    epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
+    moved = np.linalg.norm(figure - path.at(epoch)["figure"], axis=1)
+    return np.asarray(NORMAL_95 * u_h * moved)
+
+
 @dataclass(frozen=True)
 class _Start:
     """What a segment begins with: the figure axis at the epoch, or the angular momentum."""
@@ -235,6 +259,9 @@ def _directions(
         if count > 0:
             edges = epoch + sign * window * np.arange(count + 1)
             edges[-1] = sign * min(sign * edges[-1], sign * limit)
+            if count > 1 and abs(edges[-1] - edges[-2]) < window / 2:
+                # where the sky ends, two equal windows instead of a sliver
+                edges[-2] = (edges[-3] + edges[-1]) / 2
             found.append((edges, sign > 0))
     # A span that is nothing but the epoch still needs a window.
     return found or [_one_window(epoch, limits, window)]

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from earthspin.constants import J2000_JD
+from earthspin.constants import DAY, J2000_JD
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 #: Days between the nodes from which nutation is interpolated; no term is shorter than 2 days.
 NUTATION_NODE_STEP = 1.0
@@ -71,6 +72,36 @@ def delaunay_arguments(days: FloatArray) -> FloatArray:
     return np.stack(
         [erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)]
     )
+
+
+def delaunay_rates() -> FloatArray:
+    """Rates of the Delaunay arguments at J2000.0, rad/s, shape (5,)."""
+    day = 1.0
+    turned = delaunay_arguments(np.array([-day, day]))
+    return np.asarray(np.unwrap(turned, axis=1)[:, 1] - turned[:, 0]) / (2 * day * DAY)
+
+
+def precession_angles(days: FloatArray) -> FloatArray:
+    """psi_A, omega_A, eps_A, chi_A and p_A of IAU 2006, rad, shape (n, 5) (`erfa.p06e`)."""
+    angles = erfa.p06e(J2000_JD, days)
+    return np.stack([angles[place] for place in (1, 2, 7, 8, 12)], axis=-1)
+
+
+def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> FloatArray:
+    """Poles moved by small angles, shape (n, 3).
+
+    Parameters
+    ----------
+    pole : ndarray, shape (n, 3)
+        Unit vectors in the GCRS.
+    eta : ndarray, shape (n,), complex
+        dpsi sin(eps0) + i deps, rad: the shift along x and y of the equator of date.
+    days : ndarray, shape (n,)
+    """
+    x, y, _ = np.moveaxis(mean_equator(days), 1, 0)
+    shift = eta.real[:, np.newaxis] * x - eta.imag[:, np.newaxis] * y
+    moved = pole + shift
+    return np.asarray(moved / np.linalg.norm(moved, axis=1, keepdims=True))
 
 
 def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:

@@ -61,12 +61,14 @@ class SeriesTimes:
         )
 
 
-def series_times(scene: Scene) -> SeriesTimes:
+def series_times(
+    scene: Scene, default_span: tuple[str, str] = DEFAULT_SPAN, default_step: str = DEFAULT_STEP
+) -> SeriesTimes:
     """Times at which a scene wants its series."""
     if scene.times is not None:
         return SeriesTimes(None, days(scene.times))
-    span = scene.span or DEFAULT_SPAN
-    step = DEFAULT_STEP if scene.step is None else scene.step
+    span = scene.span or default_span
+    step = default_step if scene.step is None else scene.step
     return SeriesTimes(time_grid(span[0], span[1], step, scene.source), None)
 
 
