@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
 
 from earthspin.constants import ARCSEC, EPSILON_0
 
@@ -99,10 +100,11 @@ class FrequencyAnalysis:
         growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
         drift = centuries * circles[growing]
         slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
-        self._design = np.concatenate([circles, circles.conj(), slow, drift, drift.conj()]).T
-        self._scale = np.linalg.norm(self._design, axis=0)
-        self._design /= self._scale
-        self._normal = self._design.conj().T @ self._design
+        rows = np.concatenate([circles, circles.conj(), slow, drift, drift.conj()])
+        self._scale = np.linalg.norm(rows, axis=1)
+        self._adjoint = rows.conj() / self._scale[:, np.newaxis]
+        # The columns are nearly orthogonal (condition number 5), so that normal equations do.
+        self._normal = cho_factor(self._adjoint @ self._adjoint.conj().T)
         self._multiples = np.concatenate([MULTIPLES, -MULTIPLES])
         self._frequency = self._multiples @ rates
 
@@ -114,7 +116,7 @@ class FrequencyAnalysis:
         eta : ndarray, shape (t,), complex
             dpsi sin(eps0) + i deps, rad.
         """
-        found = np.linalg.solve(self._normal, self._design.conj().T @ eta) / self._scale
+        found = cho_solve(self._normal, self._adjoint @ eta) / self._scale
         count = len(self._multiples)
         return Circles(
             self._multiples,

@@ -20,12 +20,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.errors import UndefinedError
 from earthspin.motion.windows import Windows
 from earthspin.torque.quadrupole import apply
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
+#: Nearer to the resonance of a flat body the series would not close.
+NEAREST_RESONANCE = 0.2
 _ROUNDS = 8  # each gains a factor of 25 for terms of a fortnight
 
 
@@ -74,6 +77,11 @@ def semidiurnal_amplitudes(
     -------
     ndarray, shape (3, w, n), complex
         rad, to be multiplied by exp(2 i theta), theta the angle of the axis of least moment.
+
+    Raises
+    ------
+    UndefinedError
+        If the body is so flat that its free nutation comes near half a day.
     """
     first, second = equatorial_basis(figure)
     q = _on_equator(apply(tensor, figure), first, second)
@@ -83,10 +91,17 @@ def semidiurnal_amplitudes(
         momentum = (torque - windows.derivative(momentum)) / (2j * spin_rate)
 
     turn = kappa * spin_rate  # A/C
+    away = 1 - 2 * turn  # from the free nutation, which a thin disc has at half a day
+    if abs(away) < NEAREST_RESONANCE:
+        raise UndefinedError(
+            f"A/C = {turn:.3g}: the semidiurnal torque on B - A resonates with the free nutation "
+            f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); leave out the effect 'triaxiality' or set "
+            f"the body's triaxiality to 0"
+        )
     uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, first, second))
-    axis = (momentum + uneven) / (1 - 2 * turn)
+    axis = (momentum + uneven) / away
     for _ in range(_ROUNDS):
-        axis = (momentum + uneven - 1j * kappa * windows.derivative(axis)) / (1 - 2 * turn)
+        axis = (momentum + uneven - 1j * kappa * windows.derivative(axis)) / away
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])
 

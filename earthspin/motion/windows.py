@@ -47,11 +47,11 @@ class Windows:
 
     def coefficients(self, values: AnyArray) -> AnyArray:
         """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
-        return values @ _rule(self.order).project
+        return _apply(values, _rule(self.order).project)
 
     def derivative(self, values: AnyArray) -> AnyArray:
         """Derivative at the nodes of the polynomial through values there, per second."""
-        return (values @ _rule(self.order).differentiate) / self.half
+        return _apply(values, _rule(self.order).differentiate) / self.half
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Integrals from the start of each window.
@@ -89,6 +89,14 @@ class Windows:
                 "ktm,tm->kt", coefficients[:, window, :], basis
             )
         return found
+
+
+def _apply(values: AnyArray, matrix: FloatArray) -> AnyArray:
+    """Values times a real matrix; complex ones in two parts, which costs half."""
+    if np.iscomplexobj(values):
+        real, imaginary = (np.ascontiguousarray(part) for part in (values.real, values.imag))
+        return np.asarray(real @ matrix + 1j * (imaginary @ matrix))
+    return np.asarray(values @ matrix)
 
 
 class _Rule:
