@@ -37,7 +37,7 @@ class Constant:
         return abs((self.uncertainty or 0.0) / self.value)
 
 
-SPEED_OF_LIGHT = Constant(299792458.0, "m s-1", 0.0, "SI, exact")
+SPEED_OF_LIGHT = Constant(299792458.0, "m s-1", 0.0, "SI Brochure, 9th edition: exact")
 
 _IERS = "IERS Conventions (2010), IERS Technical Note 36, table 1.1"
 _DE440 = "Park et al. 2021, AJ 161:105; header of DE440"
@@ -82,9 +82,7 @@ EARTH_TRIAXIALITY = Constant(
 EARTH_J3 = Constant(
     -9.57161207e-7 * math.sqrt(7.0), "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
 )
-EARTH_J4 = Constant(
-    -5.39965866e-7 * 3.0, "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
-)
+EARTH_J4 = Constant(-5.39965866e-7 * 3.0, "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)")
 EARTH_J2_RATE = Constant(
     -3.001e-9 / (36525.0 * 86400.0), "s-1", None, _P03 + ": -3.001e-9 a century, sect. 4.1"
 )

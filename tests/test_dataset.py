@@ -17,6 +17,9 @@ KINDS = {
     "sday": "time",
     "s": "time",
     "deg": "angle",
+    "arcsec": "angle",
+    "mas": "angle",
+    "uas": "angle",
     "m": "length",
     "N m": "torque",
     "kg m2": "moment of inertia",
@@ -25,7 +28,9 @@ KINDS = {
 
 
 @pytest.fixture(
-    scope="module", params=["precession", "sun-only", "torque", "wobble"], ids=lambda name: name
+    scope="module",
+    params=["precession", "sun-only", "torque", "wobble", "pole", "iau"],
+    ids=lambda name: name,
 )
 def result(request: pytest.FixtureRequest) -> xr.Dataset:
     return earthspin.run(request.param)
@@ -85,6 +90,8 @@ def _scene_of(result: xr.Dataset) -> str:
     titles = {
         "Precession of the equinoxes": "precession",
         "Free wobble of the rigid Earth": "wobble",
+        "The pole in time": "pole",
+        "Our pole beside IAU 2006/2000A": "iau",
     }
     title = result.attrs["title"]
     return titles.get(title) or ("sun-only" if "alone" in title else "torque")

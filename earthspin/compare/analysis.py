@@ -82,7 +82,9 @@ class PoleAnalysis:
         return self._least_squares(eta)
 
 
-def shifted_start(start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray) -> FloatArray:
+def shifted_start(
+    start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray
+) -> FloatArray:
     """Axis to start with so that the slow part of our pole meets another's at J2000.0.
 
     Parameters

@@ -57,13 +57,13 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
     fixed_node = np.cross(u, [0.0, 0.0, 1.0])  # towards the node of the fixed ecliptic
     chi = _angle_about(u, fixed_node, across)
     # The origin of longitude carried to the moving ecliptic without turning (Lieske 1977).
-    origin = np.array([1.0, 0.0, 0.0]) - (e[:, :1] / (1 + e[:, 2:])) * (e + [0.0, 0.0, 1.0])
+    x, z = np.eye(3)[[0, 2]]
+    origin = x - (e[:, :1] / (1 + e[:, 2:])) * (e + z)
     general = _angle_about(e, across, origin)
     return np.stack([psi, omega, obliquity, chi, general], axis=-1)
 
 
 def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """Angle from one direction to another about an axis, rad."""
-    return np.arctan2(
-        np.sum(np.cross(start, end) * axis, axis=1), np.sum(start * end, axis=1)
-    )
+    across = np.sum(np.cross(start, end) * axis, axis=1)
+    return np.asarray(np.arctan2(across, np.sum(start * end, axis=1)))

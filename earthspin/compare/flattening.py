@@ -6,8 +6,9 @@ right: closure tests consistency. Only a model of the inside gives C on its own.
 
 from __future__ import annotations
 
-from earthspin.mass.inertia import polar_moment_factor
+import math
 
+from earthspin.mass.inertia import polar_moment_factor
 
 #: Effects whose published sizes tell how sure our own are.
 COMPARED = ("planets", "j4", "geodesic", "second-order")
@@ -39,7 +40,7 @@ def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method:
     method : float
         By what the same analysis misses the rate of a pole whose rate is known.
     """
-    return abs(h / torque_rate) * (effects**2 + method**2) ** 0.5
+    return abs(h / torque_rate) * math.hypot(effects, method)
 
 
 def polar_moment_from_mean(

@@ -127,7 +127,7 @@ class FrequencyAnalysis:
 
 
 def complex_nutation(angles: FloatArray) -> ComplexArray:
-    """dpsi sin(eps0) + i deps from the two angles of nutation, shape (t, 2), rad."""
+    """Write as dpsi sin(eps0) + i deps the two angles of nutation, shape (t, 2), rad."""
     sine = np.sin(EPSILON_0.value * ARCSEC)
     return np.asarray(angles[:, 0] * sine + 1j * angles[:, 1])
 

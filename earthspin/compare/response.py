@@ -108,7 +108,7 @@ def fit_response(
         weighted = columns * rigid[:, np.newaxis]
         left = real - base * rigid
         strengths = np.linalg.lstsq(weighted, left, rcond=None)[0]
-        return strengths, left - weighted @ strengths
+        return np.asarray(strengths), left - weighted @ strengths
 
     def misfit(mode: FloatArray) -> FloatArray:
         left = solve(complex(*mode))[1] / np.max(np.abs(rigid))

@@ -102,7 +102,8 @@ def rotation_matrix(quaternion: FloatArray) -> FloatArray:
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
     ]
     square = w * w + x * x + y * y + z * z
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1)) / square[..., np.newaxis, np.newaxis]
+    turned = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return np.asarray(turned / square[..., np.newaxis, np.newaxis])
 
 
 def quaternion_from_matrix(matrix: FloatArray) -> FloatArray:

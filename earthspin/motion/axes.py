@@ -119,9 +119,7 @@ class AxisPath:
         phase = np.exp(2j * (self.spin_rate * times + self.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
         first, second = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
-        return np.asarray(
-            move.real[:, np.newaxis] * first + move.imag[:, np.newaxis] * second
-        )
+        return np.asarray(move.real[:, np.newaxis] * first + move.imag[:, np.newaxis] * second)
 
 
 def axis_path(
@@ -253,11 +251,11 @@ def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
     """Edges of windows from the epoch outward, and whether they lead forward."""
-    found = []
+    found: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))
         if count > 0:
-            edges = epoch + sign * window * np.arange(count + 1)
+            edges = np.asarray(epoch + sign * window * np.arange(count + 1.0))
             edges[-1] = sign * min(sign * edges[-1], sign * limit)
             if count > 1 and abs(edges[-1] - edges[-2]) < window / 2:
                 # where the sky ends, two equal windows instead of a sliver

@@ -104,9 +104,7 @@ class Forces:
         figure = self.figure
         shape = windows.times.shape
         found = self.positions(windows.times.ravel())
-        place = {
-            name: np.ascontiguousarray(found[name].T).reshape(3, *shape) for name in self.gm
-        }
+        place = {name: np.ascontiguousarray(found[name].T).reshape(3, *shape) for name in self.gm}
         tensor = tidal_tensor((gm, place[name]) for name, gm in self.gm.items())
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale

@@ -9,6 +9,7 @@ works on long contiguous rows.
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 #: Real, or complex where a vector of the equator is written as one number.
-AnyArray = NDArray[np.float64] | NDArray[np.complex128]
+AnyArray = TypeVar("AnyArray", NDArray[np.float64], NDArray[np.complex128])
 
 _CHUNK = 1 << 15  # times evaluated at once: the basis stays in the processor's cache
 
@@ -47,11 +48,13 @@ class Windows:
 
     def coefficients(self, values: AnyArray) -> AnyArray:
         """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
-        return _apply(values, _rule(self.order).project)
+        result: AnyArray = _apply(values, _rule(self.order).project)
+        return result
 
     def derivative(self, values: AnyArray) -> AnyArray:
         """Derivative at the nodes of the polynomial through values there, per second."""
-        return _apply(values, _rule(self.order).differentiate) / self.half
+        result: AnyArray = _apply(values, _rule(self.order).differentiate) / self.half
+        return result
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Integrals from the start of each window.
@@ -79,7 +82,7 @@ class Windows:
         -------
         ndarray, shape (k, t)
         """
-        found = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
+        found: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
         for first in range(0, times.size, _CHUNK):
             part = times[first : first + _CHUNK]
             window = np.clip(np.searchsorted(self.edges, part) - 1, 0, len(self.half) - 1)
@@ -88,15 +91,16 @@ class Windows:
             found[:, first : first + _CHUNK] = np.einsum(
                 "ktm,tm->kt", coefficients[:, window, :], basis
             )
-        return found
+        result: AnyArray = found
+        return result
 
 
-def _apply(values: AnyArray, matrix: FloatArray) -> AnyArray:
+def _apply(values: Any, matrix: FloatArray) -> Any:
     """Values times a real matrix; complex ones in two parts, which costs half."""
     if np.iscomplexobj(values):
         real, imaginary = (np.ascontiguousarray(part) for part in (values.real, values.imag))
-        return np.asarray(real @ matrix + 1j * (imaginary @ matrix))
-    return np.asarray(values @ matrix)
+        return real @ matrix + 1j * (imaginary @ matrix)
+    return values @ matrix
 
 
 class _Rule:

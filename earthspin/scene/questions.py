@@ -56,9 +56,7 @@ QUESTIONS: dict[str, Question] = {
         )
     ),
     "torque": Question(wants=("torque-series",)),
-    "pole": Question(
-        wants=("pole", "pole-angles"), effects=EFFECTS, unless_named=("nonrigid",)
-    ),
+    "pole": Question(wants=("pole", "pole-angles"), effects=EFFECTS, unless_named=("nonrigid",)),
     "iau": Question(
         wants=(
             "iau-budget",

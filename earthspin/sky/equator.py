@@ -83,14 +83,14 @@ def equator_of_date(
 def pole_at(pole: str | tuple[float, float], day: float) -> FloatArray:
     """Pole at a day from J2000.0 TDB, frame bias and nutation included, shape (3,)."""
     if isinstance(pole, str):
-        return iau.true_pole(np.array([day]))[0]
+        return np.asarray(iau.true_pole(np.array([day]))[0])
     return direction(*pole)
 
 
 def mean_pole(pole: str | tuple[float, float], days: FloatArray) -> FloatArray:
     """Pole without nutation, shape (n, 3); a fixed pole does not move."""
     if isinstance(pole, str):
-        return iau.mean_equator(days)[..., 2, :]
+        return np.asarray(iau.mean_equator(days)[..., 2, :])
     return np.broadcast_to(direction(*pole), (days.size, 3))
 
 

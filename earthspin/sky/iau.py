@@ -69,9 +69,7 @@ def nutation_2000a(days: FloatArray) -> FloatArray:
 def delaunay_arguments(days: FloatArray) -> FloatArray:
     """Arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
     t = days / 36525.0
-    return np.stack(
-        [erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)]
-    )
+    return np.stack([erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)])
 
 
 def delaunay_rates() -> FloatArray:

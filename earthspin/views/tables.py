@@ -46,6 +46,8 @@ def tables_for(result: xr.Dataset) -> list[Table]:
     result : Dataset
         As `run` gives it.
     """
+    from earthspin.views import pole_tables
+
     makers: dict[str, Callable[[xr.Dataset], Table]] = {
         "precession_rate": rates,
         "general_precession": sky_and_calendar,
@@ -55,6 +57,13 @@ def tables_for(result: xr.Dataset) -> list[Table]:
         "standstill_declination": standstills,
         "torque_magnitude": torque_summary,
         "period_solar": ladder,
+        "X": pole_tables.path,
+        "psi_rate": pole_tables.budget,
+        "residual_rms": pole_tables.residuals,
+        "ratio_in_phase": pole_tables.nutation,
+        "core_nutation_period": pole_tables.core,
+        "angle_coefficient": pole_tables.angles,
+        "flattening": pole_tables.flattening,
     }
     tables = [make(_first_of_draws(result)) for name, make in makers.items() if name in result]
     return [table for table in tables if table.rows]
@@ -89,6 +98,7 @@ def _first_of_draws(result: xr.Dataset) -> xr.Dataset:
     """The first of many bodies, where a body has labelled arrays: tables show one."""
     known = {"perturber", "earth_model", "effect", "standstill", "window", "window_cycles"}
     known |= {"part", "time", "component", "rung"}
+    known |= {"axis", "model", "direction", "term", "mode", "angle", "degree", "origin"}
     return result.isel({dim: 0 for dim in result.dims if dim not in known})
 
 

@@ -49,7 +49,8 @@ def tide(kernel: Ephemeris, end: float) -> Callable[[float], FloatArray]:
     times = piece * (np.arange(count)[:, np.newaxis] + (x + 1) / 2)
     found = kernel.positions(CODES, 399, times.ravel() / DAY)
     tensor = sum(
-        GM[name] * (r / (np.linalg.norm(r, axis=1) ** 5)[:, np.newaxis])[:, :, np.newaxis]
+        GM[name]
+        * (r / (np.linalg.norm(r, axis=1) ** 5)[:, np.newaxis])[:, :, np.newaxis]
         * r[:, np.newaxis, :]
         for name, r in found.items()
     )

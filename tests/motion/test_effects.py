@@ -38,15 +38,16 @@ def test_zonal_torque_is_the_slope_of_the_energy(
     def energy(angle: float) -> float:
         turned = axis * math.cos(angle) + np.cross(turn, axis) * math.sin(angle)
         turned = turned + turn * (turn @ axis) * (1 - math.cos(angle))
-        return gm / distance**3 * (radius / distance) ** (degree - 2) * eval_legendre(
-            degree, place @ turned
+        return (
+            gm
+            / distance**3
+            * (radius / distance) ** (degree - 2)
+            * eval_legendre(degree, place @ turned)
         )
 
     step = 1e-4
     slope = -(energy(step) - energy(-step)) / (2 * step)
-    torque = zonal_torque(
-        degree, 1.0, radius, gm, distance * place[:, None], axis[:, None]
-    )[:, 0]
+    torque = zonal_torque(degree, 1.0, radius, gm, distance * place[:, None], axis[:, None])[:, 0]
     scale = gm / distance**3 * (radius / distance) ** (degree - 2)
     assert abs(torque @ turn - slope) < 1e-6 * scale
 
@@ -59,9 +60,7 @@ def test_tensor_form_is_the_vector_form(place: np.ndarray, axis: np.ndarray) -> 
         torque_from_position(gm, 1.0, r[None], axis)[0]
         for gm, r in ((5e12, position), (2e12, 3 * position))
     )
-    assert np.allclose(
-        quadrupole_torque(tensor, axis[:, None])[:, 0], expected, rtol=0, atol=1e-27
-    )
+    assert np.allclose(quadrupole_torque(tensor, axis[:, None])[:, 0], expected, rtol=0, atol=1e-27)
 
 
 def test_second_harmonic_is_the_bulge() -> None:
@@ -103,8 +102,8 @@ def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(forces_module, "geodesic_rate", never)
     monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
     axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
+    zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
     with pytest.raises(AssertionError):
-        zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
         axis_path(forces(de421, zonal, near=("moon",)), NORTH, 0.0, (0.0, 8 * DAY))
 
 

@@ -27,7 +27,9 @@ def test_values_in_between_and_at_the_edges() -> None:
     series = windows.coefficients(np.stack([np.sin(windows.times), np.cos(windows.times)]))
     times = np.concatenate([EDGES, np.random.default_rng(2).uniform(-1, 5, 100)])
     found = windows.evaluate(series, times)
-    assert np.max(np.abs(found - [np.sin(times), np.cos(times)])) < 5e-13  # 1e-13 measured, at an edge
+    assert (
+        np.max(np.abs(found - [np.sin(times), np.cos(times)])) < 5e-13
+    )  # 1e-13 measured, at an edge
 
 
 def test_integrated_series_starts_where_it_is_told() -> None:

@@ -108,9 +108,7 @@ def _path(scene: Scene, pulls: Any, effects: Any, start: Any, days: Any) -> Axis
 
     _, epoch = start_of(scene, pulls)
     forces = forces_of(scene, pulls, effects, keep=True)
-    return axis_path(
-        forces, start, epoch, (days[0] * DAY, days[-1] * DAY), limits=pulls.limits
-    )
+    return axis_path(forces, start, epoch, (days[0] * DAY, days[-1] * DAY), limits=pulls.limits)
 
 
 def budget(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
@@ -179,7 +177,7 @@ class Shift:
     circles: Circles
 
     def eta(self, days: NDArray[np.float64]) -> Any:
-        """dpsi sin(eps0) + i deps, rad."""
+        """Shift as dpsi sin(eps0) + i deps, rad."""
         from earthspin.sky import iau
 
         return self.circles.at(iau.delaunay_arguments(days))
@@ -313,7 +311,8 @@ def angles(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
     done = given["pole-analysis"]
     t = done.days / 36525.0
-    ours = precession_angles(*done.ours.at(t), iau.ecliptic_of_date(done.days))
+    psi, omega = done.ours.at(t)
+    ours = precession_angles(psi, omega, iau.ecliptic_of_date(done.days))
     powers = t[:, np.newaxis] ** np.arange(SLOW_DEGREE + 1)
     scaled = np.linalg.lstsq(powers, ours, rcond=None)[0].T
     theirs = np.linalg.lstsq(powers, iau.precession_angles(done.days), rcond=None)[0].T
@@ -338,9 +337,11 @@ def inferred(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     share, known = si(rates.psi_rate), si(rates.psi_rate_published)
     compared = [e for e in rates.effect.values if e in flat.COMPARED]
     spread = float(np.sqrt(((share - known).sel(effect=compared) ** 2).sum()))
-    grows = float(share.sum() - share.sel(effect="geodesic").sum()) if (
-        "geodesic" in rates.effect
-    ) else float(share.sum())
+    grows = (
+        float(share.sum() - share.sel(effect="geodesic").sum())
+        if ("geodesic" in rates.effect)
+        else float(share.sum())
+    )
     new = flat.inferred_h(h, grows, float(si(rates.closure)))
     u = flat.inferred_h_uncertainty(h, grows, spread, float(si(rates.psi_rate_analysis_error)))
     u_h = h * body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -441,9 +442,7 @@ IAU_RESIDUALS = Part(
         "dpsi_sineps": Variable(
             ("time",), "mas", "our pole less the IAU's in longitude times sin(eps), line removed"
         ),
-        "deps": Variable(
-            ("time",), "mas", "our pole less the IAU's in obliquity, line removed"
-        ),
+        "deps": Variable(("time",), "mas", "our pole less the IAU's in obliquity, line removed"),
         "dpsi_sineps_by_model": Variable(
             ("time", "model"), "mas", "the same in longitude, for three models"
         ),
