@@ -8,7 +8,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from earthspin.compare.nutation import without_line
+from earthspin.constants import DAY, MOON_NODE_PERIOD
 from earthspin.views.figures import STYLE
 from earthspin.views.pole_tables import MAS_PER_CENTURY, MODELS
 
@@ -37,7 +37,10 @@ def plot_pole_path(result: xr.Dataset, *, axis: str = "figure", ax: Axes | None 
     of = result.sel(axis=axis)
     days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
     angles = np.stack([of.psi * np.sin(np.radians(of.eps / 3600)), of.eps], axis=1)
-    x, y = without_line(days, angles).T
+    turn = 2 * np.pi * days * DAY / MOON_NODE_PERIOD.value
+    design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
+    line = np.linalg.lstsq(design, angles, rcond=None)[0]
+    x, y = (angles - design[:, :2] @ line[:2]).T
     drawn = ax.scatter(x, y, c=days / 365.25, s=2, cmap="viridis")
     ax.figure.colorbar(drawn, ax=ax, label="years from the start")
     ax.set_aspect("equal")
@@ -153,5 +156,5 @@ def plot_budget(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax.set_xscale("log")
     ax.set_xlim(1e-3, 1e4)
     ax.set_xlabel("size of the contribution to the rate of psi_A, mas a century")
-    ax.legend(loc="lower right")
+    ax.legend(loc="center right")
     return ax

@@ -201,7 +201,7 @@ def flattening(result: xr.Dataset) -> Table:
         "H and C that the rate implies",
         ("origin", "H = (C-A)/C", "C/(M a2)"),
         rows,
-        "Only PREM gives C without looking at the pole; its H, from the observed J2, is "
-        "hydrostatic theory's nearest to a prediction.",
+        "PREM gives C from densities and not from the pole, though the observed moment was among "
+        "its data; its H is J2 over that C.",
         ("inferred-flattening",),
     )

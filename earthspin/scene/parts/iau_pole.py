@@ -70,24 +70,33 @@ def analyse(scene: Scene, given: Mapping[str, Any]) -> Analysed:
     from earthspin.compare.analysis import PoleAnalysis, shifted_start
     from earthspin.compare.nutation import complex_nutation
     from earthspin.constants import DAY
+    from earthspin.progress import progress
     from earthspin.scene.parts.pulls import start_of
     from earthspin.sky import iau
 
     pulls = given["pulls"]
     low, high = (limit / DAY for limit in pulls.limits)
     days = np.arange(max(low, -HALF_SPAN), min(high, HALF_SPAN), SAMPLING)
-    analysis = PoleAnalysis(
-        days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
-    )
-    theirs = analysis.secular(iau.true_pole(days))
     effects = [e for e in scene.effects or () if e != "nonrigid"]
-
     start, _ = start_of(scene, pulls)
-    first = _path(scene, pulls, effects, start, days)
-    ours = analysis.secular(first.at(days * DAY, semidiurnal=False)["figure"])
-    start = shifted_start(start, ours, theirs, analysis.ecliptic)
-    path = _path(scene, pulls, effects, start, days)
-    pole = path.at(days * DAY, semidiurnal=False)["figure"]
+
+    def follow(start: Any) -> tuple[AxisPath, Any]:
+        path = _path(scene, pulls, effects, start, days)
+        return path, path.at(days * DAY, semidiurnal=False)["figure"]
+
+    with progress("analysis", 4) as advance:
+        analysis = PoleAnalysis(
+            days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
+        )
+        advance(1)
+        theirs = analysis.secular(iau.true_pole(days))
+        advance(1)
+        _, pole = follow(start)
+        start = shifted_start(start, analysis.secular(pole), theirs, analysis.ecliptic)
+        path, pole = follow(start)
+        advance(1)
+        their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
+        advance(1)
     return Analysed(
         days=days,
         start=start,
@@ -96,7 +105,7 @@ def analyse(scene: Scene, given: Mapping[str, Any]) -> Analysed:
         ours=analysis.secular(pole),
         theirs=theirs,
         our_circles=analysis.circles(complex_nutation(iau.nutation_of(pole, days))),
-        their_circles=analysis.circles(complex_nutation(iau.nutation_2000a(days))),
+        their_circles=their_circles,
     )
 
 
@@ -337,11 +346,8 @@ def inferred(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     share, known = si(rates.psi_rate), si(rates.psi_rate_published)
     compared = [e for e in rates.effect.values if e in flat.COMPARED]
     spread = float(np.sqrt(((share - known).sel(effect=compared) ** 2).sum()))
-    grows = (
-        float(share.sum() - share.sel(effect="geodesic").sum())
-        if ("geodesic" in rates.effect)
-        else float(share.sum())
-    )
+    # Geodesic precession alone does not grow with H.
+    grows = float(share.where(rates.effect != "geodesic", 0.0).sum())
     new = flat.inferred_h(h, grows, float(si(rates.closure)))
     u = flat.inferred_h_uncertainty(h, grows, spread, float(si(rates.psi_rate_analysis_error)))
     u_h = h * body.relative_uncertainty.get("dynamical_flattening", 0.0)
