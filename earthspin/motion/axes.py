@@ -42,7 +42,6 @@ SEGMENT_TURN = 0.2
 #: Terms of the slow manifold that do not fall below this are refused, rad.
 LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
 
-_MOST_ROUNDS = 60
 _ROUND_OFF = 1e-15  # rad
 #: Rounds on the slow manifold: a few while the path is not yet known, then all that help.
 _FEW, _ALL = 2, 9
