@@ -83,8 +83,8 @@ def pole(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     times, path = pole_times(scene), given["axis-path"]
     now = times.days(0, times.size)
     found = path.at(now * DAY)
-    if "nonrigid-shift" in given:
-        given["nonrigid-shift"].apply(found, now)
+    if "nonrigid" in (scene.effects or ()):
+        _shift_of(scene, given).apply(found, now)
     vectors = np.stack([found[axis] for axis in AXES], axis=1)
     u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
     method = np.full(now.size, path.error)
@@ -126,6 +126,20 @@ def pole_angles(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         {"psi": np.unwrap(angles[..., 0], axis=0), "eps": angles[..., 1]},
         coords={"time": axes.time, "axis": axes.axis},
     )
+
+
+def _shift_of(scene: Scene, given: Mapping[str, Any]) -> Any:
+    """Non-rigid response, or a refusal where it was named and there is none."""
+    from earthspin.errors import SceneError
+
+    if "nonrigid-shift" not in given:
+        raise SceneError(
+            "effects",
+            "nonrigid",
+            f"no response of the inside of {scene.body.name} is known; leave it out",
+            source=scene.source,
+        )
+    return given["nonrigid-shift"]
 
 
 def _check_accuracy(scene: Scene, best: float) -> None:
