@@ -24,6 +24,7 @@ docs: $(VENV)/.check
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/torque_series.py
 	$(BIN)/python tests/benchmarks/report_process.py
+	$(BIN)/python tests/benchmarks/pole.py
 
 clean:
 	rm -rf $(VENV) report build dist docs/_build

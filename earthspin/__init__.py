@@ -18,12 +18,14 @@ if TYPE_CHECKING:
     from earthspin.bodies import MOON as MOON
     from earthspin.bodies import SUN as SUN
     from earthspin.bodies import Body as Body
+    from earthspin.calls import compare_iau as compare_iau
     from earthspin.calls import excitation as excitation
     from earthspin.calls import fit_chandler as fit_chandler
     from earthspin.calls import free_rotor as free_rotor
     from earthspin.calls import heavy_top as heavy_top
     from earthspin.calls import polar_motion as polar_motion
     from earthspin.calls import polar_motion_from as polar_motion_from
+    from earthspin.calls import pole as pole
     from earthspin.calls import precession as precession
     from earthspin.calls import read_excitation as read_excitation
     from earthspin.calls import spheroid_field as spheroid_field
@@ -60,6 +62,8 @@ _HOME = {
         "polar_motion",
         "polar_motion_from",
         "read_excitation",
+        "compare_iau",
+        "pole",
         "torque_series",
         "wobble_ladder",
         "write_series",

@@ -43,6 +43,13 @@ class Body:
         H = (C - (A + B)/2) / C. At most 1/2, the thin disc; negative if prolate.
     triaxiality : float
         (B - A) / (M a2).
+    j3, j4 : float
+        Zonal coefficients beyond J2, unnormalised, with the sign of geodesy's J_n.
+    j2_rate : float
+        Rate of change of `j2`, s-1.
+    meridian : float
+        Angle at J2000.0 TDB from the x axis of the ICRF, projected on the equator, to the axis of
+        least moment, rad.
     flattening : float
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
@@ -82,6 +89,10 @@ class Body:
     j2: Numeric | None = None
     dynamical_flattening: Numeric | None = None
     triaxiality: Numeric = 0.0
+    j3: Numeric = 0.0
+    j4: Numeric = 0.0
+    j2_rate: Numeric = 0.0
+    meridian: float = 0.0
     flattening: Numeric | None = None
     spin_period: Numeric | None = None
     pole: str | tuple[float, float] | None = None
@@ -259,6 +270,10 @@ _NUMBERS = (
     "j2",
     "dynamical_flattening",
     "triaxiality",
+    "j3",
+    "j4",
+    "j2_rate",
+    "meridian",
     "flattening",
     "spin_period",
     "orbital_period",
@@ -299,6 +314,10 @@ EARTH = Body(
     j2=c.EARTH_J2.value,
     dynamical_flattening=c.EARTH_H.value,
     triaxiality=c.EARTH_TRIAXIALITY.value,
+    j3=c.EARTH_J3.value,
+    j4=c.EARTH_J4.value,
+    j2_rate=c.EARTH_J2_RATE.value,
+    meridian=c.EARTH_MERIDIAN.value,
     flattening=c.EARTH_FLATTENING.value,
     spin_period=c.EARTH_SPIN_PERIOD.value,
     pole=IAU_2006,
@@ -380,6 +399,9 @@ _PLANETS = (
 
 #: Every named body.
 BODIES: dict[str, Body] = {b.name: b for b in (EARTH, MARS, SUN, MOON, *_PLANETS)}
+
+#: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
+PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
 
 
 def body(name: str, *, key: str = "body", source: str = "scene") -> Body:

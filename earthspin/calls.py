@@ -114,6 +114,23 @@ def torque_series(
     EarthspinError
         Whatever is wrong, in one line.
     """
+    _check_times(start, stop, step, times)
+    return run(
+        Scene(
+            compute="torque",
+            body=body,
+            perturbers=perturbers,
+            equator=equator,
+            ephemeris=ephemeris,
+            span=None if start is None else (start, stop),
+            step=step,
+            times=times,
+        )
+    )
+
+
+def _check_times(start: Any, stop: Any, step: Any, times: Any) -> None:
+    """Either all three or none; and not together with times."""
     given = {"start": start, "stop": stop, "step": step}
     if times is None:
         missing = [name for name, value in given.items() if value is None]
@@ -121,12 +138,110 @@ def torque_series(
             raise SceneError(missing[0], None, "give start, stop and step, or times")
     elif any(value is not None for value in given.values()):
         raise SceneError("times", "...", "give either times, or start, stop and step")
+
+
+def pole(
+    start: Any = None,
+    stop: Any = None,
+    step: Any = None,
+    *,
+    times: Any = None,
+    body: Body | str = "earth",
+    perturbers: Perturbers = ("sun", "moon"),
+    effects: Sequence[str] | None = None,
+    ephemeris: Any = "de421",
+) -> xr.Dataset:
+    """Path of the axes under the torques, in the GCRS.
+
+    Parameters
+    ----------
+    start, stop : date
+        Text, datetime, datetime64 or Time; plain dates mean TDB. The end is included if
+        the step meets it. By default 1980 to 2020 in steps of 5 d.
+    step : duration
+        Text such as ``"6 h"``, Quantity, timedelta, or seconds.
+    times : Time or array of dates
+        Instead of the three, the very times that are wanted.
+    body : Body or str
+        What spins. It starts from its pole at J2000.0; the Earth from that of IAU 2006/2000A.
+    perturbers : sequence of Body or str
+        What pulls.
+    effects : sequence of str, optional
+        Of ``planets``, ``j3``, ``j4``, ``triaxiality``, ``geodesic``, ``j2-rate``,
+        ``second-order``, ``nonrigid``; all but the last by default. ``geodesic`` needs the Sun
+        among the perturbers; it turns a sphere, too.
+    ephemeris : str, path or Skyfield kernel
+
+    Returns
+    -------
+    Dataset
+        Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
+        (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
+        defined; over `time` `direction_error` (uas).
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; among it a spin that is too slow.
+    """
+    _check_times(start, stop, step, times)
     return run(
         Scene(
-            compute="torque",
+            compute="pole",
             body=body,
             perturbers=perturbers,
-            equator=equator,
+            effects=effects,
+            ephemeris=ephemeris,
+            span=None if start is None else (start, stop),
+            step=step,
+            times=times,
+        )
+    )
+
+
+def compare_iau(
+    start: Any = None,
+    stop: Any = None,
+    step: Any = None,
+    *,
+    times: Any = None,
+    perturbers: Perturbers = ("sun", "moon"),
+    effects: Sequence[str] | None = None,
+    ephemeris: Any = "de421",
+) -> xr.Dataset:
+    """Our pole beside that of IAU 2006/2000A: budget, residuals, nutations, angles.
+
+    Parameters
+    ----------
+    start, stop, step : date, date, duration
+        Where residuals are wanted; 1980 to 2020 in steps of 5 d by default.
+    times : Time or array of dates
+        Instead of the three, the very times that are wanted.
+    perturbers : sequence of Body or str
+        What pulls.
+    effects : sequence of str, optional
+        As for `pole`.
+    ephemeris : str, path or Skyfield kernel
+
+    Returns
+    -------
+    Dataset
+        Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0);
+        `closure` (arcsec/yr), after the published non-linear term; over `time`:
+        `dpsi_sineps`, `deps` (mas); the nutation table over `term`, the free core nutation,
+        the angles of precession over `angle`, and H and C as the IAU's rate implies them.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+    """
+    _check_times(start, stop, step, times)
+    return run(
+        Scene(
+            compute="iau",
+            perturbers=perturbers,
+            effects=effects,
             ephemeris=ephemeris,
             span=None if start is None else (start, stop),
             step=step,

@@ -37,6 +37,8 @@ class Constant:
         return abs((self.uncertainty or 0.0) / self.value)
 
 
+SPEED_OF_LIGHT = Constant(299792458.0, "m s-1", 0.0, "SI Brochure, 9th edition: exact")
+
 _IERS = "IERS Conventions (2010), IERS Technical Note 36, table 1.1"
 _DE440 = "Park et al. 2021, AJ 161:105; header of DE440"
 _P03 = "Capitaine, Wallace & Chapront 2003, A&A 412, 567 (adopted as IAU 2006)"
@@ -75,6 +77,24 @@ EARTH_H = Constant(
 # C22 = 2.43938357e-6 and S22 = -1.40027370e-6.
 EARTH_TRIAXIALITY = Constant(
     7.2624e-6, "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008), degree 2, order 2"
+)
+# J_n = -sqrt(2n + 1) C_n0 with the normalised C30 = 9.57161207e-7, C40 = 5.39965866e-7.
+EARTH_J3 = Constant(
+    -9.57161207e-7 * math.sqrt(7.0), "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
+)
+EARTH_J4 = Constant(-5.39965866e-7 * 3.0, "", None, "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)")
+EARTH_J2_RATE = Constant(
+    -3.001e-9 / (36525.0 * 86400.0), "s-1", None, _P03 + ": -3.001e-9 a century, sect. 4.1"
+)
+# Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth Rotation
+# Angle (Capitaine, Guinot & McCarthy 2000, eq. 14) at UT1 = TDB - 63.83 s, and its longitude
+# atan2(S22, C22)/2 = -14.93 deg (EGM2008).
+EARTH_MERIDIAN = Constant(
+    2 * math.pi * (0.7790572732640 - 1.00273781191135448 * 63.83 / 86400.0)
+    + math.atan2(-1.40027370e-6, 2.43938357e-6) / 2,
+    "rad",
+    1e-4,
+    "Capitaine, Guinot & McCarthy 2000, A&A 355, 398, eq. 14; Pavlis et al. 2012 (EGM2008)",
 )
 # One turn relative to the stars, from the Earth Rotation Angle.
 EARTH_SPIN_PERIOD = Constant(
@@ -148,6 +168,16 @@ PUBLISHED_EFFECTS: dict[str, Constant] = {
     "nonrigid": Constant(-21.05e-5, "arcsec yr-1", None, _P03_TABLE3),
     "j4": Constant(2.60e-5, "arcsec yr-1", None, _P03_TABLE3),
 }
+
+FIRST_ORDER_RATE = Constant(
+    54.94062986, "arcsec yr-1", None, "Capitaine et al. 2004: first order, over cos(epsilon_0)"
+)
+J2_AND_TILT_RATE = Constant(-269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2, planetary tilt")
+
+PREM_MEAN_MOMENT = Constant(
+    0.330799, "", None, "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published"
+)
+PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981")
 
 CHANDLER_PERIOD = Constant(
     430.9, "d", 0.7, "Nastula & Gross 2015, JGR Solid Earth 120, 6474: observed, with Q = 127"

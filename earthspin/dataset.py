@@ -26,6 +26,7 @@ FROM_SI: dict[str, float] = {
     "arcsec": 1 / ARCSEC,
     "mas": 1 / MAS,
     "deg": 180 / math.pi,
+    "uas": 1e6 / ARCSEC,
     "d": 1 / DAY,
     "yr": 1 / JULIAN_YEAR,
 }

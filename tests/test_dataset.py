@@ -18,6 +18,7 @@ KINDS = {
     "deg": "angle",
     "arcsec": "angle",
     "mas": "angle",
+    "uas": "angle",
     "m": "length",
     "N m": "torque",
     "kg m2": "moment of inertia",
@@ -27,7 +28,7 @@ KINDS = {
 
 @pytest.fixture(
     scope="module",
-    params=["precession", "sun-only", "torque", "wobble", "polar-motion"],
+    params=["precession", "sun-only", "torque", "wobble", "polar-motion", "pole", "iau"],
     ids=lambda name: name,
 )
 def result(request: pytest.FixtureRequest) -> xr.Dataset:
@@ -91,6 +92,8 @@ def _scene_of(result: xr.Dataset) -> str:
         "Precession of the equinoxes": "precession",
         "Free wobble, from the rigid to the yielding body": "wobble",
         "Observed polar motion and the free wobble in it": "polar-motion",
+        "The pole in time": "pole",
+        "Our pole beside IAU 2006/2000A": "iau",
     }
     title = result.attrs["title"]
     return titles.get(title) or ("sun-only" if "alone" in title else "torque")

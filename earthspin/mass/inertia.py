@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from earthspin.errors import UndefinedError
+
 Numeric = Any
 
 
@@ -59,3 +61,18 @@ def h_homogeneous(j2: Numeric) -> Numeric:
 def polar_moment_factor(j2: Numeric, h: Numeric) -> Numeric:
     """C/(M a2) from the two numbers that are measured."""
     return j2 / h
+
+
+def inverse_polar_moment(j2: float, h: float) -> float:
+    """M a2/C from the two numbers that are measured; 0 where H is 0, whatever J2.
+
+    Raises
+    ------
+    UndefinedError
+        If there is a flattening H but no J2.
+    """
+    if h == 0:
+        return 0.0
+    if j2 == 0:
+        raise UndefinedError(f"M a2/C = H/J2 is not defined for H = {h!r} and j2 = 0; set j2")
+    return h / j2

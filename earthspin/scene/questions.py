@@ -18,16 +18,19 @@ class Question:
         The parts whose results make up the answer.
     effects : tuple of str
         The effects that it can switch on.
+    unless_named : tuple of str
+        Those of them that are off unless a scene names them.
     tables : tuple of str
         Tables of settings that belong to it.
-    relative_accuracy : bool
-        Whether a relative accuracy can be asked of it.
+    accuracy : str or None
+        What accuracy can be asked of it: "relative", "angle", or none.
     """
 
     wants: tuple[str, ...]
     effects: tuple[str, ...] = ()
+    unless_named: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
-    relative_accuracy: bool = False
+    accuracy: str | None = None
 
 
 #: Words for physical effects, in the grammar of scenes.
@@ -54,7 +57,7 @@ QUESTIONS: dict[str, Question] = {
             "iau-2006",
             "standstills",
         ),
-        relative_accuracy=True,
+        accuracy="relative",
     ),
     "torque": Question(wants=("torque-series",)),
     "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
@@ -65,6 +68,24 @@ QUESTIONS: dict[str, Question] = {
         tables=("wobble",),
     ),
     "polar-motion": Question(wants=("polar-motion", "chandler"), tables=("polar_motion",)),
+    "pole": Question(
+        wants=("pole", "pole-angles"),
+        effects=EFFECTS,
+        unless_named=("nonrigid",),
+        accuracy="angle",
+    ),
+    "iau": Question(
+        wants=(
+            "iau-budget",
+            "iau-residuals",
+            "nutation-table",
+            "core-resonance",
+            "precession-angles",
+            "inferred-flattening",
+        ),
+        effects=EFFECTS,
+        unless_named=("nonrigid",),
+    ),
 }
 
 #: Every table that some question has.

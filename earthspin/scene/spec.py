@@ -48,7 +48,7 @@ class Scene:
     perturbers : sequence of Body or str
         What pulls on it.
     effects : sequence of str or None
-        Effects beside the main one; None takes all that the question has.
+        Effects beside the main one; None takes all that the question has on by default.
     equator : str
         ``"mean"`` or ``"true"``: equator of date.
     ephemeris : str, path, or Skyfield kernel
@@ -59,8 +59,9 @@ class Scene:
         Spacing of a series; None leaves the choice to the question.
     times : list of times or None
         Instead of `span` and `step`, the very times that are wanted (Python only).
-    accuracy : float or None
-        A relative error that the result must meet, for a question that takes one.
+    accuracy : float, str or None
+        What the result must meet, for a question that takes it: a relative error, or an angle
+        such as ``"1 mas"``.
     tables : mapping
         Settings of one question alone, by table name.
     source : str
@@ -153,7 +154,8 @@ class Scene:
     def _effects(self) -> tuple[str, ...]:
         modelled = QUESTIONS[self.compute].effects
         if self.effects is None:
-            return modelled
+            off = QUESTIONS[self.compute].unless_named
+            return tuple(word for word in modelled if word not in off)
         if not isinstance(self.effects, (str, list, tuple)):
             raise self._error("effects", self.effects, f"it is a list of {', '.join(EFFECTS)}")
         given = (self.effects,) if isinstance(self.effects, str) else tuple(self.effects)
@@ -174,17 +176,24 @@ class Scene:
             raise self._error("tables", self.tables, "it maps names of tables to their settings")
         return dict(self.tables or {})
 
-    def _accuracy(self) -> float | None:
-        value = self.accuracy
+    def _accuracy(self) -> Any:
+        """The accuracy asked for, as given: a relative error, or an angle with its unit."""
+        value, kind = self.accuracy, QUESTIONS[self.compute].accuracy
         if value is None:
             return None
-        if not QUESTIONS[self.compute].relative_accuracy:
+        if kind is None:
             raise self._error("accuracy", value, f"compute = '{self.compute}' takes none")
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise self._error("accuracy", value, "give a relative error, like 1e-6")
-        if not 0 < value < math.inf:
+        plain = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if plain != (kind == "relative"):
+            words = (
+                "a relative error, like 1e-6" if kind == "relative" else "an angle, like '1 mas'"
+            )
+            raise self._error("accuracy", value, f"give {words}")
+        where = f"{self.source}: accuracy"
+        size = value if plain else units.number(value, "rad", where, "1 mas")
+        if not 0 < size < math.inf:
             raise self._error("accuracy", value, "an accuracy is greater than zero")
-        return float(value)
+        return value
 
     def _checked_span(self) -> tuple[Any, Any]:
         given = self.span

@@ -80,6 +80,35 @@ def equator_of_date(
     return nutation.true_equator(days)
 
 
+def pole_at(pole: str | tuple[float, float], day: float) -> FloatArray:
+    """Pole at a day from J2000.0 TDB, frame bias and nutation included, shape (3,)."""
+    if isinstance(pole, str):
+        return np.asarray(iau.true_pole(np.array([day]))[0])
+    return direction(*pole)
+
+
+def mean_pole(pole: str | tuple[float, float], days: FloatArray) -> FloatArray:
+    """Pole without nutation, shape (n, 3); a fixed pole does not move."""
+    if isinstance(pole, str):
+        return np.asarray(iau.mean_equator(days)[..., 2, :])
+    return np.broadcast_to(direction(*pole), (days.size, 3))
+
+
+def ecliptic_axes(pole: str | tuple[float, float], orbit: tuple[float, float] | None) -> FloatArray:
+    """Matrix from the ICRF to the plane of the orbit and the equinox of J2000.0, shape (3, 3).
+
+    Raises
+    ------
+    UndefinedError
+        If there is no orbit to refer to.
+    """
+    normal = orbit_normal(pole, orbit)
+    if isinstance(pole, str):
+        return iau.fixed_ecliptic()
+    equinox = fixed_equator(direction(*pole), normal)[0]
+    return np.stack([equinox, np.cross(normal, equinox), normal])
+
+
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
     """Matrix from the ICRF to the equator of a spin axis that does not move, shape (3, 3).
 

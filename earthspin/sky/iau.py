@@ -17,6 +17,7 @@ from scipy.interpolate import make_interp_spline
 from earthspin.constants import DAY, J2000_JD
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 #: Days between the nodes from which nutation is interpolated; no term is shorter than 2 days.
 NUTATION_NODE_STEP = 1.0
@@ -79,6 +80,92 @@ def precession_rates(day: float) -> PrecessionRates:
 def mean_longitude_of_node(days: FloatArray) -> FloatArray:
     """Mean longitude of the Moon's ascending node, rad (IERS 2003, `erfa.faom03`)."""
     return np.asarray(erfa.faom03(days / 36525.0))
+
+
+def true_pole(days: FloatArray) -> FloatArray:
+    """Celestial intermediate pole of IAU 2006/2000A in the GCRS, bias included, shape (n, 3).
+
+    Parameters
+    ----------
+    days : ndarray, shape (n,)
+    """
+    return np.asarray(erfa.pnm06a(J2000_JD, days)[..., 2, :])
+
+
+def nutation_2000a(days: FloatArray) -> FloatArray:
+    """Nutation in longitude and obliquity of IAU 2000A itself, rad, shape (n, 2).
+
+    Without the scaling for the rate of J2 that IAU 2006 adds (`erfa.nut00a`).
+    """
+    return np.stack(erfa.nut00a(J2000_JD, days), axis=-1)
+
+
+def delaunay_arguments(days: FloatArray) -> FloatArray:
+    """Arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
+    t = days / 36525.0
+    return np.stack([erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)])
+
+
+def delaunay_rates() -> FloatArray:
+    """Rates of the Delaunay arguments at J2000.0, rad/s, shape (5,)."""
+    day = 1.0
+    turned = delaunay_arguments(np.array([-day, day]))
+    return np.asarray(np.unwrap(turned, axis=1)[:, 1] - turned[:, 0]) / (2 * day * DAY)
+
+
+def precession_angles(days: FloatArray) -> FloatArray:
+    """psi_A, omega_A, eps_A, chi_A and p_A of IAU 2006, rad, shape (n, 5) (`erfa.p06e`)."""
+    angles = erfa.p06e(J2000_JD, days)
+    return np.stack([angles[place] for place in (1, 2, 7, 8, 12)], axis=-1)
+
+
+def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> FloatArray:
+    """Poles moved by small angles, shape (n, 3).
+
+    Parameters
+    ----------
+    pole : ndarray, shape (n, 3)
+        Unit vectors in the GCRS.
+    eta : ndarray, shape (n,), complex
+        dpsi sin(eps0) + i deps, rad: the shift along x and y of the equator of date.
+    days : ndarray, shape (n,)
+    """
+    x, y, _ = np.moveaxis(mean_equator(days), 1, 0)
+    shift = eta.real[:, np.newaxis] * x - eta.imag[:, np.newaxis] * y
+    moved = pole + shift
+    return np.asarray(moved / np.linalg.norm(moved, axis=1, keepdims=True))
+
+
+def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
+    """Nutation angles of a pole against the mean equator of IAU 2006, rad, shape (n, 2).
+
+    Parameters
+    ----------
+    pole : ndarray, shape (n, 3)
+        Unit vectors in the GCRS.
+    days : ndarray, shape (n,)
+
+    Returns
+    -------
+    ndarray, shape (n, 2)
+        In longitude and in obliquity, referred to the ecliptic of date.
+    """
+    mean = erfa.obl06(J2000_JD, days)
+    x, y, z = np.einsum("tij,tj->it", mean_equator(days), pole)
+    # to the ecliptic of date, where the pole stands at longitude 90 degrees minus dpsi
+    y, z = np.cos(mean) * y + np.sin(mean) * z, np.cos(mean) * z - np.sin(mean) * y
+    return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z) - mean], axis=-1)
+
+
+def fixed_ecliptic() -> FloatArray:
+    """Matrix from the GCRS to ecliptic and mean equinox of J2000.0 (IAU 2006), shape (3, 3)."""
+    return np.asarray(erfa.ecm06(J2000_JD, 0.0))
+
+
+def ecliptic_of_date(days: FloatArray) -> FloatArray:
+    """Pole of the moving ecliptic in the axes of `fixed_ecliptic` (P_A, Q_A), shape (n, 3)."""
+    p, q = (np.asarray(angle) for angle in erfa.p06e(J2000_JD, days)[3:5])
+    return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
 
 
 class Nutation:

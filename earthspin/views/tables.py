@@ -47,7 +47,7 @@ def tables_for(result: xr.Dataset) -> list[Table]:
     result : Dataset
         As `run` gives it.
     """
-    from earthspin.views import wobble_tables
+    from earthspin.views import pole_tables, wobble_tables
 
     makers: dict[str, Callable[[xr.Dataset], Table]] = {
         "precession_rate": rates,
@@ -64,6 +64,13 @@ def tables_for(result: xr.Dataset) -> list[Table]:
         "energy": free_rotor,
         "turning_angle": top,
         "potential": spheroid,
+        "X": pole_tables.path,
+        "psi_rate": pole_tables.budget,
+        "residual_rms": pole_tables.residuals,
+        "ratio_in_phase": pole_tables.nutation,
+        "core_nutation_period": pole_tables.core,
+        "angle_coefficient": pole_tables.angles,
+        "flattening": pole_tables.flattening,
     }
     tables = [make(_first_of_draws(result)) for name, make in makers.items() if name in result]
     return [table for table in tables if table.rows]

@@ -23,12 +23,14 @@ DEFAULT_STEP = "6 h"
 DEFAULT_SPAN = ("2000-01-01T12:00:00", "2001-01-01T12:00:00")
 
 
-def series_times(scene: Scene) -> TimeGrid | TimeList:
+def series_times(
+    scene: Scene, default_span: tuple[str, str] = DEFAULT_SPAN, default_step: str = DEFAULT_STEP
+) -> TimeGrid | TimeList:
     """Times at which a scene wants its series."""
     if scene.times is not None:
         return cast("TimeList", scene.times)
-    span = scene.span or DEFAULT_SPAN
-    step = DEFAULT_STEP if scene.step is None else scene.step
+    span = scene.span or default_span
+    step = default_step if scene.step is None else scene.step
     return time_grid(span[0], span[1], step, scene.source)
 
 

@@ -1,0 +1,100 @@
+"""One analysis for any pole: what is slow in it, and what circles.
+
+The same least squares is put to our pole and to the IAU's, so that whatever it
+misses, it misses in both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.compare.angles import on_fixed_ecliptic, pole_from
+from earthspin.compare.nutation import Circles, FrequencyAnalysis
+from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR
+
+FloatArray = NDArray[np.float64]
+
+CENTURY = 100 * JULIAN_YEAR
+
+
+@dataclass(frozen=True)
+class Secular:
+    """Slow motion on the fixed ecliptic, polynomials in Julian centuries from J2000.0.
+
+    Attributes
+    ----------
+    psi, omega : ndarray, shape (SLOW_DEGREE + 1,)
+        Coefficients, rad.
+    """
+
+    psi: FloatArray
+    omega: FloatArray
+
+    @property
+    def psi_rate(self) -> float:
+        """rad/s at J2000.0."""
+        return float(self.psi[1]) / CENTURY
+
+    @property
+    def omega_rate(self) -> float:
+        """rad/s at J2000.0."""
+        return float(self.omega[1]) / CENTURY
+
+    def at(self, centuries: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Mean psi and omega at times in centuries, rad."""
+        powers = centuries[:, np.newaxis] ** np.arange(len(self.psi))
+        return powers @ self.psi, powers @ self.omega
+
+
+class PoleAnalysis:
+    """Analyses poles given at the same times.
+
+    Parameters
+    ----------
+    days : ndarray, shape (t,)
+        From J2000.0.
+    arguments : ndarray, shape (5, t)
+        Delaunay arguments, rad.
+    rates : ndarray, shape (5,)
+        Their rates at J2000.0, rad/s.
+    ecliptic : ndarray, shape (3, 3)
+        From the poles' axes to ecliptic and equinox of J2000.0.
+    """
+
+    def __init__(
+        self, days: FloatArray, arguments: FloatArray, rates: FloatArray, ecliptic: FloatArray
+    ) -> None:
+        self.ecliptic = ecliptic
+        self._least_squares = FrequencyAnalysis(days / 36525.0, arguments, rates)
+        self._sine = float(np.sin(EPSILON_0.value * ARCSEC))
+
+    def secular(self, pole: FloatArray) -> Secular:
+        """Slow part of psi and omega of a pole, shape (t, 3)."""
+        psi, omega = on_fixed_ecliptic(pole, self.ecliptic).T
+        slow = self._least_squares(psi * self._sine + 1j * omega).slow
+        return Secular(slow.real / self._sine, slow.imag.copy())
+
+    def circles(self, eta: NDArray[np.complex128]) -> Circles:
+        """Circular terms of a nutation dpsi sin(eps0) + i deps."""
+        return self._least_squares(eta)
+
+
+def shifted_start(
+    start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray
+) -> FloatArray:
+    """Axis to start with so that the slow part of our pole meets another's at J2000.0.
+
+    Parameters
+    ----------
+    start : ndarray, shape (3,)
+        Axis that was started with.
+    ours, wanted : Secular
+    ecliptic : ndarray, shape (3, 3)
+    """
+    psi, omega = on_fixed_ecliptic(start[np.newaxis], ecliptic)[0]
+    psi += wanted.psi[0] - ours.psi[0]
+    omega += wanted.omega[0] - ours.omega[0]
+    return np.asarray(pole_from(np.atleast_1d(psi), np.atleast_1d(omega))[0] @ ecliptic)

@@ -1,0 +1,69 @@
+r"""The angles of precession, of any pole: psi_A, omega_A on the fixed ecliptic, and the others.
+
+With the pole u and the pole e of the moving ecliptic in the axes of ecliptic and equinox of
+J2000.0,
+
+    u = (sin(omega) sin(psi), sin(omega) cos(psi), cos(omega)),     cos(eps) = u . e
+
+Torques move u alone. eps_A, chi_A and p_A need the ecliptic of date besides, which comes from
+elsewhere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+#: In the order of `precession_angles`.
+ANGLES = ("psi_A", "omega_A", "eps_A", "chi_A", "p_A")
+
+
+def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
+    """Longitude psi and inclination omega of a pole, rad, shape (n, 2).
+
+    Parameters
+    ----------
+    pole : ndarray, shape (n, 3)
+        Unit vectors.
+    ecliptic : ndarray, shape (3, 3)
+        From their axes to ecliptic and equinox of the epoch.
+    """
+    x, y, z = ecliptic @ pole.T
+    return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z)], axis=-1)
+
+
+def pole_from(psi: FloatArray, omega: FloatArray) -> FloatArray:
+    """Unit vector of the pole in the axes of the fixed ecliptic, shape (n, 3)."""
+    return np.stack(
+        [np.sin(omega) * np.sin(psi), np.sin(omega) * np.cos(psi), np.cos(omega)], axis=-1
+    )
+
+
+def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
+    """All five angles, rad, shape (n, 5), in the order of `ANGLES`.
+
+    Parameters
+    ----------
+    psi, omega : ndarray, shape (n,)
+        Of the mean pole on the fixed ecliptic, rad.
+    ecliptic_pole : ndarray, shape (n, 3)
+        Pole of the moving ecliptic in the axes of the fixed one.
+    """
+    u, e = pole_from(psi, omega), ecliptic_pole
+    across = np.cross(u, e)  # towards the equinox of date
+    obliquity = np.arctan2(np.linalg.norm(across, axis=1), np.sum(u * e, axis=1))
+    fixed_node = np.cross(u, [0.0, 0.0, 1.0])  # towards the node of the fixed ecliptic
+    chi = _angle_about(u, fixed_node, across)
+    # The origin of longitude carried to the moving ecliptic without turning (Lieske 1977).
+    x, z = np.eye(3)[[0, 2]]
+    origin = x - (e[:, :1] / (1 + e[:, 2:])) * (e + z)
+    general = _angle_about(e, across, origin)
+    return np.stack([psi, omega, obliquity, chi, general], axis=-1)
+
+
+def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Angle from one direction to another about an axis, rad."""
+    across = np.sum(np.cross(start, end) * axis, axis=1)
+    return np.asarray(np.arctan2(across, np.sum(start * end, axis=1)))

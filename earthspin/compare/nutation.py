@@ -1,0 +1,148 @@
+r"""Nutation, term by term: one frequency analysis for any pole.
+
+With nutation as one complex number, eta = dpsi sin(eps0) + i deps, a pole's motion against
+the mean equator is a sum of circles,
+
+    \eta(t) = \sum_k A_k^+ e^{i phi_k} + A_k^- e^{-i phi_k} + slow,
+
+whose arguments phi_k are whole multiples of the five Delaunay arguments. The amplitudes
+follow by least squares, so that two poles analysed alike can be divided term by term.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from earthspin.constants import ARCSEC, EPSILON_0
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+#: Multiples of l, l', F, D and the node: the luni-solar terms of IAU 2000B (McCarthy & Luzum
+#: 2003, Celest. Mech. 85, 37), which are the largest of IAU 2000A. Five are left out, because
+#: centuries do not part them from a larger neighbour (their arguments differ by twice the
+#: longitude of the perihelion, 10,467 years): 0 -2 2 -2 2 and 0 -2 2 -2 1, 0 2 0 0 0,
+#: 0 -1 2 -2 1 and 0 -1 2 -2 2. A neighbour's amplitude holds theirs.
+_TERMS = """
+    0 0 0 0 1 / 0 0 2 -2 2 / 0 0 2 0 2 / 0 0 0 0 2 / 0 1 0 0 0 / 0 1 2 -2 2 / 1 0 0 0 0 /
+    0 0 2 0 1 / 1 0 2 0 2 / 0 0 2 -2 1 / -1 0 2 0 2 / -1 0 0 2 0 / 1 0 0 0 1 / -1 0 0 0 1 /
+    -1 0 2 2 2 / 1 0 2 0 1 / -2 0 2 0 1 / 0 0 0 2 0 / 0 0 2 2 2 / -2 0 0 2 0 / 2 0 2 0 2 /
+    1 0 2 -2 2 / -1 0 2 0 1 / 2 0 0 0 0 / 0 0 2 0 0 / 0 1 0 0 1 / -1 0 0 2 1 / 0 2 2 -2 2 /
+    0 0 -2 2 0 / 1 0 0 -2 1 / 0 -1 0 0 1 / -1 0 2 2 1 / 1 0 2 2 2 / -2 0 2 0 0 / 0 1 2 0 2 /
+    0 0 2 2 1 / 0 -1 2 0 2 / 0 0 0 2 1 / 1 0 2 -2 1 / 2 0 2 -2 2 / -2 0 0 2 1 / 2 0 2 0 1 /
+    0 0 0 -2 1 / -1 -1 0 2 0 / 2 0 0 -2 1 / 1 0 0 2 0 / 0 1 2 -2 1 / 1 -1 0 0 0 /
+    -2 0 2 0 2 / 3 0 2 0 2 / 0 -1 0 2 0 / 1 -1 2 0 2 / 0 0 0 1 0 / -1 -1 2 2 2 / -1 0 2 0 0 /
+    0 -1 2 2 2 / -2 0 0 0 1 / 1 1 2 0 2 / 2 0 0 0 1 / -1 1 0 1 0 / 1 1 0 0 0 / 1 0 2 0 0 /
+    -1 0 2 -2 1 / 1 0 0 0 2 / -1 0 0 1 0 / 0 0 2 1 2 / -1 0 2 4 2 / -1 1 0 1 1 / 1 0 2 2 1 /
+    -2 0 2 2 2 / -1 0 0 0 2 / 1 1 2 -2 2
+"""
+MULTIPLES = np.array([term.split() for term in _TERMS.split("/")], dtype=int)
+
+#: Those large enough to grow visibly in a century.
+_GROWING = ("0 0 0 0 1", "0 0 2 -2 2", "0 0 2 0 2", "0 1 0 0 0", "0 0 0 0 2")
+SLOW_DEGREE = 4
+
+
+@dataclass(frozen=True)
+class Circles:
+    """Circular terms of a pole.
+
+    Attributes
+    ----------
+    multiples : ndarray, shape (k, 5)
+        Of the Delaunay arguments; negated for the circle that turns the other way.
+    frequency : ndarray, shape (k,)
+        rad/s at J2000.0, in space; negative if retrograde.
+    amplitude : ndarray, shape (k,), complex
+        Factor of exp(i phi), rad.
+    slow : ndarray, shape (SLOW_DEGREE + 1,), complex
+        Polynomial in Julian centuries, rad.
+    """
+
+    multiples: NDArray[np.int64]
+    frequency: FloatArray
+    amplitude: ComplexArray
+    slow: ComplexArray
+
+    def at(self, arguments: FloatArray) -> ComplexArray:
+        """Sum of the circles, without the slow part.
+
+        Parameters
+        ----------
+        arguments : ndarray, shape (5, t)
+            Delaunay arguments, rad.
+        """
+        total = np.zeros(arguments.shape[1], dtype=complex)
+        for multiple, amplitude in zip(self.multiples, self.amplitude, strict=True):
+            total += amplitude * np.exp(1j * (multiple @ arguments))
+        return total
+
+
+class FrequencyAnalysis:
+    """Least squares for the amplitudes of all circles at once.
+
+    Parameters
+    ----------
+    centuries : ndarray, shape (t,)
+        Julian centuries from J2000.0.
+    arguments : ndarray, shape (5, t)
+        Delaunay arguments, rad.
+    rates : ndarray, shape (5,)
+        Their rates at J2000.0, rad/s.
+    """
+
+    def __init__(self, centuries: FloatArray, arguments: FloatArray, rates: FloatArray) -> None:
+        circles = np.exp(1j * (MULTIPLES @ arguments))
+        growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
+        drift = centuries * circles[growing]
+        slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
+        rows = np.concatenate([circles, circles.conj(), slow, drift, drift.conj()])
+        self._scale = np.linalg.norm(rows, axis=1)
+        self._adjoint = rows.conj() / self._scale[:, np.newaxis]
+        # The columns are nearly orthogonal (condition number 5), so that normal equations do.
+        self._normal = cho_factor(self._adjoint @ self._adjoint.conj().T)
+        self._multiples = np.concatenate([MULTIPLES, -MULTIPLES])
+        self._frequency = self._multiples @ rates
+
+    def __call__(self, eta: ComplexArray) -> Circles:
+        """Analyse a pole.
+
+        Parameters
+        ----------
+        eta : ndarray, shape (t,), complex
+            dpsi sin(eps0) + i deps, rad.
+        """
+        found = cho_solve(self._normal, self._adjoint @ eta) / self._scale
+        count = len(self._multiples)
+        return Circles(
+            self._multiples,
+            self._frequency,
+            found[:count],
+            found[count : count + SLOW_DEGREE + 1],
+        )
+
+
+def complex_nutation(angles: FloatArray) -> ComplexArray:
+    """Write as dpsi sin(eps0) + i deps the two angles of nutation, shape (t, 2), rad."""
+    sine = np.sin(EPSILON_0.value * ARCSEC)
+    return np.asarray(angles[:, 0] * sine + 1j * angles[:, 1])
+
+
+def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """In-phase and out-of-phase amplitudes, as the IERS tabulates them.
+
+    eta = -i sum (in + i out) exp(i phi) (Mathews, Herring & Buffett 2002).
+    """
+    turned = 1j * amplitude
+    return turned.real, turned.imag
+
+
+def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
+    """A series less the constant and the rate that fit it best; over the first axis."""
+    design = np.stack([np.ones_like(centuries), centuries], axis=1)
+    fit = np.linalg.lstsq(design, series, rcond=None)[0]
+    return np.asarray(series - design @ fit)

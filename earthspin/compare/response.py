@@ -1,0 +1,119 @@
+r"""What the inside of the body makes of its rigid nutations: the resonance form.
+
+The ratio of the nutation of the real body to that of a rigid one, at frequency sigma in the
+rotating frame (in units of the spin; sigma = -1 is at rest in space), is (Mathews, Herring
+& Buffett 2002, eq. 42)
+
+    T(\sigma) = (e - \sigma)/(e + 1) [1 + (1 + \sigma) (Q_0 + \sum_a Q_a/(\sigma - s_a))]
+
+with e = H/(1 - H) and the free modes s_a: Chandler wobble, free core nutation, free inner-core
+nutation. Where the strengths Q come from must be said: here they are *fitted*, to the ratio of
+IAU 2000A to our own rigid amplitudes, together with the frequency of the free core nutation.
+IAU 2000A is such a response times a rigid series, so that the fit recovers what was
+built into it and measures nothing anew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+#: Chandler wobble and free inner-core nutation, IERS Conventions (2010), table 6.4; turned
+#: into the sign of this module, where retrograde is negative. They are not fitted.
+CHANDLER_WOBBLE = 0.0026010 - 0.0001361j
+INNER_CORE_NUTATION = -0.999026 + 0.000780j
+#: Multiples of the one term left out of the fit, the prograde year: IAU 2000A adds to it 0.11 mas
+#: of an atmospheric tide in step with the Sun (Mathews, Herring & Buffett 2002), which no
+#: response of the body makes.
+SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
+
+#: Where the search for the free core nutation begins (same table).
+CORE_NUTATION_START = (-1.0023181, 0.000025)
+
+
+@dataclass(frozen=True)
+class Response:
+    """A fitted resonance form.
+
+    Attributes
+    ----------
+    h : float
+        Dynamical flattening.
+    spin_rate : float
+        rad/s.
+    core_nutation : complex
+        s of the free core nutation.
+    strengths : ndarray, shape (4,), complex
+        Q_0, and Q of Chandler wobble, free core and inner-core nutation.
+    """
+
+    h: float
+    spin_rate: float
+    core_nutation: complex
+    strengths: ComplexArray
+
+    @property
+    def period(self) -> float:
+        """Period of the free core nutation in space, s; negative: retrograde."""
+        return float(2 * np.pi / (self.spin_rate * (self.core_nutation.real + 1)))
+
+    @property
+    def quality(self) -> float:
+        """Quality factor of the free core nutation."""
+        return float(abs(self.core_nutation.real / (2 * self.core_nutation.imag)))
+
+    def transfer(self, frequency: FloatArray) -> ComplexArray:
+        """T at frequencies in space, rad/s."""
+        base, columns = _form(frequency, self.h, self.spin_rate, self.core_nutation)
+        return np.asarray(base + columns @ self.strengths)
+
+
+def _form(
+    frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
+) -> tuple[FloatArray, ComplexArray]:
+    """T without the resonances, and what multiplies each strength."""
+    in_space = frequency / spin_rate
+    sigma = in_space - 1
+    e = h / (1 - h)
+    base = (e - sigma) / (e + 1)
+    modes = (CHANDLER_WOBBLE, core_nutation, INNER_CORE_NUTATION)
+    columns = [base * in_space + 0j] + [base * in_space / (sigma - mode) for mode in modes]
+    return base, np.stack(columns, axis=-1)
+
+
+def fit_response(
+    frequency: FloatArray, rigid: ComplexArray, real: ComplexArray, h: float, spin_rate: float
+) -> Response:
+    """Fit strengths and free core nutation to amplitudes of the same terms.
+
+    Parameters
+    ----------
+    frequency : ndarray, shape (k,)
+        In space, rad/s.
+    rigid, real : ndarray, shape (k,), complex
+        Amplitudes; what is made small is real - T rigid.
+    h : float
+    spin_rate : float
+        rad/s.
+    """
+
+    def solve(mode: complex) -> tuple[ComplexArray, ComplexArray]:
+        base, columns = _form(frequency, h, spin_rate, mode)
+        weighted = columns * rigid[:, np.newaxis]
+        left = real - base * rigid
+        strengths = np.linalg.lstsq(weighted, left, rcond=None)[0]
+        return np.asarray(strengths), left - weighted @ strengths
+
+    def misfit(mode: FloatArray) -> FloatArray:
+        left = solve(complex(*mode))[1] / np.max(np.abs(rigid))
+        return np.concatenate([left.real, left.imag])
+
+    best = least_squares(misfit, CORE_NUTATION_START, x_scale=1e-6, xtol=1e-12, ftol=1e-12)
+    mode = complex(*best.x)
+    return Response(h, spin_rate, mode, solve(mode)[0])

@@ -1,0 +1,1 @@
+"""What the axis then does: its path in time under the torques."""

@@ -1,0 +1,127 @@
+r"""The whole attitude of a body with three different moments, by quaternions.
+
+    q' = (1/2) q \omega,     l' = R(q) n_b,     \omega_b = I^{-1} R(q)^T L
+
+with R(q) from the body's axes to the sky's, l = L/(C Omega) in the sky's axes, and the torque
+on the body's axes from N = 3 GM/r5 r x I r (I.9.34):
+
+    n_b = 3 ((C - B) Q_yz, (A - C) Q_xz, (B - A) Q_xy)
+
+Nothing is averaged and nothing is assumed slow: any spin, any shape of three moments.
+The differences of the moments are given, never formed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.motion.exact import Tide, integrate
+
+FloatArray = NDArray[np.float64]
+
+
+def attitude_motion(
+    tide: Tide,
+    h: float,
+    triaxiality: float,
+    spin_rate: float,
+    momentum: FloatArray,
+    quaternion: FloatArray,
+    times: FloatArray,
+    *,
+    rtol: float = 1e-13,
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate attitude and angular momentum with scipy's DOP853.
+
+    Parameters
+    ----------
+    tide : callable
+        Sum of GM r r^T / r^5 in the axes of the sky, shape (3, 3), s-2, at a time in s.
+    h : float
+        (C - (A + B)/2)/C.
+    triaxiality : float
+        (B - A)/C; the x axis of the body is that of A.
+    spin_rate : float
+        Unit of spin, rad/s.
+    momentum : ndarray, shape (3,)
+        At the first time, in units of C Omega, in the axes of the sky.
+    quaternion : ndarray, shape (4,)
+        At the first time, scalar first, from the axes of the body to those of the sky.
+    times : ndarray, shape (t,)
+        s, in the order of integration.
+    rtol : float
+        Relative tolerance of a step.
+
+    Returns
+    -------
+    momentum : ndarray, shape (t, 3)
+    quaternion : ndarray, shape (t, 4)
+    """
+    c_minus_a, c_minus_b = h + triaxiality / 2, h - triaxiality / 2
+    spin_per_momentum = spin_rate / np.array([1 - c_minus_a, 1 - c_minus_b, 1.0])
+    torque_scale = 3 / spin_rate * np.array([c_minus_b, -c_minus_a, triaxiality])
+
+    def slope(t: float, state: FloatArray) -> FloatArray:
+        w, x, y, z = q = state[3:]
+        turn = rotation_matrix(q)
+        spin = spin_per_momentum * (state[:3] @ turn)
+        seen = turn.T @ tide(t) @ turn
+        torque = torque_scale * np.array([seen[1, 2], seen[0, 2], seen[0, 1]])
+        p, r, s = spin
+        return np.concatenate(
+            [
+                turn @ torque,
+                [
+                    -0.5 * (x * p + y * r + z * s),
+                    0.5 * (w * p + y * s - z * r),
+                    0.5 * (w * r + z * p - x * s),
+                    0.5 * (w * s + x * r - y * p),
+                ],
+            ]
+        )
+
+    state = integrate(
+        slope, np.concatenate([momentum, quaternion]), times, rtol, 1 / abs(spin_rate)
+    )
+    return state[:, :3], state[:, 3:]
+
+
+def rotation_matrix(quaternion: FloatArray) -> FloatArray:
+    """Matrix from the axes of the body to those of the sky, shape (..., 3, 3).
+
+    Parameters
+    ----------
+    quaternion : ndarray, shape (..., 4)
+        Scalar first; its length does not matter.
+    """
+    w, x, y, z = np.moveaxis(quaternion, -1, 0)
+    rows = [
+        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+    ]
+    square = w * w + x * x + y * y + z * z
+    turned = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return np.asarray(turned / square[..., np.newaxis, np.newaxis])
+
+
+def quaternion_from_matrix(matrix: FloatArray) -> FloatArray:
+    """Quaternion, scalar first, of a matrix from the body's axes to the sky's.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (3, 3)
+        A rotation; its columns are the axes of the body.
+    """
+    # The eigenvector of the largest eigenvalue (Bar-Itzhack 2000): well posed for any angle.
+    (a, b, c), (d, e, f), (g, h, i) = matrix
+    symmetric = np.array(
+        [
+            [a + e + i, h - f, c - g, d - b],
+            [h - f, a - e - i, b + d, c + g],
+            [c - g, b + d, e - a - i, f + h],
+            [d - b, c + g, f + h, i - a - e],
+        ]
+    )
+    return np.asarray(np.linalg.eigh(symmetric)[1][:, -1])

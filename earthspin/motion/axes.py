@@ -1,0 +1,377 @@
+r"""Angular-momentum, rotation and figure axes in time: Picard iteration on Gauss windows.
+
+In units of C Omega, with the figure axis F of an axisymmetric body,
+
+    l' = N(F, t)/(C Omega),     F = l - \kappa F x F',     \omega/\Omega = F + F x F'/\Omega
+
+The axis moves by arcseconds while the sky goes round, so that the torque hardly depends
+on it: from a guess of F at the nodes of all windows, integrate the torque through each
+window with the spectral integration matrix, chain the windows by a cumulative sum, take F
+on the slow manifold (`earthspin.motion.figure`), and repeat. Each round gains two to three
+digits (Clenshaw & Norton 1963, on Chebyshev nodes). Long spans are cut into segments in
+which the axis turns little, so that time and memory grow linearly with the span.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
+from earthspin.errors import UndefinedError
+from earthspin.motion.figure import tilt_of_figure
+from earthspin.motion.forces import Forces
+from earthspin.motion.triaxial import equatorial_basis, semidiurnal_amplitudes
+from earthspin.motion.windows import Windows, integrated
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+#: Labels of the three axes.
+AXES = ("angular_momentum", "rotation", "figure")
+
+WINDOW = 8 * DAY
+ORDER = 14
+#: A segment has so many windows at most (its arrays stay in the processor's cache), and in it
+#: the axis turns by so much at most (rad), that the iteration converges fast.
+SEGMENT_WINDOWS = 512
+SEGMENT_TURN = 0.2
+#: Terms of the slow manifold that do not fall below this are refused, rad.
+LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
+
+_ROUND_OFF = 1e-15  # rad
+#: Rounds on the slow manifold: a few while the path is not yet known, then all that help.
+_FEW, _ALL = 2, 9
+
+
+@dataclass(frozen=True)
+class AxisPath:
+    """The axes of a body over a span, to be asked at any time in it.
+
+    Attributes
+    ----------
+    windows : Windows
+    momentum : ndarray, shape (3, w, n + 1)
+        Legendre series of the angular momentum in units of C Omega.
+    tilt : ndarray, shape (3, w, n)
+        Legendre series of angular momentum minus figure axis, rad.
+    fast : ndarray, shape (3, w, n), complex, or None
+        Legendre series of the semidiurnal amplitudes of `AXES`, for a triaxial body.
+    spin_rate : float
+        rad/s.
+    a_over_c : float
+    meridian : float
+        Angle of the axis of least moment at J2000.0, rad.
+    error : float
+        Estimated error of the method, rad.
+    rounds : int
+        Most Picard iterations that a segment took.
+    """
+
+    windows: Windows
+    momentum: FloatArray
+    tilt: FloatArray
+    fast: ComplexArray | None
+    spin_rate: float
+    a_over_c: float
+    meridian: float
+    error: float
+    rounds: int
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time, s."""
+        return float(self.windows.edges[0]), float(self.windows.edges[-1])
+
+    def at(self, times: FloatArray, *, semidiurnal: bool = True) -> dict[str, FloatArray]:
+        """Unit vectors of the three axes.
+
+        Parameters
+        ----------
+        times : ndarray, shape (t,)
+            s from J2000.0 TDB, in any order, within the span.
+        semidiurnal : bool
+            Without it, the motion of a triaxial body at half a day is left out, as it is in
+            the celestial intermediate pole.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (t, 3)
+            By `AXES`. All point to the side of the figure axis; the spin of a retrograde body
+            points the other way.
+        """
+        momentum = self.windows.evaluate(self.momentum, times)
+        tilt = self.windows.evaluate(self.tilt, times)
+        figure = momentum - tilt
+        found = np.stack([momentum, figure + tilt / self.a_over_c, figure])
+        if semidiurnal and self.fast is not None:
+            found += self._fast_at(times, figure)
+        found /= np.sqrt(np.sum(found * found, axis=1, keepdims=True))
+        return dict(zip(AXES, np.moveaxis(found, 1, 2), strict=True))
+
+    def _fast_at(self, times: FloatArray, figure: FloatArray) -> FloatArray:
+        """Semidiurnal displacement of the three axes, shape (3, 3, t)."""
+        assert self.fast is not None
+        phase = np.exp(2j * (self.spin_rate * times + self.meridian))
+        move = self.windows.evaluate(self.fast, times) * phase
+        first, second = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
+        return np.asarray(move.real[:, np.newaxis] * first + move.imag[:, np.newaxis] * second)
+
+
+def axis_path(
+    forces: Forces,
+    start_axis: FloatArray,
+    epoch: float,
+    span: tuple[float, float],
+    *,
+    limits: tuple[float, float] = (-np.inf, np.inf),
+    window: float = WINDOW,
+    order: int = ORDER,
+    advance: Callable[[int], None] | None = None,
+) -> AxisPath:
+    """Follow the axes of a body from an epoch to a span, before or after it.
+
+    Parameters
+    ----------
+    forces : Forces
+    start_axis : ndarray, shape (3,)
+        Unit vector of the figure axis at the epoch.
+    epoch : float
+        s from J2000.0 TDB.
+    span : tuple of float
+        First and last time wanted, s; windows reach from the epoch to beyond it.
+    limits : tuple of float
+        Times that the sky is known for, s.
+    window : float
+        Length of a window, s.
+    order : int
+        Nodes in a window.
+    advance : callable, optional
+        Told how many windows are done.
+
+    Returns
+    -------
+    AxisPath
+
+    Raises
+    ------
+    UndefinedError
+        If the body spins too slowly for its axis to stay near the angular momentum.
+    """
+    figure = forces.figure
+    done: list[_Segment] = []
+    for edges, forward in _directions(epoch, span, limits, window):
+        here = _Start(start_axis, is_figure=True)
+        first = 0
+        while first < len(edges) - 1:
+            count = _segment_length(done, len(edges) - 1 - first, window)
+            part = edges[first : first + count + 1]
+            segment = _solve(forces, Windows(np.sort(part), order), here, forward)
+            done.append(segment)
+            here = _Start(segment.momentum_at_end(forward), is_figure=False)
+            first += count
+            if advance is not None:
+                advance(count)
+    done.sort(key=lambda segment: segment.windows.edges[0])
+    edges = np.concatenate([done[0].windows.edges[:1], *(s.windows.edges[1:] for s in done)])
+    return AxisPath(
+        windows=Windows(edges, order),
+        momentum=np.concatenate([s.momentum for s in done], axis=1),
+        tilt=np.concatenate([s.tilt for s in done], axis=1),
+        fast=_joined([s.fast for s in done if s.fast is not None]),
+        spin_rate=figure.spin_rate,
+        a_over_c=1 - figure.h,
+        meridian=figure.meridian,
+        error=_total_error(done),
+        rounds=max(s.rounds for s in done),
+    )
+
+
+def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW) -> int:
+    """How many windows lead from an epoch to a span, both in s."""
+    forward, backward = (max(0.0, d) for d in (span[1] - epoch, epoch - span[0]))
+    return int(np.ceil(forward / window) + np.ceil(backward / window)) or 1
+
+
+def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
+    """95 % half-width of a direction from the uncertainty of H, rad, shape (t,).
+
+    Whatever the axis has moved since the epoch grows with H.
+
+    Parameters
+    ----------
+    path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axis.
+    u_h : float
+        Relative standard uncertainty of H.
+    """
+    epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
+    moved = np.linalg.norm(figure - path.at(epoch)["figure"], axis=1)
+    return np.asarray(NORMAL_95 * u_h * moved)
+
+
+@dataclass(frozen=True)
+class _Start:
+    """What a segment begins with: the figure axis at the epoch, or the angular momentum."""
+
+    guess: FloatArray
+    is_figure: bool
+
+    def momentum_with(self, tilt: FloatArray) -> FloatArray:
+        """Angular momentum at the start, given how it is tilted from the figure axis."""
+        return self.guess + tilt if self.is_figure else self.guess
+
+
+@dataclass(frozen=True)
+class _Segment:
+    """A stretch that has been solved; series as in `AxisPath`."""
+
+    windows: Windows
+    momentum: FloatArray
+    tilt: FloatArray
+    fast: ComplexArray | None
+    turn: float
+    error: float
+    rounds: int
+
+    def momentum_at_end(self, forward: bool) -> FloatArray:
+        """Angular momentum where the next segment joins."""
+        if forward:
+            return np.asarray(self.momentum[:, -1].sum(axis=-1))
+        signs = (-1.0) ** np.arange(self.momentum.shape[-1])
+        return np.asarray(self.momentum[:, 0] @ signs)
+
+
+def _directions(
+    epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
+) -> list[tuple[FloatArray, bool]]:
+    """Edges of windows from the epoch outward, and whether they lead forward."""
+    found: list[tuple[FloatArray, bool]] = []
+    for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
+        count = int(np.ceil(sign * (end - epoch) / window))
+        if count > 0:
+            edges = np.asarray(epoch + sign * window * np.arange(count + 1.0))
+            edges[-1] = sign * min(sign * edges[-1], sign * limit)
+            if count > 1 and abs(edges[-1] - edges[-2]) < window / 2:
+                # where the sky ends, two equal windows instead of a sliver
+                edges[-2] = (edges[-3] + edges[-1]) / 2
+            found.append((edges, sign > 0))
+    # A span that is nothing but the epoch still needs a window.
+    return found or [_one_window(epoch, limits, window)]
+
+
+def _one_window(
+    epoch: float, limits: tuple[float, float], window: float
+) -> tuple[FloatArray, bool]:
+    if epoch + window <= limits[1]:
+        return np.array([epoch, epoch + window]), True
+    return np.array([epoch, max(epoch - window, limits[0])]), False
+
+
+def _segment_length(done: list[_Segment], left: int, window: float) -> int:
+    """How many windows to take next: few at first, to learn how fast the axis turns."""
+    if not done:
+        return min(left, 32)
+    last = done[-1]
+    per_window = last.turn / len(last.windows.half)
+    allowed = SEGMENT_WINDOWS if per_window == 0 else int(SEGMENT_TURN / per_window)
+    return max(1, min(left, allowed, SEGMENT_WINDOWS))
+
+
+def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _Segment:
+    """Picard iteration on one segment."""
+    law, tensor = forces.over(windows)
+    kappa = forces.figure.kappa
+    axis = momentum = np.broadcast_to(start.guess[:, None, None], (3, *windows.times.shape))
+    tilt = np.zeros_like(axis)
+    change, rounds = np.inf, 0
+    while change > _ROUND_OFF:
+        rounds += 1
+        rate = law(axis, momentum)
+        begin = start.momentum_with(_at_edge(windows, tilt, forward))
+        starts, momentum = _chain(windows, rate, begin, forward)
+        tilt, terms = tilt_of_figure(windows, axis, rate, kappa, _FEW if rounds < 3 else _ALL)
+        previous, change = change, float(np.max(np.abs(momentum - tilt - axis)))
+        axis = momentum - tilt
+        if rounds > 6 and change > 0.5 * previous:
+            break  # at the floor of rounding, or not converging: decided below
+    if not change < 1e-13:
+        raise UndefinedError(
+            f"the axis turns too fast for the iteration: after {rounds} rounds it still moves by "
+            f"{change:.1g} rad; choose a slower precession or a shorter window"
+        )
+    _refuse_slow_spin(terms[-1], forces.figure.spin_rate)
+    series = windows.coefficients(rate)
+    return _Segment(
+        windows=windows,
+        momentum=integrated(series, windows.half, starts),
+        tilt=windows.coefficients(tilt),
+        fast=_fast(forces, windows, tensor, axis, tilt),
+        turn=float(np.max(np.abs(rate)) * (windows.edges[-1] - windows.edges[0])),
+        error=_tail(series, windows) + terms[-1] + change,
+        rounds=rounds,
+    )
+
+
+def _chain(
+    windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate a rate through all windows: value at each window's start, and at the nodes."""
+    to_nodes, whole = windows.integral(rate)
+    if forward:
+        starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
+    else:
+        starts = begin[:, None] - np.cumsum(whole[:, ::-1], axis=1)[:, ::-1]
+    return starts, starts[..., None] + to_nodes
+
+
+def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
+    """Value where the segment begins, shape (3,)."""
+    edge = windows.edges[:1] if forward else windows.edges[-1:]
+    return windows.evaluate(windows.coefficients(values), edge)[:, 0]
+
+
+def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
+    if last_term > LARGEST_MANIFOLD_ERROR:
+        days = 2 * np.pi / abs(spin_rate) / DAY
+        raise UndefinedError(
+            f"a spin of {days:.3g} d is too slow for the figure axis to follow the angular "
+            f"momentum (slow manifold off by {last_term / ARCSEC * 1e3:.2g} mas, allowed "
+            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); integrate the attitude with "
+            f"earthspin.motion.attitude instead"
+        )
+
+
+def _fast(
+    forces: Forces, windows: Windows, tensor: FloatArray, axis: FloatArray, tilt: FloatArray
+) -> ComplexArray | None:
+    figure = forces.figure
+    if figure.triaxiality == 0:
+        return None
+    amplitudes = semidiurnal_amplitudes(
+        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.kappa
+    )
+    return np.asarray(windows.coefficients(amplitudes))
+
+
+def _tail(series: FloatArray, windows: Windows) -> float:
+    """What the last two Legendre terms of the rate displace the axis by inside a window, rad.
+
+    Over whole windows the error is far smaller: Gauss's rule is exact to twice the degree.
+    """
+    last = np.max(np.abs(series[..., -2:]), axis=(0, 2))
+    return float(np.max(last * windows.half[:, 0]) / (2 * windows.order))
+
+
+def _joined(pieces: list[ComplexArray]) -> ComplexArray | None:
+    return np.concatenate(pieces, axis=1) if pieces else None
+
+
+def _total_error(segments: list[_Segment]) -> float:
+    """Interpolation is at its worst in one window; what rounding adds grows with their number."""
+    rounding = np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments))
+    return max(segment.error for segment in segments) + float(rounding)

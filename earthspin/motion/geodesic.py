@@ -1,0 +1,56 @@
+r"""Geodesic precession and nutation: the frame in which torques are torques turns.
+
+A gyroscope carried round a mass turns against the stars (de Sitter 1916). For several
+masses, with positions and velocities in the barycentric frame (Brumberg, Bretagnon &
+Francou 1992; IERS Conventions 2010, eq. 10.12 for the same term in a satellite's motion),
+
+    \Omega_g = sum_A GM_A / (c2 r_A3) (x - x_A) x ((3/2) v - 2 v_A)
+
+1.92 arcsec a century forward, of which the Moon gives half a milliarcsecond. The axes of the
+GCRS do not turn with it, so that an angular momentum in them changes by N + Omega_g x L. The
+turn is faster at perihelion: that is the geodesic nutation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import SPEED_OF_LIGHT
+from earthspin.torque.quadrupole import cross
+
+FloatArray = NDArray[np.float64]
+
+
+def geodesic_rate(
+    gm: Mapping[str, float],
+    position: Mapping[str, FloatArray],
+    velocity: Mapping[str, FloatArray],
+    primary: str,
+) -> FloatArray:
+    """Angular velocity of the body's local inertial frame against the stars, rad/s.
+
+    Parameters
+    ----------
+    gm : mapping of str to float
+        Of the masses that count, m3 s-2.
+    position, velocity : mapping of str to ndarray, shape (3, ...)
+        Of each, seen from the body, m and m/s.
+    primary : str
+        The mass that stands for the barycentre: the Sun moves by 13 m/s of the Earth's 30 km/s.
+
+    Returns
+    -------
+    ndarray, shape (3, ...)
+    """
+    own = -velocity[primary]
+    total = np.zeros_like(own)
+    for name, mass in gm.items():
+        place = position[name]
+        distance = np.sqrt(np.sum(place * place, axis=0))
+        scale = mass / (SPEED_OF_LIGHT.value**2 * distance**3)
+        its_own = velocity[name] + own
+        total += scale * cross(2 * its_own - 1.5 * own, -place)
+    return total

@@ -1,0 +1,153 @@
+"""Gauss-Legendre windows: a span cut into short stretches, each with the same few nodes.
+
+Inside a window a function is the polynomial through its values at the nodes. Integrals,
+derivatives and values in between then are products with small fixed matrices, for all
+windows at once. Vectors are kept component first, shape (3, window, node), so that numpy
+works on long contiguous rows.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+#: Real, or complex where a vector of the equator is written as one number.
+AnyArray = TypeVar("AnyArray", NDArray[np.float64], NDArray[np.complex128])
+
+_CHUNK = 1 << 15  # times evaluated at once: the basis stays in the processor's cache
+
+
+class Windows:
+    """Consecutive windows with Gauss-Legendre nodes.
+
+    Parameters
+    ----------
+    edges : ndarray, shape (w + 1,)
+        Where one window ends and the next begins, s, ascending.
+    order : int
+        Nodes in each window.
+
+    Attributes
+    ----------
+    times : ndarray, shape (w, n)
+        Nodes, s.
+    half : ndarray, shape (w, 1)
+        Half the length of each window, s.
+    """
+
+    def __init__(self, edges: FloatArray, order: int) -> None:
+        self.edges, self.order = edges, order
+        self.half = np.diff(edges)[:, np.newaxis] / 2
+        self.middle = (edges[:-1] + edges[1:])[:, np.newaxis] / 2
+        self.times = self.middle + self.half * _rule(order).nodes
+
+    def coefficients(self, values: AnyArray) -> AnyArray:
+        """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
+        result: AnyArray = _apply(values, _rule(self.order).project)
+        return result
+
+    def derivative(self, values: AnyArray) -> AnyArray:
+        """Derivative at the nodes of the polynomial through values there, per second."""
+        result: AnyArray = _apply(values, _rule(self.order).differentiate) / self.half
+        return result
+
+    def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Integrals from the start of each window.
+
+        Returns
+        -------
+        to_nodes : ndarray, shape (..., w, n)
+        whole : ndarray, shape (..., w)
+            Over the whole window.
+        """
+        rule = _rule(self.order)
+        to_nodes = (values @ rule.integrate) * self.half
+        return to_nodes, (values @ rule.weights) * self.half[:, 0]
+
+    def evaluate(self, coefficients: AnyArray, times: FloatArray) -> AnyArray:
+        """Values of a Legendre series at any times within the windows.
+
+        Parameters
+        ----------
+        coefficients : ndarray, shape (k, w, m)
+        times : ndarray, shape (t,)
+            s, in any order.
+
+        Returns
+        -------
+        ndarray, shape (k, t)
+        """
+        found: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
+        for first in range(0, times.size, _CHUNK):
+            part = times[first : first + _CHUNK]
+            window = np.clip(np.searchsorted(self.edges, part) - 1, 0, len(self.half) - 1)
+            x = (part - self.middle[window, 0]) / self.half[window, 0]
+            basis = legendre.legvander(x, coefficients.shape[-1] - 1)
+            found[:, first : first + _CHUNK] = np.einsum(
+                "ktm,tm->kt", coefficients[:, window, :], basis
+            )
+        result: AnyArray = found
+        return result
+
+
+def _apply(values: Any, matrix: FloatArray) -> Any:
+    """Values times a real matrix; complex ones in two parts, which costs half."""
+    if np.iscomplexobj(values):
+        real, imaginary = (np.ascontiguousarray(part) for part in (values.real, values.imag))
+        return real @ matrix + 1j * (imaginary @ matrix)
+    return values @ matrix
+
+
+class _Rule:
+    """Nodes on [-1, 1] and the matrices that act on values there, from the right."""
+
+    def __init__(self, order: int) -> None:
+        self.nodes, self.weights = legendre.leggauss(order)
+        vander = legendre.legvander(self.nodes, order - 1)
+        # Exact, because Gauss-Legendre integrates products of degree 2n - 1 exactly.
+        self.project = (vander * self.weights[:, np.newaxis]) * (np.arange(order) + 0.5)
+        self._basis = np.eye(order)
+
+    @cached_property
+    def integrate(self) -> FloatArray:
+        """Values at the nodes to integrals from -1 to the nodes."""
+        integrals = legendre.legint(self._basis, lbnd=-1)
+        return np.asarray(self.project @ legendre.legval(self.nodes, integrals, tensor=True))
+
+    @cached_property
+    def differentiate(self) -> FloatArray:
+        """Values at the nodes to derivatives there."""
+        return np.asarray(
+            self.project @ legendre.legval(self.nodes, legendre.legder(self._basis), tensor=True)
+        )
+
+
+@lru_cache
+def _rule(order: int) -> _Rule:
+    return _Rule(order)
+
+
+def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
+    """Legendre series of an integral from the start of each window.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (k, w, n)
+        Of what is integrated.
+    half : ndarray, shape (w, 1)
+        Half lengths, s.
+    start : ndarray, shape (k, w)
+        Value at the start of each window.
+
+    Returns
+    -------
+    ndarray, shape (k, w, n + 1)
+    """
+    series = np.asarray(legendre.legint(coefficients, lbnd=-1, axis=-1) * half)
+    series[..., 0] += start
+    return series

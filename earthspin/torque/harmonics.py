@@ -1,0 +1,53 @@
+"""The torque on the zonal harmonics beyond the bulge: the pear shape J3 and the next, J4.
+
+A mass m at r has the energy + (G M m / r) J_n (a/r)^n P_n(u) in the field of J_n, with
+u = cos of its angle from the figure axis F. Turning the body by dtheta moves F by
+dtheta x F, so that the torque on it is
+
+    N_n = (G M m / r) J_n (a/r)^n P_n'(u) (r/r) x F
+
+which for n = 2 is (I.9.34). Per unit of C it is proportional to M a2/C = H/J2.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from earthspin.torque.quadrupole import cross
+
+FloatArray = NDArray[np.float64]
+
+
+def zonal_torque(
+    degree: int,
+    coefficient: float,
+    radius: float,
+    gm: float,
+    position: FloatArray,
+    axis: FloatArray,
+) -> FloatArray:
+    """Torque of a mass on one zonal harmonic, per unit of M a2, s-2.
+
+    Parameters
+    ----------
+    degree : int
+        n of J_n, 2 or more.
+    coefficient : float
+        J_n, geodesy's (unnormalised, J2 of an oblate body positive).
+    radius : float
+        Equatorial radius a that it refers to, m.
+    gm : float
+        Of the mass that pulls, m3 s-2.
+    position : ndarray, shape (3, ...)
+        From the body to the mass, m.
+    axis : ndarray, shape (3, ...)
+        Unit vectors of the figure axis.
+    """
+    distance = np.sqrt(np.sum(position * position, axis=0))
+    direction = position / distance
+    slope = legendre.legder(np.eye(degree + 1)[degree])
+    u = np.sum(direction * axis, axis=0)
+    size = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
+    return np.asarray(size * legendre.legval(u, slope) * cross(direction, axis))

@@ -1,0 +1,72 @@
+"""The tide of many masses as one tensor, and the torque that it exerts on a bulge (I.9.34).
+
+With Q = sum GM r r^T / r^5 over everything that pulls, the torque per unit of C on a body
+whose figure axis is F is exactly
+
+    N / C = 3 H (Q F) x F
+
+to the leading order in the size of the body over the distance. Q depends on the sky alone,
+so that it is made once and serves any H, spin, or direction of the axis. Vectors are
+component first here, shape (3, ...): long rows are what numpy is fast on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
+    """Sum of GM r r^T / r^5 over masses.
+
+    Parameters
+    ----------
+    pulls : iterable of (float, ndarray of shape (3, ...))
+        GM (m3 s-2) and position from the body (m) of each.
+
+    Returns
+    -------
+    ndarray, shape (6, ...)
+        xx, yy, zz, xy, xz, yz; s-2.
+    """
+    total: FloatArray | None = None
+    for gm, position in pulls:
+        x, y, z = position
+        square = x * x + y * y + z * z
+        scale = gm / (square * square * np.sqrt(square))
+        one = np.stack([x * x, y * y, z * z, x * y, x * z, y * z])
+        one *= scale
+        total = one if total is None else np.add(total, one, out=total)
+    if total is None:
+        raise ValueError("a tide needs a mass")
+    return total
+
+
+def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
+    """Symmetric tensor, shape (6, ...), times a vector, shape (3, ...)."""
+    xx, yy, zz, xy, xz, yz = tensor
+    x, y, z = vector
+    return np.stack([xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z])
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Vector product of two vectors, shape (3, ...)."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+
+
+def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
+    """Torque per unit of C - A, s-2, on a body whose figure axis is `axis`.
+
+    Parameters
+    ----------
+    tensor : ndarray, shape (6, ...)
+        As `tidal_tensor` gives it.
+    axis : ndarray, shape (3, ...)
+        Unit vectors.
+    """
+    return 3 * cross(apply(tensor, axis), axis)

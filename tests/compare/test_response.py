@@ -1,0 +1,97 @@
+"""The resonance form and the frequency analysis on poles that are made up."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin.compare.angles import on_fixed_ecliptic, pole_from, precession_angles
+from earthspin.compare.nutation import MULTIPLES, FrequencyAnalysis, phases, without_line
+from earthspin.compare.response import Response, fit_response
+from earthspin.constants import ARCSEC, DAY
+from earthspin.sky import iau
+
+H, SPIN = 0.0032737949, 7.292115e-5
+DAYS = np.arange(-18000.0, 18000.0, 9.7)
+ARGUMENTS, RATES = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
+
+
+@pytest.fixture(scope="module")
+def analysis() -> FrequencyAnalysis:
+    return FrequencyAnalysis(DAYS / 36525, ARGUMENTS, RATES)
+
+
+def test_circles_that_were_put_in_come_out(analysis: FrequencyAnalysis) -> None:
+    rng = np.random.default_rng(4)
+    every = np.concatenate([MULTIPLES, -MULTIPLES])
+    amplitude = rng.normal(size=len(every)) + 1j * rng.normal(size=len(every))
+    t = DAYS / 36525
+    eta = amplitude @ np.exp(1j * (every @ ARGUMENTS)) + (3 - 2j) * t + 0.5j * t**2
+    found = analysis(eta)
+    assert np.max(np.abs(found.amplitude - amplitude)) < 1e-9
+    assert np.max(np.abs(found.slow - [0, 3 - 2j, 0.5j, 0, 0])) < 1e-8
+    assert np.max(np.abs(found.at(ARGUMENTS) - amplitude @ np.exp(1j * (every @ ARGUMENTS)))) < 1e-7
+
+
+def test_frequencies_are_those_of_the_arguments(analysis: FrequencyAnalysis) -> None:
+    found = analysis(np.zeros(DAYS.size, dtype=complex))
+    names = map(tuple, found.multiples.tolist())
+    period = dict(zip(names, 2 * np.pi / found.frequency / DAY, strict=True))
+    # Mathews, Herring & Buffett 2002, table 1
+    for multiple, days in {
+        (0, 0, 0, 0, 1): -6798.38,
+        (0, 0, 2, -2, 2): 182.62,
+        (0, 0, 2, 0, 2): 13.66,
+        (0, -1, 0, 0, 0): -365.26,
+        (1, 0, 0, 0, 0): 27.55,
+    }.items():
+        assert abs(period[multiple] - days) < 0.006, multiple
+
+
+def test_a_response_that_was_put_in_comes_out() -> None:
+    true = Response(
+        H, SPIN, -1.0023181 + 2.5e-5j, np.array([-0.14 + 0.03j, -0.93 + 0.07j, 0.049, 2.8e-4])
+    )
+    rng = np.random.default_rng(8)
+    frequency = np.concatenate([MULTIPLES, -MULTIPLES]) @ RATES
+    rigid = (rng.normal(size=frequency.size) + 1j * rng.normal(size=frequency.size)) * ARCSEC
+    found = fit_response(frequency, rigid, true.transfer(frequency) * rigid, H, SPIN)
+    assert abs(found.period - true.period) < 1e-3 * DAY
+    assert abs(found.quality / true.quality - 1) < 1e-4
+    assert np.max(np.abs(found.transfer(frequency) - true.transfer(frequency))) < 1e-7
+
+
+def test_a_body_without_strengths_answers_like_a_rigid_one_at_rest() -> None:
+    rigid = Response(H, SPIN, -1.0023 + 0j, np.zeros(4, dtype=complex))
+    assert rigid.transfer(np.array([0.0]))[0] == 1
+
+
+@given(st.complex_numbers(max_magnitude=10, allow_nan=False))
+def test_phases(amplitude: complex) -> None:
+    in_phase, out = phases(np.array([amplitude]))
+    assert -1j * (in_phase[0] + 1j * out[0]) == amplitude
+
+
+def test_a_line_is_taken_away_and_nothing_else() -> None:
+    t = np.linspace(-1, 1, 2001)
+    wave = np.cos(2 * np.pi * 5 * t)
+    series = np.stack([3 + 2 * t + wave, wave], axis=1)
+    left = without_line(t, series)
+    assert np.max(np.abs(left[:, 0] - left[:, 1])) < 1e-12
+    assert abs(np.std(left[:, 0]) - np.sqrt(0.5)) < 1e-3
+
+
+@given(st.floats(-3, 3), st.floats(0.01, 3.1))
+def test_pole_and_its_angles(psi: float, omega: float) -> None:
+    pole = pole_from(np.array([psi]), np.array([omega]))
+    found = on_fixed_ecliptic(pole, np.eye(3))[0]
+    assert np.allclose(found, [psi, omega], rtol=0, atol=1e-13)
+
+
+def test_precession_angles_are_erfas() -> None:
+    """psi_A and omega_A of IAU 2006 with its ecliptic give its eps_A, chi_A and p_A."""
+    days = np.linspace(-40000, 40000, 41)
+    expected = iau.precession_angles(days)
+    found = precession_angles(expected[:, 0], expected[:, 1], iau.ecliptic_of_date(days))
+    # 0.9 uas measured in p_A over a century: its polynomial is rounded for itself
+    assert np.max(np.abs(found - expected)) / ARCSEC < 5e-6

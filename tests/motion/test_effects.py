@@ -1,0 +1,128 @@
+"""Each effect against something that does not know its formula; off means not evaluated."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.special import eval_legendre
+
+from earthspin.bodies import EARTH
+from earthspin.constants import DAY, GM_SUN
+from earthspin.motion import forces as forces_module
+from earthspin.motion.axes import axis_path
+from earthspin.motion.geodesic import geodesic_rate
+from earthspin.motion.windows import Windows
+from earthspin.sky.ephemeris import Ephemeris
+from earthspin.torque.gravity import torque_from_position
+from earthspin.torque.harmonics import zonal_torque
+from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces
+
+directions = st.tuples(st.floats(-1, 1), st.floats(0, 2 * math.pi)).map(
+    lambda p: np.array(
+        [math.sqrt(1 - p[0] ** 2) * math.cos(p[1]), math.sqrt(1 - p[0] ** 2) * math.sin(p[1]), p[0]]
+    )
+)
+
+
+@pytest.mark.parametrize("degree", [2, 3, 4])
+@given(place=directions, axis=directions, turn=directions)
+def test_zonal_torque_is_the_slope_of_the_energy(
+    degree: int, place: np.ndarray, axis: np.ndarray, turn: np.ndarray
+) -> None:
+    """Turn the body a little about any direction: the energy falls by the torque's work."""
+    gm, radius, distance = 5e12, 6.4e6, 4e8
+
+    def energy(angle: float) -> float:
+        turned = axis * math.cos(angle) + np.cross(turn, axis) * math.sin(angle)
+        turned = turned + turn * (turn @ axis) * (1 - math.cos(angle))
+        return (
+            gm
+            / distance**3
+            * (radius / distance) ** (degree - 2)
+            * eval_legendre(degree, place @ turned)
+        )
+
+    step = 1e-4
+    slope = -(energy(step) - energy(-step)) / (2 * step)
+    torque = zonal_torque(degree, 1.0, radius, gm, distance * place[:, None], axis[:, None])[:, 0]
+    scale = gm / distance**3 * (radius / distance) ** (degree - 2)
+    assert abs(torque @ turn - slope) < 1e-6 * scale
+
+
+@given(place=directions, axis=directions)
+def test_tensor_form_is_the_vector_form(place: np.ndarray, axis: np.ndarray) -> None:
+    position = 4e8 * place
+    tensor = tidal_tensor([(5e12, position[:, None]), (2e12, 3 * position[:, None])])
+    expected = sum(
+        torque_from_position(gm, 1.0, r[None], axis)[0]
+        for gm, r in ((5e12, position), (2e12, 3 * position))
+    )
+    assert np.allclose(quadrupole_torque(tensor, axis[:, None])[:, 0], expected, rtol=0, atol=1e-27)
+
+
+def test_second_harmonic_is_the_bulge() -> None:
+    place, axis = np.array([[3e8], [1e8], [2e8]]), np.array([[0.0], [0.6], [0.8]])
+    bulge = quadrupole_torque(tidal_tensor([(5e12, place)]), axis)
+    assert np.allclose(zonal_torque(2, 1.0, 6.4e6, 5e12, place, axis), bulge, rtol=1e-14)
+
+
+def test_geodesic_precession_on_a_kepler_ellipse() -> None:
+    """(3/2) GM n / (c2 a (1 - e2)), de Sitter's closed form: 1.9194 arcsec a century."""
+    a, e = 1.49598e11, 0.0167
+    n = math.sqrt(GM_SUN.value / a**3)
+    anomaly = np.linspace(0, 2 * np.pi, 2001)[:-1]  # eccentric
+    x, y = a * (np.cos(anomaly) - e), a * math.sqrt(1 - e * e) * np.sin(anomaly)
+    weight = 1 - e * np.cos(anomaly)  # dt/dE times n
+    vx = -a * n * np.sin(anomaly) / weight
+    vy = a * n * math.sqrt(1 - e * e) * np.cos(anomaly) / weight
+    place = {"sun": -np.stack([x, y, 0 * x])}
+    rate = geodesic_rate({"sun": GM_SUN.value}, place, {"sun": -np.stack([vx, vy, 0 * x])}, "sun")
+    mean = np.mean(rate[2] * weight)
+    closed = 1.5 * GM_SUN.value * n / (299792458.0**2 * a * (1 - e * e))
+    assert abs(mean / closed - 1) < 1e-12
+    assert abs(math.degrees(mean) * 3600 * 36525 * DAY - 1.9194) < 2e-4
+
+
+def test_a_sphere_turns_with_the_geodesic_frame_alone(de421: Ephemeris) -> None:
+    span = 365.25 * DAY
+    path = axis_path(forces(de421, figure(h=0.0), primary="sun"), NORTH, 0.0, (0.0, span))
+    moved = path.at(np.array([span]))["figure"][0] - NORTH
+    # 19.19 mas a year about the ecliptic's pole, 23.4 degrees away: towards -x
+    assert abs(-moved[0] / UAS - 19194 * math.sin(math.radians(23.44))) < 30
+
+
+def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*args: object) -> None:
+        raise AssertionError("this effect is switched off")
+
+    monkeypatch.setattr(forces_module, "zonal_torque", never)
+    monkeypatch.setattr(forces_module, "geodesic_rate", never)
+    monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
+    axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
+    zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
+    with pytest.raises(AssertionError):
+        axis_path(forces(de421, zonal, near=("moon",)), NORTH, 0.0, (0.0, 8 * DAY))
+
+
+def test_torque_at_a_mean_pole_does_not_hear_of_the_axis(de421: Ephemeris) -> None:
+    fixed = forces(de421, mean_pole=lambda t: np.broadcast_to(NORTH, (t.size, 3)))
+    windows = Windows(np.array([0.0, 8 * DAY]), 14)
+    law, _ = fixed.over(windows)
+    here = np.broadcast_to(NORTH[:, None, None], (3, *windows.times.shape))
+    there = np.roll(here, 1, axis=0)
+    assert np.all(law(here, here) == law(there, here))
+
+
+def test_rate_of_j2_scales_the_torque(de421: Ephemeris) -> None:
+    trend = 1e-12
+    windows = Windows(np.array([1e8, 1e8 + 8 * DAY]), 14)
+    here = np.broadcast_to(NORTH[:, None, None], (3, *windows.times.shape))
+    with_trend, _ = forces(de421, figure(j2_trend=trend)).over(windows)
+    without, _ = forces(de421).over(windows)
+    assert np.allclose(
+        with_trend(here, here), without(here, here) * (1 + trend * windows.times), rtol=1e-14
+    )
+    assert set(GM) == set(CODES)

@@ -1,0 +1,140 @@
+"""The call: what it gives, at exactly the times asked, and what it refuses."""
+
+import numpy as np
+import pytest
+from astropy.time import Time
+
+import earthspin
+from earthspin import EARTH
+from earthspin.constants import ARCSEC
+from earthspin.sky import iau
+
+DEFAULT = ("planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order")
+
+
+def direction(result: object, axis: str = "figure") -> np.ndarray:
+    of = result.sel(axis=axis)  # type: ignore[attr-defined]
+    return np.stack([of.X, of.Y, of.Z], axis=-1)
+
+
+def test_contract() -> None:
+    result = earthspin.pole("2000-01-01", "2000-02-01", "1 d")
+    assert list(result.axis.values) == ["angular_momentum", "rotation", "figure"]
+    assert result.X.dims == ("time", "axis")
+    assert result.sizes["time"] == 32
+    assert np.allclose(result.X**2 + result.Y**2 + result.Z**2, 1, rtol=0, atol=1e-15)
+    assert tuple(result.attrs["effects"].split()) == DEFAULT
+
+
+def test_the_times_asked_in_the_order_asked() -> None:
+    times = ["2003-05-05T01:02:03.456", "1999-01-01", "2000-01-01T12:00"]
+    result = earthspin.pole(times=times)
+    assert [str(t)[: len(s)] for t, s in zip(result.time.values, times, strict=True)] == times
+    again = earthspin.pole(times=Time(times, scale="tdb"))
+    assert np.array_equal(result.X, again.X)
+
+
+def test_starts_at_the_pole_of_the_iau() -> None:
+    result = earthspin.pole(times=["2000-01-01T12:00"])
+    off = direction(result)[0] - iau.true_pole(np.array([0.0]))[0]
+    # What is half-daily is added to it: 0.03 mas.
+    assert np.linalg.norm(off) < 1e-4 * ARCSEC
+
+
+def test_stays_near_the_pole_of_the_iau() -> None:
+    result = earthspin.pole("1990-01-01T12:00", "2010-01-01T12:00", "30 d")
+    days = (result.time.values - np.datetime64("2000-01-01T12:00")) / np.timedelta64(1, "D")
+    off = np.linalg.norm(direction(result) - iau.true_pole(days), axis=1) / ARCSEC * 1e3
+    assert 20 < off.max() < 120  # mas: the body is rigid here
+    real = earthspin.pole(
+        "1990-01-01T12:00", "2010-01-01T12:00", "30 d", effects=[*DEFAULT, "nonrigid"]
+    )
+    difference = direction(real) - direction(result)
+    assert 5 < np.max(np.linalg.norm(difference, axis=1)) / ARCSEC * 1e3 < 60
+    momentum = direction(real, "angular_momentum") - direction(result, "angular_momentum")
+    assert not momentum.any()
+
+
+def test_one_effect_at_a_time_is_small_and_not_nothing() -> None:
+    times = np.datetime64("1995-01-01T00") + np.arange(40) * np.timedelta64(2200, "h")
+    bare = direction(earthspin.pole(times=times, effects=["second-order"]))
+    sizes = {}
+    for effect in DEFAULT[:-1]:
+        one = direction(earthspin.pole(times=times, effects=["second-order", effect]))
+        sizes[effect] = np.max(np.linalg.norm(one - bare, axis=1)) / ARCSEC * 1e3
+    assert 0.1 < sizes["planets"] < 5
+    assert 0.005 < sizes["j3"] < 0.3
+    assert 0.001 < sizes["j4"] < 0.2
+    assert 0.01 < sizes["triaxiality"] < 0.08
+    assert 20 < sizes["geodesic"] < 80
+    assert 0.001 < sizes["j2-rate"] < 0.1
+
+
+def test_a_solar_pole_never_looks_at_the_moon(monkeypatch: pytest.MonkeyPatch) -> None:
+    from earthspin.sky import ephemeris
+
+    opened: list[ephemeris.Ephemeris] = []
+    real = ephemeris.open_ephemeris
+    monkeypatch.setattr(
+        ephemeris, "open_ephemeris", lambda kernel: opened.append(real(kernel)) or opened[-1]
+    )
+    earthspin.pole(times=["2001-01-01"], perturbers=["sun"], effects=["second-order"])
+    evaluated = {target for _, target in opened[0].evaluations}
+    assert 10 in evaluated
+    assert not evaluated & {301, 1, 2, 4, 5}
+
+
+def test_extremes_of_the_span() -> None:
+    day = earthspin.pole("2010-01-01", "2010-01-02", "1 h")
+    assert day.sizes["time"] == 25
+    end = earthspin.pole("2053-10-01", "2053-10-09T00:00:00", "12 h")
+    assert np.isfinite(end.X).all()
+    with pytest.raises(earthspin.CoverageError):
+        earthspin.pole("2053-10-01", "2053-10-09T00:00:01", "1 s")
+
+
+def test_a_sphere() -> None:
+    sphere = EARTH.replace(dynamical_flattening=0.0)
+    still = earthspin.pole("2000-01-01", "2005-01-01", "100 d", body=sphere, effects=["j3"])
+    assert np.ptp(still.X.values) == np.ptp(still.Y.values) == np.ptp(still.Z.values) == 0
+
+
+@pytest.mark.parametrize("obliquity", [0, 90, 180])
+def test_any_obliquity(obliquity: float) -> None:
+    """Directions always; the angle psi not where the axis stands on its orbit."""
+    tilt = np.radians(obliquity)
+    orbit = (0.0, np.pi / 2)
+    body = EARTH.replace(pole=(0.0, float(np.pi / 2 - tilt)), orbit_pole=orbit, triaxiality=0.0)
+    result = earthspin.pole("2000-01-01", "2010-01-01", "50 d", body=body)
+    assert np.isfinite(result.X).all()
+    assert ("psi" in result) == (obliquity == 90)
+    if obliquity != 90:
+        reason = str(result.part_reason.sel(part="pole-angles").values)
+        assert "not defined" in reason
+
+
+def test_other_bodies() -> None:
+    mars = earthspin.pole("2000-01-01", "2010-01-01", "50 d", body="mars", perturbers=["sun"])
+    years = 10.0
+    rate = float(mars.psi[-1, 2] - mars.psi[0, 2]) / years
+    # 7.6 arcsec/yr and a nutation of an arcsecond
+    assert abs(rate - 7.6) < 0.4
+
+
+def test_what_is_refused() -> None:
+    with pytest.raises(earthspin.UndefinedError, match="too slow"):
+        earthspin.pole(body=EARTH.replace(spin_period=10 * 86400.0))
+    with pytest.raises(earthspin.SceneError, match="did you mean 'planets'"):
+        earthspin.pole(effects=["planet"])
+    with pytest.raises(earthspin.BodyError):
+        EARTH.replace(dynamical_flattening=0.51)
+    with pytest.raises(earthspin.AccuracyError):
+        earthspin.run(earthspin.load_scene("pole", {"accuracy": "1 uas"}))
+    with pytest.raises(earthspin.SceneError, match="give an angle"):
+        earthspin.run(earthspin.load_scene("pole", {"accuracy": 1e-6}))
+    with pytest.raises(earthspin.SceneError, match="do not fit"):
+        earthspin.pole("1950-01-01", "2050-01-01", "1 s")
+    with pytest.raises(earthspin.SceneError, match="no response of the inside of mars"):
+        earthspin.pole(body="mars", effects=["nonrigid"])
+    with pytest.raises(earthspin.BodyError, match="one body at a time"):
+        earthspin.pole(body=EARTH.replace(dynamical_flattening=np.array([1e-3, 2e-3])))
