@@ -1,4 +1,4 @@
-"""The equation map is true: each function can be imported, each test is there."""
+"""The equation map is true and whole: each function can be imported, each test is there."""
 
 import ast
 import tomllib
@@ -10,12 +10,32 @@ import pytest
 ROOT = Path(__file__).parents[2]
 MAP = tomllib.loads((ROOT / "docs" / "equations.toml").read_text(encoding="utf-8"))["equation"]
 
+#: Highest number of each section of the source; equations and figures count through together.
+LAST = {"I.1": 9, "I.2": 7, "I.3": 1, "I.4": 4, "I.5": 9, "I.6": 32, "I.7": 20, "I.8": 7, "I.9": 52}
+LETTERED = {"I.1.10a", "I.1.10b", "I.1.10c"}
+EXERCISES = {
+    "I.1 exercise: I.1.5",
+    "I.1 exercise: (I)' = R I R^-1",
+    "I.6 exercise: I.6.12",
+    "I.6 exercise: I.6.27",
+    "I.6 exercise: two coins",
+    "I.6 exercise: I(t)",
+    "I.7 exercise: p_psi and p_phi",
+    "I.7 exercise: from I.4.3",
+    "I.9 exercise: sphere",
+    "I.9 exercise 1",
+    "I.9 exercise 2",
+    "I.9 exercise 3",
+}
+
 
 @pytest.mark.parametrize("entry", MAP, ids=[e["number"] for e in MAP])
 def test_entry(entry: dict[str, str]) -> None:
     assert entry["what"]
+    assert not any("|" in words for words in entry.values())  # it would end the table's cell
     if "why_not" in entry:
-        assert "function" not in entry
+        assert entry["why_not"]
+        assert not {"function", "test"} & set(entry)
         return
     module, name = entry["function"].rsplit(".", 1)
     assert callable(getattr(import_module(module), name))
@@ -27,3 +47,9 @@ def test_entry(entry: dict[str, str]) -> None:
 def test_numbers_stand_once() -> None:
     numbers = [entry["number"] for entry in MAP]
     assert len(set(numbers)) == len(numbers)
+
+
+def test_the_map_is_whole() -> None:
+    """Every number of the source, and no other."""
+    plain = {f"{section}.{k}" for section, last in LAST.items() for k in range(1, last + 1)}
+    assert {entry["number"] for entry in MAP} == plain | LETTERED | EXERCISES
