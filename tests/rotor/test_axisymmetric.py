@@ -225,4 +225,4 @@ def test_period_of_the_wobble() -> None:
     rotor = SymmetricRotor(1.0, 0.01, 2 * np.pi, 1e-9)
     assert 2 * np.pi / rotor.wobble_rate == pytest.approx(100.0, rel=1e-15)
     # 95 % of a normal distribution lie within 1.96 standard deviations.
-    assert free_wobble_error(-300.0, 1e-3) == pytest.approx(0.588, abs=1e-4)
+    assert free_wobble_error(300.0, 0.0, 1e-3) == pytest.approx(0.588, abs=1e-4)
