@@ -26,6 +26,11 @@ from earthspin.top.start import HeavyTop, axis_heights
 FloatArray = NDArray[np.float64]
 
 
+#: A top slower than this (rad/s) does not move; theta' or a pendulum's rate slower by this
+#: factor than its fastest rate counts as none: what they do would underflow.
+_SLOWEST, _NEGLIGIBLE = 1e-100, 1e-60
+
+
 class AxisStart(NamedTuple):
     """How the axis starts, told so that the weight pulls its tip down or not at all.
 
@@ -116,7 +121,11 @@ def axis_start(top: HeavyTop) -> AxisStart:
     beta = 2 * top.weight_moment / top.transverse_moment
     across = top.phi_rate * np.sqrt(below * above)
     rates = np.abs(np.stack([top.theta_rate, across, a, np.sqrt(np.abs(beta))]))
-    unit = np.ldexp(1.0, np.frexp(np.max(rates, axis=0))[1])
+    fastest = np.max(rates, axis=0)
+    still = fastest < _SLOWEST
+    unit = np.ldexp(1.0, np.frexp(np.where(still, 1.0, fastest))[1])
+    theta_rate = top.theta_rate / unit
+    weight = np.abs(beta) / unit / unit
     turned = np.asarray(beta < 0)
     sign = np.where(turned, -1.0, 1.0)
     return AxisStart(
@@ -125,10 +134,10 @@ def axis_start(top: HeavyTop) -> AxisStart:
         np.where(turned, above, below),
         np.where(turned, below, above),
         sign * cosine,
-        sign * top.theta_rate / unit,
-        top.phi_rate / unit,
-        sign * a / unit,
-        np.abs(beta) / unit / unit,
+        np.where(np.abs(theta_rate) < _NEGLIGIBLE, 0.0, sign * theta_rate),
+        np.where(still, 0.0, top.phi_rate / unit),
+        np.where(still, 0.0, sign * a / unit),
+        np.where(still | (weight < _NEGLIGIBLE**2), 0.0, weight),
     )
 
 

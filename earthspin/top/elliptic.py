@@ -41,7 +41,7 @@ def jacobi_sncndn(
         means.append((mean, root))
     mean = (mean + root) / 2
 
-    at_zero = argument == 0
+    at_zero = np.abs(argument) < 1e-100  # where sn is the argument
     angle = np.where(at_zero, 1.0, mean * argument)
     cotangent = mean / np.tan(angle)  # of the amplitude, times the mean of its level
     dn = np.ones_like(mean)
@@ -52,7 +52,7 @@ def jacobi_sncndn(
         mean = upper_mean
     sn = np.sign(angle) / np.hypot(1.0, cotangent)
     cn = sn * cotangent
-    sn, cn, dn = (np.where(at_zero, limit, f) for limit, f in ((0, sn), (1, cn), (1, dn)))
+    sn, cn, dn = (np.where(at_zero, limit, f) for limit, f in ((argument, sn), (1, cn), (1, dn)))
     if not np.any(on_separatrix):
         return sn, cn, dn
     sech = 1 / np.cosh(np.where(on_separatrix, np.clip(argument, -700.0, 700.0), 0.0))

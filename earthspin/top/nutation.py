@@ -138,7 +138,10 @@ def nutation_of(top: HeavyTop) -> Nutation:
     """Work out the nutation of a batch of tops from their starts."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
-    gaps = gaps._replace(lower=np.where(start.asleep, 0.0, gaps.lower))
+    gaps = gaps._replace(
+        lower=np.where(start.asleep, 0.0, gaps.lower),
+        lower_pole=np.where(start.asleep, start.above, gaps.lower_pole),
+    )
     swing = gaps.lower + gaps.upper
     stiffness = gaps.outer + start.beta * (start.below + gaps.lower)
     above = gaps.outer + start.beta * gaps.upper_pole

@@ -21,6 +21,8 @@ FloatArray = NDArray[np.float64]
 _NAME = "heavy top"
 #: Rates beyond this are a mistake, and would overflow.
 _FASTEST = 1e100
+#: Inclinations below this count as none; their fourth powers would underflow.
+_UPRIGHT = 1e-60
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,7 +43,7 @@ class HeavyTop:
         N m. Zero is a free rotor, negative hangs below its pivot when theta is zero.
     theta : ndarray
         Angle from the vertical to the figure axis, from 0 to pi, rad. The float nearest to pi
-        stands for pi.
+        stands for pi, and less than 1e-60 for nothing.
     theta_rate, phi_rate : ndarray
         rad/s. On the vertical phi_rate has no effect on the motion of the body; it then only
         says how the turning is shared out between phi and psi.
@@ -167,7 +169,7 @@ class AxisHeights(NamedTuple):
 
 def axis_heights(theta: FloatArray) -> AxisHeights:
     """Height of the axis, from half angles so that nothing cancels near the poles."""
-    below = 2 * np.sin(theta / 2) ** 2
+    below = np.where(theta < _UPRIGHT, 0.0, 2 * np.sin(theta / 2) ** 2)
     # No float equals pi; the nearest one is what a user means by a hanging top.
     above = np.where(theta == np.pi, 0.0, 2 * np.cos(theta / 2) ** 2)
     return AxisHeights(below, above, np.cos(theta))

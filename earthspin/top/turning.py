@@ -65,9 +65,9 @@ def nutation_period(top: HeavyTop) -> FloatArray:
     upright without ever reaching it, or never turns.
     """
     nutation = nutation_of(top)
-    period = 2 * nutation.half_period / nutation.start.rate_unit
     never = (nutation.stiffness == 0) | (nutation.complement == 0)
-    return np.where(never, np.inf, period)
+    half_period = np.where(never, 1.0, nutation.half_period)
+    return np.where(never, np.inf, 2 * half_period / nutation.start.rate_unit)
 
 
 def mean_precession_rate(top: HeavyTop) -> FloatArray:
@@ -78,10 +78,9 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
     """
     nutation = nutation_of(top)
     start = nutation.start
-    for_ever = nutation.complement == 0
-    still = np.where(for_ever, start.b / 2, start.phi_rate)
-    moving = ~start.asleep & ~for_ever & (nutation.stiffness > 0)
-    return np.where(moving, mean_precession(nutation), still) * start.rate_unit
+    mean = np.where(nutation.complement > 0, mean_precession(nutation), start.b / 2)
+    still = start.asleep | (nutation.stiffness == 0)
+    return np.where(still, top.phi_rate, mean * start.rate_unit)
 
 
 def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:

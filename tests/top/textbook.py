@@ -40,6 +40,26 @@ class Textbook:
     """One top's motion from exact values of its fields."""
 
     def __init__(self, start: Mapping[str, Any]) -> None:
+        u, theta_rate = self._read(start)
+        part = (u - self.low) / (self.high - self.low)
+        if self.sense < 0:
+            part = 1 - part
+        amplitude = mp.asin(mp.sqrt(min(max(part, mp.mpf(0)), mp.mpf(1))))
+        rising = -self.sense * theta_rate
+        self.phase = mp.ellipf(amplitude, self.m) * (-1 if rising < 0 else 1)
+        self.quarter = mp.ellipk(self.m)
+        self.full = [mp.ellippi(n, self.m) if c else 0 for n, c, _ in self._third_kinds()]
+        self.begin = self._turned(self.phase)
+
+    @classmethod
+    def with_roots_only(cls, start: Mapping[str, Any]) -> Textbook:
+        """Constants and roots, without the integrals."""
+        book = cls.__new__(cls)
+        book._read(start)
+        return book
+
+    def _read(self, start: Mapping[str, Any]) -> tuple[Any, Any]:
+        """Set constants and roots; give u and theta' at the start."""
         get = {name: mp.mpf(value) for name, value in start.items()}
         i1, i3 = get["transverse_moment"], get["axial_moment"]
         self.spin = get["spin"]
@@ -50,17 +70,9 @@ class Textbook:
         self.beta = 2 * get["weight_moment"] / i1
         self.b = phi_rate * sine2 + self.a * u
         self.alpha = theta_rate**2 + phi_rate**2 * sine2 + self.beta * u
+        self.sense = -1 if self.beta < 0 else 1  # sn counts from the end of u far from u3
         self._find_turning_points()
-        part = (u - self.low) / (self.high - self.low)
-        self.sense = -1 if self.beta < 0 else 1  # the lower end of u is farthest from u3
-        if self.sense < 0:
-            part = 1 - part
-        amplitude = mp.asin(mp.sqrt(min(max(part, mp.mpf(0)), mp.mpf(1))))
-        rising = -self.sense * theta_rate
-        self.phase = mp.ellipf(amplitude, self.m) * (-1 if rising < 0 else 1)
-        self.quarter = mp.ellipk(self.m)
-        self.full = [mp.ellippi(n, self.m) if c else 0 for n, c, _ in self._third_kinds()]
-        self.begin = self._turned(self.phase)
+        return u, theta_rate
 
     @property
     def period(self) -> Any:

@@ -1,0 +1,27 @@
+"""The closed form against the textbook's at eighty digits, over families of random tops."""
+
+import pytest
+
+from tests.top.accuracy import FRACTIONS, GOOD, LATE, errors
+from tests.top.families import FAMILIES, cases
+
+#: Tops per family; ``python -m tests.top.accuracy`` runs 500 and prints the table.
+CASES = 8
+#: Tops per family after ten thousand nutations, where every input of every case is moved.
+LATE_CASES = 2
+#: Errors beyond 1e-13 stay below this many units in the last place of the inputs, added up.
+ULPS, LATE_ULPS = 2.0, 4.0
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_few_nutations_hold_thirteen_digits_or_what_the_start_tells(family: str) -> None:
+    for start in cases(family, CASES):
+        found = errors(start, FRACTIONS)
+        assert found.error <= GOOD or found.ulps <= ULPS, (start, found)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_ten_thousand_nutations_lose_no_more_than_the_start_does(family: str) -> None:
+    for start in cases(family, LATE_CASES):
+        found = errors(start, (LATE,))
+        assert found.error <= GOOD or found.ulps <= LATE_ULPS, (start, found)

@@ -1,0 +1,146 @@
+"""Waves, cusps and loops: each pattern against what the tip of the axis does."""
+
+from dataclasses import replace
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from earthspin.errors import UndefinedError
+from earthspin.top.motion import heavy_top_motion
+from earthspin.top.patterns import nutation_pattern, pattern_limits
+from earthspin.top.start import HeavyTop, top_constants
+from earthspin.top.steady import steady_precession
+from tests.top.families import FAMILIES, cases
+from tests.top.textbook import DIGITS, Textbook
+
+BODY = {"transverse_moment": 1.25, "axial_moment": 0.75, "weight_moment": 2.0}
+
+
+def phi_rates(top: HeavyTop) -> np.ndarray:
+    """phi' through one nutation, from the angular velocity of the body (I.7.3)."""
+    period = float(heavy_top_motion(top, 0.0).nutation_period)
+    motion = heavy_top_motion(top, np.linspace(0, period, 1001))
+    one, two, _ = motion.omega_body.T
+    return (one * np.sin(motion.psi) + two * np.cos(motion.psi)) / np.sin(motion.theta)
+
+
+@pytest.mark.parametrize("family", [name for name in FAMILIES if name != "cusp"])
+def test_loops_have_opposite_precession_at_the_turning_points(family: str) -> None:
+    """The sign of b - a u at u1 and u2, but for cusps and steady motion."""
+    for start in cases(family, 200):
+        found = nutation_pattern(HeavyTop(**start))
+        with mp.workdps(DIGITS):
+            book = Textbook.with_roots_only(start)
+            low, high = (book.b - book.a * u for u in (book.low, book.high))
+            size = abs(book.b) + abs(book.a)
+            close = min(abs(low), abs(high), abs(book.high - book.low) * abs(book.a)) < 1e-13 * size
+        assert found == ("loop" if low * high < 0 else "wave") or close, start
+
+
+@pytest.mark.parametrize("family", ["generic", "weightless", "pendulum"])
+def test_loops_turn_back_and_waves_do_not(family: str) -> None:
+    seen = set()
+    for start in cases(family, 40):
+        top = HeavyTop(**start)
+        rates = phi_rates(top)
+        turns_back = rates.min() < 0 < rates.max()
+        assert nutation_pattern(top) == ("loop" if turns_back else "wave"), start
+        seen.add(turns_back)
+    assert seen == ({False} if family == "pendulum" else {True, False})
+
+
+def test_let_go_at_rest_the_tip_draws_cusps_from_its_upper_turning_point() -> None:
+    for start in cases("cusp", 40):
+        top = HeavyTop(**start)
+        motion = heavy_top_motion(top, 0.0)
+        assert motion.pattern == "cusp"
+        standing = start["weight_moment"] > 0
+        assert motion.turning_angle[0 if standing else 1] == pytest.approx(
+            start["theta"], rel=1e-15
+        )
+        rates = phi_rates(top)
+        assert np.all(
+            np.sign(start["spin"] * start["weight_moment"]) * rates >= -1e-12 * rates.max()
+        )
+
+
+@pytest.mark.parametrize("weight", [2.0, -2.0])
+@pytest.mark.parametrize("theta_rate", [0.0, 0.1])
+def test_patterns_change_at_their_limits_and_only_there(weight: float, theta_rate: float) -> None:
+    top = HeavyTop(**BODY | {"weight_moment": weight}, theta=1.1, spin=6.0, theta_rate=theta_rate)
+    limits = pattern_limits(top)
+    marks = np.sort(np.concatenate([limits.cusp, limits.over_pole]))
+    names = ["wave", "loop", "wave", "loop", "wave"]
+    between = np.concatenate([[marks[0] - 1], (marks[1:] + marks[:-1]) / 2, [marks[-1] + 1]])
+    for phi_rate, name in zip(between, names, strict=True):
+        one = replace(top, phi_rate=phi_rate)
+        rates = phi_rates(one)
+        assert nutation_pattern(one) == name
+        assert (rates.min() < 0 < rates.max()) == (name == "loop")
+    for mark in limits.cusp:
+        one = replace(top, phi_rate=mark)
+        assert nutation_pattern(one) == "cusp"
+        assert np.abs(phi_rates(one)).min() < 1e-4 * np.abs(phi_rates(one)).max()
+    for mark, theta in zip(limits.over_pole, (0, 1), strict=True):
+        motion = heavy_top_motion(replace(top, phi_rate=mark), 0.0)
+        assert motion.turning_angle[theta] == pytest.approx(np.pi * theta, abs=1e-7)
+
+
+def test_from_the_lower_turning_point_the_cusp_is_at_twice_the_slow_precession() -> None:
+    """phi' = 2 m g r/(I3 omega3) there, whatever theta: b = a u2 and alpha = beta u2."""
+    for theta in (0.3, 1.2, 2.0):
+        top = HeavyTop(**BODY, theta=theta, spin=9.0)
+        cusp = pattern_limits(top).cusp
+        assert cusp[0] == 0.0
+        assert cusp[1] == pytest.approx(2 * 2.0 / (0.75 * 9.0), rel=1e-15)
+        motion = heavy_top_motion(replace(top, phi_rate=cusp[1]), 0.0)
+        assert motion.turning_angle[1] == pytest.approx(theta, rel=1e-15)
+        a, b, alpha, beta = top_constants(replace(top, phi_rate=cusp[1]))
+        assert np.cos(motion.turning_angle[0]) == pytest.approx(b / a, rel=1e-14)
+        assert b / a == pytest.approx(alpha / beta, rel=1e-14)
+
+
+@pytest.mark.parametrize("which", ["slow", "fast"])
+@pytest.mark.parametrize("theta", [0.2, 1.0, np.pi / 2, 2.3])
+def test_steady_precession_is_told_within_rounding(which: str, theta: float) -> None:
+    top = HeavyTop(**BODY, theta=theta, spin=20.0)
+    if which == "fast" and theta == np.pi / 2:
+        theta = 1.57
+        top = replace(top, theta=theta)
+    steady = replace(top, phi_rate=getattr(steady_precession(top), which))
+    assert nutation_pattern(steady) == "steady"
+    assert nutation_pattern(replace(steady, phi_rate=steady.phi_rate * (1 + 1e-12))) != "steady"
+    motion = heavy_top_motion(steady, np.linspace(0, 10, 50))
+    np.testing.assert_allclose(motion.theta, theta, rtol=1e-13)
+    np.testing.assert_allclose(motion.phi, steady.phi_rate * np.linspace(0, 10, 50), rtol=1e-12)
+
+
+def test_asleep_on_either_end_whatever_the_spin() -> None:
+    for theta in (0.0, np.pi):
+        for spin in (0.0, 0.1, 30.0):
+            top = HeavyTop(**BODY, theta=theta, spin=spin, phi_rate=0.5)
+            motion = heavy_top_motion(top, [0.0, 2.0])
+            assert motion.pattern == "sleeping"
+            assert np.all(motion.theta == theta)
+            assert motion.phi[1] == 1.0
+            assert motion.psi[1] == pytest.approx(2 * (spin - 0.5 * np.cos(theta)), rel=1e-15)
+            assert np.all(motion.omega_body == [0.0, 0.0, spin])
+
+
+def test_over_a_pole_and_in_a_plane_there_are_no_loops() -> None:
+    assert nutation_pattern(HeavyTop(**BODY, theta=0.0, theta_rate=1.0, spin=2.0)) == "wave"
+    assert nutation_pattern(HeavyTop(**BODY, theta=1.0, spin=0.0)) == "wave"
+
+
+@pytest.mark.parametrize(
+    ("start", "reason"),
+    [
+        ({"theta": 1.0, "spin": 0.0}, "without spin"),
+        ({"theta": 0.0, "spin": 1.0}, "on the vertical"),
+        ({"theta": 1.0, "spin": 5.0, "theta_rate": 3.0}, "theta_rate = 3.0"),
+    ],
+)
+def test_limits_that_do_not_exist_are_refused(start: dict[str, float], reason: str) -> None:
+    with pytest.raises(UndefinedError, match=reason):
+        pattern_limits(HeavyTop(**BODY, **start))
