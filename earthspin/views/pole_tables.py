@@ -114,7 +114,7 @@ def residuals(result: xr.Dataset) -> Table:
         ("model", "rms, mas", "largest, mas", "rms, nothing fitted"),
         rows,
         f"dpsi sin(eps) / deps, {first} to {last}. Fitted and taken away: a constant and a rate in "
-        "each. What no integrator can remove is that the Earth is not rigid.",
+        "each. What no integrator can remove is that the body is not rigid.",
         ("iau-residuals",),
     )
 
