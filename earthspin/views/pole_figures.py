@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from earthspin.constants import DAY, MOON_NODE_PERIOD
-from earthspin.views.figures import STYLE
+from earthspin.views.drawing import Drawing
+from earthspin.views.figures import STYLE, _svg
 from earthspin.views.pole_tables import MAS_PER_CENTURY, MODELS
 
 _MODEL_COLOURS = {"first-order": "#E69F00", "rigid": "#0072B2", "nonrigid": "#009E73"}
@@ -158,3 +159,44 @@ def plot_budget(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax.set_xlabel("size of the contribution to the rate of psi_A, mas a century")
     ax.legend(loc="center right")
     return ax
+
+
+def pole_drawings(result: xr.Dataset) -> list[Drawing]:
+    """The path of the figure axis, for the page."""
+    with rc_context(STYLE):
+        return [
+            _drawing(
+                plot_pole_path(result),
+                "The path of the pole",
+                "The figure axis among the stars: precession carries it along, nutation makes it "
+                "swing.",
+            )
+        ]
+
+
+def iau_drawings(result: xr.Dataset) -> list[Drawing]:
+    """Budget, residuals and ratios, for the page."""
+    with rc_context(STYLE):
+        return [
+            _drawing(
+                plot_budget(result),
+                "The budget",
+                "Contribution of each effect to the rate of psi_A, measured by switching it off, "
+                "beside the published one.",
+            ),
+            Drawing(
+                "Residuals in time",
+                "Our pole less the IAU's, with what was fitted taken off.",
+                _svg(plot_pole_residuals(result)),
+            ),
+            _drawing(
+                plot_nutation_ratio(result),
+                "How the yielding body answers",
+                "IAU 2000A over our rigid amplitudes, and the fitted resonance form.",
+            ),
+        ]
+
+
+def _drawing(ax: Axes, title: str, caption: str) -> Drawing:
+    assert isinstance(ax.figure, Figure)
+    return Drawing(title, caption, _svg(ax.figure))

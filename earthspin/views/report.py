@@ -14,9 +14,12 @@ from earthspin.scene.running import Session, run
 from earthspin.scene.spec import load_scene
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray as xr
 
     from earthspin.scene.spec import Scene
+    from earthspin.views.drawing import Drawing
 
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
@@ -97,17 +100,26 @@ def _draw(result: xr.Dataset, ephemeris: Any, session: Session, advance: Any) ->
 
 def scene_views(result: xr.Dataset) -> str:
     """Page of one scene: its tables, figures and, where there are any, its solids."""
-    from earthspin.views import figures, rotor_solids
+    from earthspin.views import figures, pole_figures, rotor_solids, wobble_figures
     from earthspin.views.page import precession_page, scene_page
 
     question = result.attrs["compute"]
     if question == "precession":
         return precession_page(result, [figures.convergence_of_windows(result)])
-    if question == "torque":
-        return scene_page(result, [figures.torque_through(result, "Declination and torque")])
     if question == "free-rotor":
         solids = rotor_solids.of_free_rotor(result) if "polhode" in result else []
         return scene_page(result, figures.free_rotor_drawings(result), solids)
     if question == "top":
         return scene_page(result, figures.top_drawings(result), [rotor_solids.path_of_top(result)])
-    return scene_page(result)
+    draw: dict[str, Callable[[], list[Drawing]]] = {
+        "torque": lambda: [figures.torque_through(result, "Declination and torque")],
+        "pole": lambda: pole_figures.pole_drawings(result),
+        "iau": lambda: pole_figures.iau_drawings(result),
+        "wobble": lambda: [wobble_figures.rungs(result)],
+        "polar-motion": lambda: [
+            wobble_figures.amplitude_and_phase(result),
+            wobble_figures.spectra(result),
+            wobble_figures.polhode(result),
+        ],
+    }
+    return scene_page(result, draw[question]() if question in draw else [])
