@@ -34,3 +34,12 @@ autodoc_typehints = "none"
 numpydoc_show_class_members = False
 numpydoc_xref_param_type = False
 suppress_warnings = ["mystnb.unknown_mime_type"]
+
+
+def keep_absolute_values(app, what, name, obj, options, lines):
+    """Write |x| in docstrings as it is meant, not as a substitution."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", keep_absolute_values, priority=900)
