@@ -9,7 +9,7 @@ report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
 
 test: $(VENV)/.test
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -m pytest -q --numprocesses=auto --dist=loadfile
 
 check: $(VENV)/.check
 	$(BIN)/ruff check .

@@ -36,7 +36,11 @@ def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     ).replace("https://matplotlib.org", "").replace("http://creativecommons.org", "")
     result = storage.read(tmp_path / "r" / "precession.nc")
     assert result.precession_period.sizes == {"perturber": 3}
-    assert sorted(p.name for p in (tmp_path / "r").iterdir()) == ["index.html", "precession.nc"]
+    assert sorted(p.name for p in (tmp_path / "r").iterdir()) == [
+        "index.html",
+        "precession.nc",
+        "rotors.html",
+    ]
 
 
 def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

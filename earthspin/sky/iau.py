@@ -70,7 +70,7 @@ def precession_rates(day: float) -> PrecessionRates:
     day : float
         Days from J2000.0 TDB.
     """
-    step = 365.25  # the angles are polynomials in centuries: exact to 1e-13 of the rate
+    step = 3.6525  # the cubic terms then add 2e-15 of the rate
     before, after = (np.array(erfa.p06e(J2000_JD, day + s * step)) for s in (-1, 1))
     rates = (after - before) / (2 * step * DAY)
     # p06e gives, in this order, eps0, psia, oma, bpa, bqa, pia, bpia, epsa, chia, ...
