@@ -137,4 +137,6 @@ def test_what_is_refused() -> None:
     with pytest.raises(earthspin.SceneError, match="no response of the inside of mars"):
         earthspin.pole(body="mars", effects=["nonrigid"])
     with pytest.raises(earthspin.BodyError, match="one body at a time"):
-        earthspin.pole(body=EARTH.replace(dynamical_flattening=np.array([1e-3, 2e-3])))
+        earthspin.pole(
+            body=EARTH.replace(dynamical_flattening=xr.DataArray([1e-3, 2e-3], dims="draw"))
+        )
