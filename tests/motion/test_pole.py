@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from astropy.time import Time
 
 import earthspin
