@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from graphlib import TopologicalSorter
@@ -11,6 +12,9 @@ from earthspin.scene.part import Part
 from earthspin.scene.parts import PARTS
 from earthspin.scene.questions import QUESTIONS
 from earthspin.scene.spec import Scene
+
+#: Why most parts are left out of most plans.
+NOT_NEEDED = "nothing that is asked for needs it"
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,12 @@ class Plan:
         lines = [f"{self.scene.title}: compute = {self.scene.compute}", "", "runs, in this order"]
         lines += [f"  {p.name:<{width}}  {p.does}" for p in self.parts]
         lines += ["", "left out"]
-        lines += [f"  {name:<{width}}  {why}" for name, why in self.left_out.items()]
+        for_a_reason = {n: why for n, why in self.left_out.items() if why != NOT_NEEDED}
+        lines += [f"  {name:<{width}}  {why}" for name, why in for_a_reason.items()]
+        others = ", ".join(name for name in self.left_out if name not in for_a_reason)
+        lines += textwrap.wrap(
+            f"{NOT_NEEDED}: {others}", 96, initial_indent="  ", subsequent_indent="    "
+        )
         if self.unused_keys():
             lines += [
                 "",
@@ -78,11 +87,7 @@ def plan(scene: Scene) -> Plan:
             "compute", scene.compute, f"nothing to do: {reasons[wanted[0]]}", source=scene.source
         )
     order = TopologicalSorter(chosen).static_order()
-    left_out = {
-        name: reasons.get(name, "nothing that is asked for needs it")
-        for name in PARTS
-        if name not in chosen
-    }
+    left_out = {name: reasons.get(name, NOT_NEEDED) for name in PARTS if name not in chosen}
     return Plan(scene, tuple(PARTS[name] for name in order), left_out)
 
 

@@ -9,6 +9,7 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from earthspin._version import __version__
+from earthspin.scene.planning import NOT_NEEDED
 from earthspin.views.drawing import Drawing
 from earthspin.views.tables import run_times, tables_for, with_error
 
@@ -106,7 +107,7 @@ def results_page(
 
 
 def _plan_rows(result: xr.Dataset, all_parts: bool) -> list[dict[str, Any]]:
-    """What ran, and, on a page of one result, what was left out."""
+    """What ran, and, on a page of one result, what was left out for a reason of its own."""
     rows = [
         {
             "name": str(name),
@@ -116,7 +117,9 @@ def _plan_rows(result: xr.Dataset, all_parts: bool) -> list[dict[str, Any]]:
         }
         for name, of in ((n, result.sel(part=n)) for n in result.part.values)
     ]
-    return [row for row in rows if all_parts or row["status"] == "ran"]
+    return [
+        row for row in rows if row["status"] == "ran" or (all_parts and row["reason"] != NOT_NEEDED)
+    ]
 
 
 def solids_page(title: str, lead: str, solids: Sequence[Solid]) -> str:
