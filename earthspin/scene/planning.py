@@ -54,7 +54,11 @@ class Plan:
         lines += [f"  {name:<{width}}  {why}" for name, why in for_a_reason.items()]
         others = ", ".join(name for name in self.left_out if name not in for_a_reason)
         lines += textwrap.wrap(
-            f"{NOT_NEEDED}: {others}", 96, initial_indent="  ", subsequent_indent="    "
+            f"{NOT_NEEDED}: {others}",
+            96,
+            initial_indent="  ",
+            subsequent_indent="    ",
+            break_on_hyphens=False,
         )
         if self.unused_keys():
             lines += [

@@ -57,7 +57,7 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Angles phi and psi reckoned from the first lower turning point.
+    """Angles phi and psi reckoned from the first lower turning point, but for `shared_rate`.
 
     Returns
     -------
@@ -75,6 +75,15 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
     return _windings(nutation, place.halves), rest
 
 
+def shared_rate(nutation: Nutation) -> FloatArray:
+    """Rate a/2 at which phi and psi turn beside what `turned_at` tells, in the rate unit.
+
+    It is told apart where the axis stays so near the upper pole that phi and psi can hardly be
+    told from each other: their sum then turns at the spin and little else.
+    """
+    return np.where(_has_lower_arc(nutation), 0.0, nutation.start.a / 2)
+
+
 def mean_precession(nutation: Nutation) -> FloatArray:
     """Mean of phi' over a nutation, in the rate unit.
 
@@ -83,7 +92,8 @@ def mean_precession(nutation: Nutation) -> FloatArray:
     full = _complete_integrals(nutation)
     sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))
     delta = np.where(nutation.crosses_upper_pole, 0.0, _upper_winding(nutation))
-    return (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
+    turning = (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
+    return turning + shared_rate(nutation)
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
@@ -202,26 +212,31 @@ class _Integral(NamedTuple):
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
     """What sigma and delta have beside the arc tangents, from a lower or upper turning point."""
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
-    return (
-        _integral(
-            nutation,
-            start.b_plus_a,
-            gaps.lower_pole,
-            nutation.height,
-            upper,
-            _has_lower_arc(nutation),
-            1 + start.beta * gaps.lower_pole / stiffness,
-        ),
-        _integral(
-            nutation,
-            -start.b_minus_a,
-            -nutation.depth,
-            -gaps.upper_pole,
-            upper,
-            _has_upper_arc(nutation),
-            gaps.outer / stiffness,
-        ),
+    sigma = _integral(
+        nutation,
+        start.b_plus_a,
+        gaps.lower_pole,
+        nutation.height,
+        upper,
+        _has_lower_arc(nutation),
+        1 + start.beta * gaps.lower_pole / stiffness,
     )
+    delta = _integral(
+        nutation,
+        -start.b_minus_a,
+        -nutation.depth,
+        -gaps.upper_pole,
+        upper,
+        _has_upper_arc(nutation),
+        gaps.outer / stiffness,
+    )
+    # (a + b)/(1 + u) - a = (b - a u)/(1 + u), and a/2 is told apart.
+    climb = np.where(upper, gaps.upper, -gaps.lower)
+    near = np.where(upper, nutation.height, gaps.lower_pole)
+    excess = start.phi_rate * start.sine2 - start.a * climb
+    shared = shared_rate(nutation) != 0
+    first = np.where(shared, excess / (2 * nutation.rate * np.where(shared, near, 1)), sigma.first)
+    return sigma._replace(first=first), delta
 
 
 def _integral(

@@ -49,15 +49,26 @@ def integrate_heavy_top(
     Returns
     -------
     IntegratedMotion
+
+    Raises
+    ------
+    BodyError
+        For a batch of tops, or times that do not ascend from 0.
+    EarthspinError
+        If the integration does not come to its end.
     """
     times = np.atleast_1d(np.asarray(times, dtype=np.float64))
     if top.shape:
         raise BodyError("heavy top", "shape", top.shape, "integrate one top at a time")
+    steps = np.diff(times, prepend=0.0)
+    if not np.all(steps >= 0):
+        bad = float(times[~(steps >= 0)][0])
+        raise BodyError("heavy top", "times", bad, "give ascending times from 0 on")
     state = np.concatenate([_start_attitude(top), _start_omega(top)])
     scale = np.abs(state[4:]).max() + np.sqrt(abs(top.weight_moment) / top.transverse_moment)
     solution = solve_ivp(
         _state_rate,
-        (0.0, times[-1]),
+        (0.0, times[-1] or np.finfo(float).tiny),
         state,
         method="DOP853",
         t_eval=times,

@@ -13,6 +13,10 @@ from earthspin.top.azimuth import turned_at
 from earthspin.top.cubic import AxisStart
 from earthspin.top.nutation import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
 from earthspin.top.patterns import nutation_pattern
+<<<<<<< HEAD
+=======
+from earthspin.top.precession import shared_rate, turned_at
+>>>>>>> top
 from earthspin.top.start import HeavyTop
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
 
@@ -165,8 +169,11 @@ def _phi_and_psi(
     )
     # Seen from the other end of the axis the body turns the other way.
     sense = np.where(nutation.start.turned, -1.0, 1.0)
-    slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment * top.spin
-    psi = Angle(sense * psi.quarters, sense * psi.rest + slack * times)
+    shared = shared_rate(nutation) * nutation.start.rate_unit * times
+    slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment
+    slack = np.where(shared_rate(nutation) == 0, slack, 1.0) * top.spin * times
+    phi = phi.plus(shared)
+    psi = Angle(sense * psi.quarters, sense * psi.rest + (slack - sense * shared))
     # Asleep, phi and psi share the turning out as they did at the start.
     asleep = nutation.start.asleep
     psi_rate = top.spin - top.phi_rate * np.cos(top.theta)

@@ -149,10 +149,18 @@ def nutation_of(top: HeavyTop) -> Nutation:
     complement = np.where(moving, above / np.where(moving, stiffness, 1.0), 1.0)
     returns = moving & (complement > 0)
     quarter = ellipkm1(np.where(returns, complement, 1.0))
-    half_period = np.where(returns, 2 * quarter / np.sqrt(np.where(moving, stiffness, 1)), _NEVER)
-    at_upper = (gaps.upper < gaps.lower) & returns
+    rate = np.sqrt(np.where(moving, stiffness, 1.0)) / 2
+    half_period = np.where(returns, quarter / rate, _NEVER)
     nutation = Nutation(
-        start, gaps, swing, stiffness, above, complement, half_period, at_upper, swing
+        start=start,
+        gaps=gaps,
+        swing=swing,
+        stiffness=stiffness,
+        stiffness_above=above,
+        complement=complement,
+        half_period=half_period,
+        at_upper=(gaps.upper < gaps.lower) & returns,
+        phase=np.zeros_like(swing),
     )
     return nutation._replace(phase=_phase_of_start(nutation))
 

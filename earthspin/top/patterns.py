@@ -62,7 +62,7 @@ class PatternLimits(NamedTuple):
         slow precession of a fast top, with the start below.
     over_pole : ndarray, shape (..., 2)
         Loops end where the axis passes exactly over the upper, the lower pole; beyond, the
-        precession goes one way again. Infinite from a pole that is opposite to the start.
+        precession goes one way again.
     """
 
     cusp: FloatArray

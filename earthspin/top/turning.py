@@ -47,15 +47,12 @@ def turning_angles(top: HeavyTop) -> FloatArray:
         rad; equal for steady motion.
     """
     nutation = nutation_of(top)
-    gaps, start = nutation.gaps, nutation.start
-    high = 2 * np.arctan2(np.sqrt(gaps.upper_pole), np.sqrt(nutation.height))
-    low = 2 * np.arctan2(np.sqrt(nutation.depth), np.sqrt(gaps.lower_pole))
-    upright = np.stack([high, low], axis=-1)
-    other_end = 2 * np.arctan2(
-        np.sqrt(np.stack([gaps.lower_pole, nutation.height], axis=-1)),
-        np.sqrt(np.stack([nutation.depth, gaps.upper_pole], axis=-1)),
-    )
-    return np.where(start.turned[..., np.newaxis], other_end, upright)
+    gaps = nutation.gaps
+    below = np.sqrt(np.stack([gaps.upper_pole, nutation.depth], axis=-1))
+    above = np.sqrt(np.stack([nutation.height, gaps.lower_pole], axis=-1))
+    turned = nutation.start.turned[..., np.newaxis]
+    other_end = 2 * np.arctan2(above, below)[..., ::-1]
+    return np.where(turned, other_end, 2 * np.arctan2(below, above))
 
 
 def nutation_period(top: HeavyTop) -> FloatArray:

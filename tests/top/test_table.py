@@ -36,7 +36,7 @@ def motion(top: HeavyTop) -> HeavyTopMotion:
 
 
 def rates(top: HeavyTop) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """theta', phi', psi' by central differences of eighth order, good to 1e-12."""
+    """theta', phi', psi' by central differences of eighth order, good to 1e-11."""
     weights = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
     total = np.zeros((3, TIMES.size))
     for k, weight in weights.items():
@@ -50,7 +50,7 @@ def inertial(motion: HeavyTopMotion, vectors: np.ndarray) -> np.ndarray:
     return Rotation.from_quat(motion.attitude[:, [1, 2, 3, 0]]).apply(vectors)
 
 
-CLOSE = {"rtol": 0, "atol": 1e-11}  # measured 2.4e-12, from the differences
+CLOSE = {"rtol": 0, "atol": 3e-11}  # measured 6.5e-12, from the differences
 
 
 def test_body_components_of_omega(top: HeavyTop, motion: HeavyTopMotion) -> None:
@@ -83,7 +83,7 @@ def test_rates_of_the_euler_angles(top: HeavyTop, motion: HeavyTopMotion) -> Non
 
 def test_energy_is_constant_and_kinetic_energy_is_not(motion: HeavyTopMotion) -> None:
     kinetic = np.sum(motion.omega_body**2 * [I1, I1, I3], axis=-1) / 2
-    assert np.ptp(kinetic + WEIGHT * np.cos(motion.theta)) < 2e-14  # measured 3.6e-15
+    assert np.ptp(kinetic + WEIGHT * np.cos(motion.theta)) < 3e-14  # measured 4.4e-15
     assert np.ptp(kinetic) > 0.1
 
 
@@ -93,7 +93,7 @@ def test_angular_momentum_along_the_vertical_and_the_axis(
     a, b, _, _ = top_constants(top)
     body = motion.omega_body * [I1, I1, I3]
     upward = inertial(motion, body)[:, 2]
-    np.testing.assert_allclose(upward, b * I1, rtol=0, atol=1e-14)  # measured 1.8e-15
+    np.testing.assert_allclose(upward, b * I1, rtol=0, atol=1e-14)  # measured 2.0e-15
     np.testing.assert_allclose(body[:, 2], a * I1, rtol=1e-15)
     # as printed, the other way round, neither holds
     assert np.abs(upward - a * I1).min() > 0.1
@@ -126,7 +126,7 @@ def test_free_rotor_column(axial: float) -> None:
     motion = heavy_top_motion(top, TIMES)
     alpha = np.arctan2(momentum * np.sin(theta) / I1, spin)
     omega, wobble = spin / np.cos(alpha), spin * (axial - I1) / I1
-    close = {"rtol": 0, "atol": 6e-14}  # measured 7e-15, of angles up to 20 rad
+    close = {"rtol": 0, "atol": 1e-13}  # measured 1.7e-14, of angles up to 42 rad
     np.testing.assert_allclose(motion.theta, theta, **close)
     np.testing.assert_allclose(motion.phi, momentum / I1 * TIMES, **close)
     np.testing.assert_allclose(motion.psi, np.pi / 2 - wobble * TIMES, **close)
@@ -139,5 +139,5 @@ def test_free_rotor_column(axial: float) -> None:
     space = np.stack([across * np.cos(turn), across * np.sin(turn), 0 * turn], axis=-1)
     space[:, 2] = omega * np.cos(theta - alpha)
     np.testing.assert_allclose(inertial(motion, motion.omega_body), space, **close)
-    assert np.ptp(np.sum(motion.omega_body**2, axis=-1)) < 6e-14
+    assert np.ptp(np.sum(motion.omega_body**2, axis=-1)) < 2e-13  # measured 2.8e-14
     assert motion.pattern == "steady"
