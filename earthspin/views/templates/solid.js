@@ -123,7 +123,8 @@ function makeSolid(figure) {
     view.zoom = Math.max(0.3, Math.min(8, view.zoom * Math.exp(-e.deltaY / 600)));
     paint();
   }, { passive: false });
-  slider.max = slider.value = frames - 1;
+  slider.max = frames - 1;
+  slider.value = frames - 1;
   slider.addEventListener("input", () => { view.frame = Number(slider.value); paint(); });
   button.addEventListener("click", () => {
     view.playing = !view.playing;
