@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import sys
 
-from data_tools import hashes, kernels, windows
+from data_tools import error_models, hashes, kernels, windows
 from earthspin.errors import EarthspinError
 
 VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
+    "error-models": (error_models.main, "measure the error of each setting of each method"),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
 }
 

@@ -39,7 +39,8 @@ def precession(
     span : pair of dates, optional
         TDB; all that the kernel covers by default.
     accuracy : float, optional
-        Relative error of the rate that must be met.
+        Largest relative error of the rate by all perturbers that is allowed; the cheapest
+        settings that keep it are chosen.
 
     Returns
     -------
@@ -83,6 +84,7 @@ def torque_series(
     perturbers: Perturbers = ("sun", "moon"),
     equator: str = "mean",
     ephemeris: Any = "de421",
+    accuracy: Any = None,
 ) -> xr.Dataset:
     """Declination, distance and torque of each perturber in time (I.8.7).
 
@@ -102,6 +104,9 @@ def torque_series(
     equator : str
         Axes: ``"mean"`` or ``"true"`` equator and equinox of date.
     ephemeris : str, path or Skyfield kernel
+    accuracy : angle, optional
+        Largest error of a direction that is allowed, such as ``"1 mas"``; the cheapest
+        settings that keep it are chosen.
 
     Returns
     -------
@@ -122,6 +127,7 @@ def torque_series(
             perturbers=perturbers,
             equator=equator,
             ephemeris=ephemeris,
+            accuracy=accuracy,
             span=None if start is None else (start, stop),
             step=step,
             times=times,
@@ -150,6 +156,7 @@ def pole(
     perturbers: Perturbers = ("sun", "moon"),
     effects: Sequence[str] | None = None,
     ephemeris: Any = "de421",
+    accuracy: Any = None,
 ) -> xr.Dataset:
     """Path of the axes under the torques, in the GCRS.
 
@@ -171,6 +178,9 @@ def pole(
         ``second-order``, ``nonrigid``; all but the last by default. ``geodesic`` needs the Sun
         among the perturbers; it turns a sphere, too.
     ephemeris : str, path or Skyfield kernel
+    accuracy : angle, optional
+        Largest error of a direction that is allowed, such as ``"1 mas"``; the cheapest
+        settings that keep it are chosen.
 
     Returns
     -------
@@ -192,6 +202,7 @@ def pole(
             perturbers=perturbers,
             effects=effects,
             ephemeris=ephemeris,
+            accuracy=accuracy,
             span=None if start is None else (start, stop),
             step=step,
             times=times,

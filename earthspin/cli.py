@@ -167,8 +167,12 @@ def _run(given: argparse.Namespace) -> None:
 
 def _plan(given: argparse.Namespace) -> None:
     from earthspin.scene.planning import plan
+    from earthspin.scene.running import chosen
 
-    print(plan(_scene(given)))
+    planned = plan(_scene(given))
+    print(planned)
+    for words in chosen(planned):
+        print(f"\nchosen for an accuracy of {planned.scene.accuracy}: {words}")
 
 
 def _scenes(given: argparse.Namespace) -> None:

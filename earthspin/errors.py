@@ -142,7 +142,7 @@ class AccuracyError(EarthspinError, ValueError):
     def __init__(self, asked: float, best: float, unit: str, remedy: str) -> None:
         self.asked, self.best, self.unit = asked, best, unit
         super().__init__(
-            f"accuracy of {asked:.3g} {unit} was asked for, the error estimate is "
+            f"accuracy of {asked:.3g} {unit} was asked for, the best there is here is "
             f"{best:.3g} {unit}; {remedy}"
         )
 

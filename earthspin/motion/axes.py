@@ -65,8 +65,10 @@ class AxisPath:
     a_over_c : float
     meridian : float
         Angle of the axis of least moment at J2000.0, rad.
-    error : float
-        Estimated error of the method, rad.
+    interpolation_error : float
+        What the sky between the nodes may displace the axes by, rad.
+    floor : float
+        What no choice of windows takes away: the slow manifold's last term, rounding, rad.
     rounds : int
         Most Picard iterations that a segment took.
     """
@@ -78,8 +80,19 @@ class AxisPath:
     spin_rate: float
     a_over_c: float
     meridian: float
-    error: float
+    interpolation_error: float
+    floor: float
     rounds: int
+
+    @property
+    def error(self) -> float:
+        """Estimated error of the method, rad."""
+        return self.interpolation_error + self.floor
+
+    @property
+    def evaluations(self) -> int:
+        """How many epochs the sky was evaluated at."""
+        return int(self.windows.times.size)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -185,7 +198,8 @@ def axis_path(
         spin_rate=figure.spin_rate,
         a_over_c=1 - figure.h,
         meridian=figure.meridian,
-        error=_total_error(done),
+        interpolation_error=max(s.tail for s in done),
+        floor=max(s.floor for s in done) + _rounding(done),
         rounds=max(s.rounds for s in done),
     )
 
@@ -235,7 +249,8 @@ class _Segment:
     tilt: FloatArray
     fast: ComplexArray | None
     turn: float
-    error: float
+    tail: float
+    floor: float
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
@@ -312,7 +327,8 @@ def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _S
         tilt=windows.coefficients(tilt),
         fast=_fast(forces, windows, tensor, axis, tilt),
         turn=float(np.max(np.abs(rate)) * (windows.edges[-1] - windows.edges[0])),
-        error=_tail(series, windows) + terms[-1] + change,
+        tail=_tail(series, windows),
+        floor=terms[-1] + change,
         rounds=rounds,
     )
 
@@ -371,7 +387,6 @@ def _joined(pieces: list[ComplexArray]) -> ComplexArray | None:
     return np.concatenate(pieces, axis=1) if pieces else None
 
 
-def _total_error(segments: list[_Segment]) -> float:
-    """Interpolation is at its worst in one window; what rounding adds grows with their number."""
-    rounding = np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments))
-    return max(segment.error for segment in segments) + float(rounding)
+def _rounding(segments: list[_Segment]) -> float:
+    """What rounding adds, rad: it grows with the number of windows as a random walk does."""
+    return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

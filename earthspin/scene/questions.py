@@ -49,6 +49,7 @@ QUESTIONS: dict[str, Question] = {
     "precession": Question(
         wants=(
             "mean-rates",
+            "rate-accuracy",
             "convergence",
             "earth-models",
             "free-wobble",
@@ -59,7 +60,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         accuracy="relative",
     ),
-    "torque": Question(wants=("torque-series",)),
+    "torque": Question(wants=("torque-series", "series-accuracy"), accuracy="angle"),
     "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
     "top": Question(wants=("heavy-top",), tables=("top",)),
     "spheroid": Question(wants=("spheroid-field",), tables=("spheroid",)),
@@ -69,7 +70,7 @@ QUESTIONS: dict[str, Question] = {
     ),
     "polar-motion": Question(wants=("polar-motion", "chandler"), tables=("polar_motion",)),
     "pole": Question(
-        wants=("pole", "pole-angles"),
+        wants=("pole", "pole-accuracy", "pole-angles"),
         effects=EFFECTS,
         unless_named=("nonrigid",),
         accuracy="angle",

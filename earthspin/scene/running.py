@@ -12,6 +12,7 @@ from earthspin.dataset import CONVENTIONS
 from earthspin.errors import SceneError
 from earthspin.scene.part import Part
 from earthspin.scene.parts import PARTS
+from earthspin.scene.parts.choices import CHOOSING
 from earthspin.scene.planning import Plan, plan
 from earthspin.scene.questions import QUESTIONS
 from earthspin.scene.spec import Scene, load_scene
@@ -100,6 +101,23 @@ def run_blocks(scene: Scene) -> Iterator[xr.Dataset]:
         # The cost of the first block stands for all: the rest is not known when it is written.
         seconds["torque-series"] = (time.perf_counter() - begun) * size / block.sizes["time"]
         yield _merge(planned, [block], given, seconds)
+
+
+def chosen(planned: Plan) -> list[str]:
+    """What a plan chooses for the accuracy that its scene asks for, in words.
+
+    Parameters
+    ----------
+    planned : Plan
+        Only the parts that choose run, and what they need.
+    """
+    names = [part.name for part in planned.parts if part.name in CHOOSING]
+    needed: set[str] = set()
+    for name in names:
+        needed |= {name, *_below(PARTS[name])}
+    few = Plan(planned.scene, tuple(p for p in planned.parts if p.name in needed), {})
+    given, _ = _run_parts(few, Session())
+    return [given[name].words if given[name] else "the finest settings" for name in names]
 
 
 def series_length(scene: Scene) -> int:
@@ -194,6 +212,11 @@ def _attributes(planned: Plan, given: Mapping[str, Any]) -> dict[str, str | floa
         if key in used and getattr(scene, key) is not None:
             attributes[key] = str(getattr(scene, key))
     return attributes
+
+
+def _below(part: Part) -> set[str]:
+    """Names of all parts that a part stands on."""
+    return set(part.needs).union(*(_below(PARTS[name]) for name in part.needs))
 
 
 def _keys_with_needs(part: Part) -> set[str]:

@@ -149,7 +149,11 @@ def neighbours(window: Window) -> list[Window]:
 
 
 def window_mean_and_error(
-    window: Window, times: FloatArray, values: FloatArray, slow_swing: FloatArray
+    window: Window,
+    times: FloatArray,
+    values: FloatArray,
+    slow_swing: FloatArray,
+    known: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Means of several pulls and of their total, and how far each may be from that of all time.
 
@@ -162,6 +166,9 @@ def window_mean_and_error(
     slow_swing : ndarray, shape (perturber,)
         How far each pull swings more slowly than any window, over the pull itself: what
         windows that agree may all miss.
+    known : ndarray, shape (perturber,), optional
+        Errors of the means as measured for this window and these steps; with them no other window
+        is asked.
 
     Returns
     -------
@@ -172,11 +179,15 @@ def window_mean_and_error(
     """
     all_values = with_total(values)
     mean = window.mean(times, all_values)
-    others = [w.mean(times, all_values) for w in neighbours(window)]
-    others.append(window.mean(times[::2], all_values[::2]))
-    spread = np.max(np.abs(np.stack(others) - mean), axis=0)
+    along = (-1, *(1,) * (values.ndim - 2))
+    if known is None:
+        others = [w.mean(times, all_values) for w in neighbours(window)]
+        others.append(window.mean(times[::2], all_values[::2]))
+        spread = np.max(np.abs(np.stack(others) - mean), axis=0)
+    else:
+        spread = with_total(known.reshape(1, *along) + np.zeros_like(values[:1]))[0]
     size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
-    swing = slow_swing.reshape(-1, *(1,) * (values.ndim - 2)) * size
+    swing = slow_swing.reshape(along) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
 
 

@@ -43,7 +43,7 @@ WRONG = [
     ({"compute": "torque", "title": 5}, "line of text"),
     ({"compute": "precession", "accuracy": 0}, "greater than zero"),
     ({"compute": "precession", "accuracy": "1 mas"}, "relative error"),
-    ({"compute": "torque", "accuracy": 1e-3}, "takes none"),
+    ({"compute": "wobble", "accuracy": 1e-3}, "takes none"),
     ({"compute": "torque", "effects": 3}, "a list"),
     ({"compute": ["torque"]}, "compute"),
     ({"compute": "torque", "body": {"pole": "north"}}, "iau2006"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin.dataset import Variable, with_error
@@ -63,8 +63,11 @@ def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
     sky, body = given["ephemeris"], scene.body
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(p.cycle for p in scene.perturbers)
-    window = best_window(sky.span[0] * DAY, sky.span[1] * DAY, cycle)
-    times = window.sample_times(SAMPLING)
+    window, step = best_window(sky.span[0] * DAY, sky.span[1] * DAY, cycle), SAMPLING
+    choice = given.get("chosen-average")
+    if choice is not None:
+        window, step = replace(window, cycles=choice.settings["cycles"]), choice.settings["step"]
+    times = window.sample_times(step)
     days = times / DAY
 
     equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
@@ -102,8 +105,11 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
     swing = np.array([p.slow_swing for p in scene.perturbers])
-    push, push_error = window_mean_and_error(window, times, samples.push, swing)
-    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing)
+    choice = given.get("chosen-average")
+    known = [choice.errors[p.naif[0]] for p in scene.perturbers] if choice else None
+    of_push, of_torque = (None, None) if known is None else np.array(known).T
+    push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers]
     u_gm = along(rates.total_uncertainty(push, u_each))
     rate = rates.precession_estimate(
@@ -139,9 +145,12 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
             "reference_epoch": datetime64(np.array(window.centre / DAY)),
         },
     )
-    result["precession_rate"].attrs["window"] = (
-        f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
-    )
+    taken = f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
+    result["precession_rate"].attrs["window"] = taken
+    result["precession_rate_error"].attrs |= {
+        "method": f"{taken}, a sample each {np.median(np.diff(times)) / DAY:g} d",
+        "evaluations": times.size,
+    }
     return result
 
 
@@ -189,6 +198,7 @@ TORQUE_SAMPLES = Part(
     does="torque of each perturber, daily, through the window that converges fastest",
     function="earthspin.scene.parts.averaging:sample_torques",
     needs=("ephemeris",),
+    uses=("chosen-average",),
     keys=("body", "perturbers", "ephemeris", "span"),
 )
 
@@ -197,6 +207,7 @@ MEAN_RATES = Part(
     does="averages over orbits: rate, period, mean torque, with errors",
     function="earthspin.scene.parts.averaging:mean_rates",
     needs=("torque-samples",),
+    uses=("chosen-average",),
     keys=("accuracy",),
     gives={
         **with_error(

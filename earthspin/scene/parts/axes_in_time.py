@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin.bodies import IAU_2006
 from earthspin.dataset import Variable
 from earthspin.scene.part import Part
+from earthspin.scene.parts.conditions import asked_angle
 from earthspin.scene.parts.torque_at_times import TIME, series_times
 
 if TYPE_CHECKING:
+    import numpy as np
     import xarray as xr
+    from numpy.typing import NDArray
 
     from earthspin.motion.axes import AxisPath
+    from earthspin.scene.choosing import Choice
     from earthspin.scene.spec import Scene
     from earthspin.units import TimeGrid, TimeList
 
@@ -46,10 +51,23 @@ def pole_times(scene: Scene) -> TimeGrid | TimeList:
 
 def follow(scene: Scene, given: Mapping[str, Any]) -> AxisPath:
     """Integrate from the epoch to the times of the scene."""
+    from earthspin.errors import UndefinedError
+
+    choice = given.get("chosen-windows")
+    if choice is not None:
+        try:
+            return _follow(scene, given, choice)
+        except UndefinedError:
+            pass  # windows that are too wide for the slow manifold of this spin
+    return _follow(scene, given, None)
+
+
+def _follow(scene: Scene, given: Mapping[str, Any], choice: Choice | None) -> AxisPath:
+    """Integrate on chosen windows, or on the finest."""
     import numpy as np
 
     from earthspin.constants import DAY
-    from earthspin.motion.axes import axis_path, window_count
+    from earthspin.motion.axes import WINDOW, axis_path, window_count
     from earthspin.progress import progress
     from earthspin.scene.parts.pulls import forces_of, start_of
 
@@ -59,52 +77,92 @@ def follow(scene: Scene, given: Mapping[str, Any]) -> AxisPath:
     axis, epoch = start_of(scene, pulls)
     first, last = times.span()
     span = first * DAY, last * DAY
-    with progress("pole", window_count(epoch, span)) as advance:
-        return axis_path(
+    settings = {} if choice is None else choice.settings
+    with progress("pole", window_count(epoch, span, settings.get("window", WINDOW))) as advance:
+        path = axis_path(
             forces_of(scene, pulls, scene.effects or ()),
             axis,
             epoch,
             span,
             limits=pulls.limits,
             advance=advance,
+            **settings,
         )
+    # What was measured of the settings is a bound; the path itself only sees its last terms.
+    return path if choice is None else replace(path, interpolation_error=choice.error)
+
+
+@dataclass(frozen=True)
+class _Directions:
+    """Axes at the times of a scene, shape (time, axis, 3), and their errors, rad."""
+
+    vectors: NDArray[np.float64]
+    method: NDArray[np.float64]
+    given: NDArray[np.float64]
+    words: str
+    evaluations: int
+
+    @property
+    def error(self) -> NDArray[np.float64]:
+        import numpy as np
+
+        return np.asarray(np.hypot(self.method, self.given))
 
 
 def pole(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Directions of the three axes at the times of the scene."""
-    import numpy as np
-
-    from earthspin.constants import DAY
     from earthspin.dataset import build
-    from earthspin.motion.axes import AXES, error_of_input
+    from earthspin.motion.axes import AXES
     from earthspin.units import datetime64
 
-    times, path = pole_times(scene), given["axis-path"]
-    now = times.days(0, times.size)
-    found = path.at(now * DAY)
-    if "nonrigid" in (scene.effects or ()):
-        _shift_of(scene, given).apply(found, now)
-    vectors = np.stack([found[axis] for axis in AXES], axis=1)
-    u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    method = np.full(now.size, path.error)
-    from_input = error_of_input(path, vectors[:, -1], u_h)
-    _check_accuracy(scene, float(np.max(np.hypot(method, from_input))))
+    now = pole_times(scene).days(0, pole_times(scene).size)
+    found = _directions(scene, given, given["axis-path"], now)
+    asked = asked_angle(scene)
+    if asked is not None and found.error.max() > asked and given.get("chosen-windows"):
+        found = _directions(scene, given, _follow(scene, given, None), now)
+    _check_accuracy(asked, float(found.error.max()))
     result = build(
         "pole",
         POLE.gives,
         {
-            "X": vectors[..., 0],
-            "Y": vectors[..., 1],
-            "Z": vectors[..., 2],
-            "direction_error": np.hypot(method, from_input),
-            "direction_error_method": method,
-            "direction_error_input": from_input,
+            "X": found.vectors[..., 0],
+            "Y": found.vectors[..., 1],
+            "Z": found.vectors[..., 2],
+            "direction_error": found.error,
+            "direction_error_method": found.method,
+            "direction_error_input": found.given,
         },
         coords={"time": ("time", datetime64(now), dict(TIME)), "axis": list(AXES)},
     )
     for name in ("X", "Y", "Z"):
         result[name].attrs["frame"] = "GCRS"
+    result["direction_error"].attrs |= {"method": found.words, "evaluations": found.evaluations}
     return result
+
+
+def _directions(
+    scene: Scene, given: Mapping[str, Any], path: AxisPath, now: NDArray[np.float64]
+) -> _Directions:
+    """Ask a path for the axes at days from J2000.0."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.motion.axes import AXES, error_of_input
+
+    found = path.at(now * DAY)
+    if "nonrigid" in (scene.effects or ()):
+        _shift_of(scene, given).apply(found, now)
+    vectors = np.stack([found[axis] for axis in AXES], axis=1)
+    u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    edges = path.windows.edges
+    return _Directions(
+        vectors=vectors,
+        method=np.full(now.size, path.error),
+        given=error_of_input(path, vectors[:, -1], u_h),
+        words=f"Gauss windows of {np.median(np.diff(edges)) / DAY:g} d with "
+        f"{path.windows.order} nodes",
+        evaluations=path.evaluations,
+    )
 
 
 def pole_angles(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
@@ -141,16 +199,12 @@ def _shift_of(scene: Scene, given: Mapping[str, Any]) -> Any:
     return given["nonrigid-shift"]
 
 
-def _check_accuracy(scene: Scene, best: float) -> None:
-    """Refuse an accuracy that is not reached."""
+def _check_accuracy(asked: float | None, best: float) -> None:
+    """Refuse an angle that is not reached, rad."""
     from earthspin.constants import ARCSEC
     from earthspin.errors import AccuracyError
-    from earthspin.units import number
 
-    if scene.accuracy is None:
-        return
-    asked = number(scene.accuracy, "rad", f"{scene.source}: accuracy", "1 mas")
-    if best > asked:
+    if asked is not None and best > asked:
         raise AccuracyError(
             asked * 1e3 / ARCSEC,
             best * 1e3 / ARCSEC,
@@ -183,6 +237,7 @@ AXIS_PATH = Part(
     does="the axes from J2000.0 to the times wanted: Picard iteration on Gauss windows",
     function="earthspin.scene.parts.axes_in_time:follow",
     needs=("pulls",),
+    uses=("chosen-windows",),
     keys=("step", "times"),
 )
 

@@ -1,4 +1,4 @@
-"""Reasons for leaving a part out that several parts share."""
+"""Reasons for leaving a part out, and readings of a key, that several parts share."""
 
 from __future__ import annotations
 
@@ -26,3 +26,17 @@ def needs_sun_and_moon_alone(scene: Scene) -> str | None:
     if len(names) > 2:
         return needs_iau(scene) or "the comparison is for sun and moon alone"
     return needs_iau(scene)
+
+
+def without_accuracy(scene: Scene) -> str | None:
+    """Leave out what chooses settings where no accuracy is asked for."""
+    return "no accuracy is asked for: the finest settings" if scene.accuracy is None else None
+
+
+def asked_angle(scene: Scene) -> float | None:
+    """Accuracy asked for as an angle, rad."""
+    from earthspin.units import number
+
+    if scene.accuracy is None:
+        return None
+    return number(scene.accuracy, "rad", f"{scene.source}: accuracy", "1 mas")

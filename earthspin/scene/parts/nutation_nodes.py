@@ -13,12 +13,15 @@ if TYPE_CHECKING:
     from earthspin.sky.iau import Nutation
 
 
-def nutation(scene: Scene, given: Mapping[str, Any]) -> Nutation:
-    """Prepare nutation over the times of the scene."""
+def nutation(scene: Scene, given: Mapping[str, Any]) -> Nutation | None:
+    """Prepare nutation over the times of the scene; None where the mean equator will do."""
     from earthspin.sky.iau import Nutation
 
     start, end = given["times"].span()
-    return Nutation(start, end, given["times"].size)
+    choice = given.get("chosen-nutation")
+    if choice is not None and not choice.settings:
+        return None
+    return Nutation(start, end, given["times"].size, **(choice.settings if choice else {}))
 
 
 def _why_not(scene: Scene) -> str | None:
@@ -32,6 +35,7 @@ NUTATION = Part(
     does="IAU 2000A nutation, one node a day, for the true equator",
     function="earthspin.scene.parts.nutation_nodes:nutation",
     needs=("times",),
+    uses=("chosen-nutation",),
     keys=("equator", "body"),
     left_out=_why_not,
 )

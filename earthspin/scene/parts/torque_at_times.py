@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from earthspin.dataset import Variable, with_error
 from earthspin.errors import SceneError
 from earthspin.scene.part import Part
+from earthspin.scene.parts.conditions import asked_angle
 from earthspin.units import TimeGrid, TimeList, time_grid
 
 if TYPE_CHECKING:
@@ -74,7 +75,11 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
     positions = sky.ephemeris.positions(sky.targets, sky.centre, now)
     names = list(sky.targets)
     seen = {name: spherical(rotate(equator, positions[name])) for name in names}
-    kernel_error = {name: sky.ephemeris.error(sky.targets[name]) for name in names}
+    choice = given.get("chosen-nutation")
+    turned = 0.0 if choice is None else choice.error
+    bounds = {name: sky.ephemeris.error(sky.targets[name]) for name in names}
+    kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
+    _check_accuracy(scene, max(angle for angle, _ in kernel_error.values()))
 
     def stack(values: list[Any], *dims: str) -> xr.DataArray:
         return xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
@@ -94,7 +99,7 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
         )
         for p in scene.perturbers
     ]
-    return build(
+    result = build(
         "torque-series",
         TORQUE_SERIES.gives,
         {
@@ -114,6 +119,26 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
         },
         frame=f"{scene.equator} equator and equinox of date",
     )
+    result["direction_error"].attrs |= {
+        "method": choice.words if choice else f"{scene.equator} equator, to the last digit",
+        "evaluations": now.size * len(names) + (choice.evaluations if choice else 0),
+    }
+    return result
+
+
+def _check_accuracy(scene: Scene, best: float) -> None:
+    """Refuse directions that the kernel does not know so well, rad."""
+    from earthspin.constants import ARCSEC
+    from earthspin.errors import AccuracyError
+
+    asked = asked_angle(scene)
+    if asked is not None and best > asked:
+        raise AccuracyError(
+            asked * 1e3 / ARCSEC,
+            best * 1e3 / ARCSEC,
+            "mas",
+            "that is what the kernel is known to; ask for less",
+        )
 
 
 def _norm(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -137,8 +162,8 @@ TORQUE_SERIES = Part(
     does="declination, distance and torque of each perturber at every time",
     function="earthspin.scene.parts.torque_at_times:torque_series",
     needs=("times", "ephemeris"),
-    uses=("nutation",),
-    keys=("body", "perturbers", "ephemeris", "equator"),
+    uses=("nutation", "chosen-nutation"),
+    keys=("body", "perturbers", "ephemeris", "equator", "accuracy"),
     gives={
         "right_ascension": Variable(_SERIES, "deg", "right ascension, geometric"),
         "declination": Variable(_SERIES, "deg", "declination, geometric"),
@@ -146,7 +171,7 @@ TORQUE_SERIES = Part(
         "torque": Variable((*_SERIES, "component"), "N m", "torque on the bulge"),
         **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
         "direction_error": Variable(
-            ("perturber",), "deg", "bound on right ascension and declination from the kernel"
+            ("perturber",), "deg", "bound on right ascension and declination"
         ),
         "distance_error": Variable(("perturber",), "m", "bound on the distance from the kernel"),
     },
