@@ -51,7 +51,7 @@ def test_the_floor_of_the_pole_is_the_error_without_a_request(body: str) -> None
     pulls = ("sun", "moon") if body == "earth" else ("sun",)
     plain = earthspin.run(_pole(None, body=body, perturbers=pulls))
     assert "method_chosen" not in plain
-    floor = float(plain.direction_error.max())
+    floor = float(plain.direction_error.max())  # that of H
     just = earthspin.run(_pole(f"{1.01 * floor} uarcsec", body=body, perturbers=pulls))
     assert float(just.direction_error.max()) <= 1.01 * floor
     assert float(just.error_asked) == pytest.approx(1.01 * floor, rel=1e-12)
@@ -60,6 +60,16 @@ def test_the_floor_of_the_pole_is_the_error_without_a_request(body: str) -> None
         earthspin.run(_pole(f"{0.9 * floor} uarcsec", body=body, perturbers=pulls))
     assert refused.value.best == pytest.approx(floor / 1e3, rel=1e-3)
     assert refused.value.unit == "mas"
+
+
+def test_a_body_known_exactly_has_its_floor_far_below_the_usual_error() -> None:
+    exact = earthspin.EARTH.replace(j2=1.08e-3, dynamical_flattening=3.27e-3)
+    with pytest.raises(AccuracyError) as refused:
+        earthspin.run(_pole("1e-9 mas", body=exact))
+    floor = refused.value.best
+    assert floor < 2e-5 < float(earthspin.run(_pole(None, body=exact)).direction_error.max()) / 1e3
+    just = earthspin.run(_pole(f"{1.02 * floor} mas", body=exact))
+    assert float(just.direction_error.max()) / 1e3 == pytest.approx(floor)
 
 
 def test_a_rate_just_above_the_floor_is_given() -> None:

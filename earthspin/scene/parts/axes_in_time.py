@@ -119,7 +119,8 @@ def pole(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     found = _directions(scene, given, given["axis-path"], now)
     asked = asked_angle(scene)
     if asked is not None and found.error.max() > asked and given.get("chosen-windows"):
-        found = _directions(scene, given, _follow(scene, given, None), now)
+        usual = _directions(scene, given, _follow(scene, given, None), now)
+        found = min(found, usual, key=lambda directions: float(directions.error.max()))
     _check_accuracy(asked, float(found.error.max()))
     result = build(
         "pole",

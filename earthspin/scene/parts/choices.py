@@ -21,7 +21,7 @@ MARGIN = 0.99
 
 
 def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> Choice | None:
-    """Cheapest windows of the pole, or None where the sky was not measured."""
+    """Cheapest windows of the pole, or the most accurate; None where the sky was not measured."""
     from earthspin.bodies import BODIES, PLANETS
     from earthspin.constants import DAY
     from earthspin.mass.inertia import inverse_polar_moment
@@ -46,7 +46,8 @@ def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> Choice | None:
     )
     known = body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
     share = MARGIN if known else MARGIN / math.sqrt(2)
-    return cheapest(window_choices(turning, first * DAY, last * DAY), asked * share)
+    menu = window_choices(turning, first * DAY, last * DAY)
+    return cheapest(menu, asked * share) or min(menu, key=lambda c: c.error, default=None)
 
 
 def chosen_average(scene: Scene, given: Mapping[str, Any]) -> Choice | None:
