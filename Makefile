@@ -25,6 +25,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/torque_series.py
 	$(BIN)/python tests/benchmarks/report_process.py
 	$(BIN)/python tests/benchmarks/pole.py
+	$(BIN)/python tests/benchmarks/leaving_out.py
 
 clean:
 	rm -rf $(VENV) report build dist docs/_build
