@@ -21,6 +21,10 @@ from earthspin.rotor.moments import Moments, finite
 
 FloatArray = NDArray[np.float64]
 
+#: What the closed form keeps, inputs taken as exact: relative to the largest angular velocity, and
+#: of the elements of the attitude. Measured: 2e-14 (`python -m tests.rotor.accuracy 600`).
+CLOSED_FORM_ERROR = 1e-13
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FreeRotation:

@@ -61,9 +61,15 @@ QUESTIONS: dict[str, Question] = {
         accuracy="relative",
     ),
     "torque": Question(wants=("torque-series", "series-accuracy"), accuracy="angle"),
-    "free-rotor": Question(wants=("free-rotation", "poinsot"), tables=("rotor",)),
-    "top": Question(wants=("heavy-top",), tables=("top",)),
-    "spheroid": Question(wants=("spheroid-field",), tables=("spheroid",)),
+    "free-rotor": Question(
+        wants=("free-rotation", "rotation-accuracy", "poinsot"),
+        tables=("rotor",),
+        accuracy="relative",
+    ),
+    "top": Question(wants=("heavy-top", "top-accuracy"), tables=("top",), accuracy="relative"),
+    "spheroid": Question(
+        wants=("spheroid-field", "field-accuracy"), tables=("spheroid",), accuracy="relative"
+    ),
     "wobble": Question(
         wants=("wobble-ladder", "interior-response", "wobble-sensitivity", "observed-wobble"),
         tables=("wobble",),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import earthspin
-from earthspin import AccuracyError, Scene
+from earthspin import AccuracyError, Scene, load_scene
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.scene.choosing import (
     DATA,
@@ -144,6 +144,18 @@ def test_errors_of_windows_fall_to_the_floor_and_grow_with_the_span() -> None:
     )
     assert all(near[words] <= far[words] <= beyond[words] for words in near)
     assert min(far.values()) < 0.01e-6 * ARCSEC < 1 * ARCSEC < max(far.values())
+
+
+@pytest.mark.parametrize("scene", ["free-rotor", "top-cusp", "spheroid"])
+def test_a_closed_form_keeps_what_it_states_and_refuses_less(scene: str) -> None:
+    floor = float(earthspin.run(load_scene(scene, {"accuracy": 1e-3})).error_estimated)
+    assert 1e-14 < floor < 1e-11
+    just = earthspin.run(load_scene(scene, {"accuracy": floor}))
+    assert float(just.error_asked) == floor
+    assert int(just.evaluations) > 1
+    with pytest.raises(AccuracyError) as refused:
+        earthspin.run(load_scene(scene, {"accuracy": 0.9 * floor}))
+    assert refused.value.best == floor
 
 
 def test_the_cheapest_of_the_good_is_chosen() -> None:

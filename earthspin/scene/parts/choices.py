@@ -110,6 +110,51 @@ def series_accuracy(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     return _report(SERIES_ACCURACY, given["torque-series"].direction_error, asked_angle(scene))
 
 
+def rotation_accuracy(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Asked and kept: by the closed form of the free rotor."""
+    from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
+
+    size = given["free-rotation"].attitude.size // 4
+    return _closed_form(scene, ROTATION_ACCURACY, "Jacobi's closed form", CLOSED_FORM_ERROR, size)
+
+
+def top_accuracy(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Asked and kept: by the closed form of the heavy top."""
+    from earthspin.scene.parts.tops import TOP
+    from earthspin.scene.tables import read_table
+    from earthspin.top.rounding import error_bound
+    from earthspin.top.start import HeavyTop
+
+    settings = read_table(TOP, scene)
+    times = settings.pop("times")
+    bound = error_bound(HeavyTop(**settings), times)
+    return _closed_form(scene, TOP_ACCURACY, "elliptic functions", bound, times.size)
+
+
+def field_accuracy(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
+    """Asked and kept: by the closed form of the spheroid's field."""
+    from earthspin.mass.spheroid import CLOSED_FORM_ERROR
+
+    size = given["spheroid-field"].sizes["point"]
+    return _closed_form(scene, FIELD_ACCURACY, "exact closed form", CLOSED_FORM_ERROR, size)
+
+
+def _closed_form(
+    scene: Scene, part: Part, words: str, bound: float, evaluations: int
+) -> xr.Dataset:
+    """Report of a method without settings, or a refusal."""
+    import xarray as xr
+
+    from earthspin.errors import AccuracyError
+
+    if bound > scene.accuracy:
+        raise AccuracyError(
+            scene.accuracy, bound, "(relative)", "no float of 64 bits carries more; ask for less"
+        )
+    error = xr.DataArray(bound, attrs={"method": words, "evaluations": evaluations})
+    return _report(part, error, float(scene.accuracy))
+
+
 def _report(part: Part, error: xr.DataArray, asked: float | None) -> xr.Dataset:
     from earthspin.dataset import build, si
 
@@ -171,6 +216,7 @@ POLE_ACCURACY = Part(
     does="accuracy of the pole: asked, estimated, and the method chosen",
     function="earthspin.scene.parts.choices:pole_accuracy",
     needs=("pole",),
+    keys=("accuracy",),
     gives=_gives("uas", "in direction"),
     left_out=without_accuracy,
 )
@@ -180,6 +226,7 @@ RATE_ACCURACY = Part(
     does="accuracy of the rate: asked, estimated, and the method chosen",
     function="earthspin.scene.parts.choices:rate_accuracy",
     needs=("mean-rates",),
+    keys=("accuracy",),
     gives=_gives("1", "relative, of the rate by all perturbers"),
     left_out=without_accuracy,
 )
@@ -189,6 +236,37 @@ SERIES_ACCURACY = Part(
     does="accuracy of the directions: asked, estimated, and the method chosen",
     function="earthspin.scene.parts.choices:series_accuracy",
     needs=("torque-series",),
+    keys=("accuracy",),
     gives=_gives("mas", "in direction"),
+    left_out=without_accuracy,
+)
+
+ROTATION_ACCURACY = Part(
+    name="rotation-accuracy",
+    does="accuracy of the rotation: asked, and what the closed form keeps",
+    function="earthspin.scene.parts.choices:rotation_accuracy",
+    needs=("free-rotation",),
+    keys=("accuracy",),
+    gives=_gives("1", "relative, of angular velocity and attitude"),
+    left_out=without_accuracy,
+)
+
+TOP_ACCURACY = Part(
+    name="top-accuracy",
+    does="accuracy of the top: asked, and what the closed form keeps on this start",
+    function="earthspin.scene.parts.choices:top_accuracy",
+    needs=("heavy-top",),
+    keys=("tables", "accuracy"),
+    gives=_gives("1", "relative, of angles, angular velocity and attitude"),
+    left_out=without_accuracy,
+)
+
+FIELD_ACCURACY = Part(
+    name="field-accuracy",
+    does="accuracy of the field: asked, and what the closed form keeps",
+    function="earthspin.scene.parts.choices:field_accuracy",
+    needs=("spheroid-field",),
+    keys=("accuracy",),
+    gives=_gives("1", "relative, of potential, attraction and torque"),
     left_out=without_accuracy,
 )

