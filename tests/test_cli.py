@@ -49,6 +49,20 @@ def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     assert "<svg" not in (tmp_path / "index.html").read_text()
 
 
+@pytest.mark.parametrize("command", [["scenes"], ["run", "wobble"], ["run", "pole"]])
+def test_a_reader_who_leaves_is_no_error(command: list[str]) -> None:
+    writer = subprocess.Popen(
+        [sys.executable, "-m", "earthspin", *command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert writer.stdout is not None
+    writer.stdout.close()
+    _, complaint = writer.communicate()
+    assert complaint == b""
+    assert writer.returncode == 141
+
+
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_run_without_out_writes_nothing(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, scene: str

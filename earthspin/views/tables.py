@@ -13,8 +13,6 @@ import xarray as xr
 from earthspin.constants import DAY, P_A_RATE, TROPICAL_YEAR
 from earthspin.scene.parts import PARTS
 
-WIDTH = 100
-
 
 @dataclass(frozen=True)
 class Table:
@@ -390,10 +388,11 @@ def run_times(result: xr.Dataset, parts: tuple[str, ...]) -> str:
 def print_tables(result: xr.Dataset) -> None:
     """Print the tables of a result, and what each cost, to the terminal."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table as RichTable
 
-    console = Console(width=None if _is_terminal() else WIDTH, highlight=False)
+    from earthspin.views.terminal import Terminal
+
+    console = Terminal()
     for table in tables_for(result):
         shown = RichTable(
             title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
@@ -406,9 +405,3 @@ def print_tables(result: xr.Dataset) -> None:
         if table.note:
             console.print(table.note, style="dim")
         console.print(f"[{run_times(result, table.parts)}]\n", style="dim", markup=False)
-
-
-def _is_terminal() -> bool:
-    import sys
-
-    return sys.stdout.isatty()
