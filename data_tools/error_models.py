@@ -61,7 +61,7 @@ CYCLES = (3, 4, 5, 6, 7, 8)
 #: others (29, 73) worse by orders of magnitude.
 STEPS = (1, 2, 5, 9, 19, 25, 31, 47, 56, 88, 97, 103, 129, 135, 157, 168, 201, 217, 233, 257, 293)
 
-NUTATION_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)  # days
+NUTATION_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 36.0, 64.0)  # days
 NUTATION_SPAN = (-36525.0, 36525.0)
 
 SPINNING = (EARTH, MARS)
