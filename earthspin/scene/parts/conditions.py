@@ -28,6 +28,13 @@ def needs_sun_and_moon_alone(scene: Scene) -> str | None:
     return needs_iau(scene)
 
 
+def needs_nonrigid(scene: Scene) -> str | None:
+    """Leave out the response of the inside where it is switched off."""
+    if scene.compute != "iau" and "nonrigid" not in (scene.effects or ()):
+        return "the non-rigid response is switched off"
+    return needs_iau(scene)
+
+
 def without_accuracy(scene: Scene) -> str | None:
     """Leave out what chooses settings where no accuracy is asked for."""
     return "no accuracy is asked for: the finest settings" if scene.accuracy is None else None
