@@ -181,15 +181,23 @@ class Nutation:
     size : int, optional
         How many epochs there will be; where they are fewer than the nodes, nothing is
         interpolated.
+    spacing : float
+        Days between nodes.
     """
 
-    def __init__(self, start: float, end: float, size: int | None = None) -> None:
-        if size is not None and size * NUTATION_NODE_STEP < end - start:
+    def __init__(
+        self,
+        start: float,
+        end: float,
+        size: int | None = None,
+        spacing: float = NUTATION_NODE_STEP,
+    ) -> None:
+        if size is not None and size * spacing < end - start:
             self._angles = _nutation_angles
             return
-        margin = _MARGIN * NUTATION_NODE_STEP
-        count = int(np.ceil((end - start + 2 * margin) / NUTATION_NODE_STEP)) + 1
-        nodes = start - margin + NUTATION_NODE_STEP * np.arange(count)
+        margin = _MARGIN * spacing
+        count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
+        nodes = start - margin + spacing * np.arange(count)
         self._angles = make_interp_spline(
             nodes, _nutation_angles(np.asarray(nodes)), k=_SPLINE_DEGREE
         )
