@@ -1,4 +1,5 @@
-"""Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32."""
+"""Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32;
+the pole in long double."""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from earthspin.checks import stored
-from earthspin.checks.ladders import of_free_rotor, of_spheroid, of_top
+from earthspin.checks.ladders import of_free_rotor, of_pole, of_spheroid, of_top
+from earthspin.sky import iau
 
 Numbers = Sequence[Any]
 Made = tuple[Mapping[str, Any], dict[str, Any]]
@@ -71,10 +73,25 @@ def spheroid() -> Made:
         }
 
 
+def pole() -> Made:
+    """Figure axis under Sun and Moon."""
+    from data_tools.pole_reference import figure_axis
+
+    momentum, figure = figure_axis()
+    start = iau.true_pole(np.array([0.0]))[0]
+    return of_pole.INPUTS, {
+        "days": _pairs(of_pole.days().tolist()),
+        "start_axis": _pairs(start.tolist()),
+        "start_momentum": _pairs(list(momentum)),
+        "figure": _pairs([list(row) for row in figure]),
+    }
+
+
 MAKERS: dict[str, Callable[[], Made]] = {
     "free-rotor": free_rotor,
     "top": top,
     "spheroid": spheroid,
+    "pole": pole,
 }
 
 
