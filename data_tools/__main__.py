@@ -5,13 +5,17 @@ from __future__ import annotations
 import argparse
 import sys
 
-from data_tools import hashes, kernels, references, windows
+from data_tools import accuracy_pages, hashes, kernels, references, windows
 from earthspin.errors import EarthspinError
 
 VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
+    "accuracy-pages": (
+        accuracy_pages.main,
+        "measure error against run time, for docs/work_precision.md",
+    ),
     "references": (references.main, "make the stored references of the checks again"),
 }
 #: Verbs that compare with a kernel.

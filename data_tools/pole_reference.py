@@ -33,7 +33,7 @@ TAPER_DAYS, TAPER_POWER = 60.0, 12
 
 
 def figure_axis() -> tuple[LongArray, LongArray]:
-    """Angular momentum at the start, (3,), and the figure axis at the times of `of_pole`, (n, 3)."""
+    """Angular momentum at the start, and the figure axis at the times of `of_pole`."""
     axis = iau.true_pole(np.array([0.0]))[0].astype(LONG)
     momentum = slow_start(axis, STEP)
     path = integrate(momentum, axis, of_pole.DAYS, STEP)
@@ -76,7 +76,7 @@ def integrate(momentum: LongArray, axis: LongArray, days: float, step: float) ->
     block = round(16 / step)
     for first in range(0, count, block):
         size = min(block, count - first)
-        tides = tides_of_steps(step * np.arange(first, first + size), step)
+        tides = tides_of_steps(np.asarray(step * np.arange(first, first + size)), step)
         for number in range(size):
             grown = increment(state, [rows[number] for rows in tides], LONG(step) * DAY) + carry
             after = state + grown
@@ -113,22 +113,20 @@ def increment(state: LongArray, tides: list[LongArray], length: Any) -> LongArra
 
 
 def _slope(tide: LongArray, state: LongArray) -> LongArray:
-    l, d = state[:3], state[3:]
-    fx, fy, fz = l - d
-    qx, qy, qz = tide @ (l - d)
+    (lx, ly, lz), (dx, dy, dz) = state[:3], state[3:]
+    fx, fy, fz = state[:3] - state[3:]
+    qx, qy, qz = tide @ (state[:3] - state[3:])
     torque = _torque_scale() * np.array([qy * fz - qz * fy, qz * fx - qx * fz, qx * fy - qy * fx])
-    turn = np.array(
-        [l[1] * d[2] - l[2] * d[1], l[2] * d[0] - l[0] * d[2], l[0] * d[1] - l[1] * d[0]]
-    )
+    turn = np.array([ly * dz - lz * dy, lz * dx - lx * dz, lx * dy - ly * dx])
     return np.concatenate([torque, torque + turn / _kappa()])
 
 
 def _kappa() -> Any:
-    return (1 - LONG(of_pole.INPUTS["h"])) / LONG(of_pole.INPUTS["spin_rate"])
+    return (1 - LONG(of_pole.H)) / LONG(of_pole.SPIN)
 
 
 def _torque_scale() -> Any:
-    return 3 * LONG(of_pole.INPUTS["h"]) / LONG(of_pole.INPUTS["spin_rate"])
+    return 3 * LONG(of_pole.H) / LONG(of_pole.SPIN)
 
 
 # --- the sky -----------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
-"""Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32;
-the pole in long double."""
+"""Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32.
+
+The pole is made in long double, by `data_tools.pole_reference`.
+"""
 
 from __future__ import annotations
 

@@ -211,7 +211,6 @@ def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
 def _without_garbage_collection() -> Iterator[None]:
     """Keep the collector from running in the middle of a sample."""
     running = gc.isenabled()
-    gc.collect()
     gc.disable()
     try:
         yield
@@ -442,34 +441,48 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
     ]
     if not rows:
         return f"For {subject}: none is of use."
-    steps = _steps(rows)
-    unit = "" if ladder.unit == "1" else f" {ladder.unit}"
     parts = [
-        f"within {_decade(exponent)}{unit} use {name}{f' ({words})' if words else ''}, "
-        f"{duration(seconds)}"
-        for exponent, (_, seconds, name, words) in steps
+        f"within {_plain(level)}{shown_unit(ladder.unit)} use "
+        f"{name}{f' ({words})' if words else ''}, {duration(seconds)}"
+        for level, (_, seconds, name, words) in _steps(rows)
     ]
     return f"For {subject}: " + "; ".join(parts) + "."
 
 
-def _steps(rows: list[tuple[float, float, str, str]]) -> list[tuple[int, Any]]:
-    """Cheapest row for each decade of error, each once, at the finest decade that it meets."""
-    finest = math.ceil(math.log10(min(row[0] for row in rows)) - 1e-9)
-    coarsest = math.ceil(math.log10(max(row[0] for row in rows)) - 1e-9)
-    found: dict[Any, int] = {}
-    for exponent in range(coarsest, finest - 1, -1):
-        enough = [row for row in rows if row[0] <= 10.0**exponent * (1 + 1e-9)]
-        found[min(enough, key=lambda row: row[1])] = exponent
-    steps = [(exponent, row) for row, exponent in found.items()]
+def _steps(rows: list[tuple[float, float, str, str]]) -> list[tuple[float, Any]]:
+    """Cheapest row for each level of error, each once, at the finest level that it meets."""
+    found: dict[Any, float] = {}
+    for level in _levels(min(row[0] for row in rows), max(row[0] for row in rows)):
+        enough = [row for row in rows if row[0] <= level]
+        found[min(enough, key=lambda row: row[1])] = level
+    steps = [(level, row) for row, level in found.items()]
     if len(steps) <= MOST_STEPS:
         return steps
     chosen = np.linspace(0, len(steps) - 1, MOST_STEPS).round().astype(int)
     return [steps[place] for place in chosen]
 
 
-def _decade(exponent: int) -> str:
-    """A power of ten as one would write it."""
-    return f"{10.0**exponent:g}" if -3 <= exponent <= 3 else f"1e{exponent:d}"
+def _levels(least: float, largest: float) -> list[float]:
+    """Powers of ten that frame errors, falling; with 2 and 5 between where there are few."""
+    between = (5.0, 2.0, 1.0) if largest < 100 * least else (1.0,)
+    powers = range(math.floor(math.log10(largest)) + 1, math.floor(math.log10(least)) - 1, -1)
+    levels = [float(f"{digit:g}e{power}") for power in powers for digit in between]
+    above = [level for level in levels if level >= largest]
+    return [level for level in levels if least <= level <= min(above)]
+
+
+def shown_unit(unit: str) -> str:
+    """A unit as it stands behind a number, with a space; nothing for pure numbers."""
+    return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
+
+
+def _plain(level: float) -> str:
+    """A level of error as one would write it."""
+    return (
+        f"{level:g}"
+        if 1e-3 <= level <= 1e3
+        else f"{level:.0e}".replace("e-0", "e-").replace("e+0", "e")
+    )
 
 
 def duration(seconds: float) -> str:
@@ -481,5 +494,7 @@ def duration(seconds: float) -> str:
 
 
 def _two_digits(value: float) -> str:
-    digits = max(0, 1 - math.floor(math.log10(value))) if value > 0 else 0
+    if not value > 0:
+        return "0"
+    digits = max(0, 1 - math.floor(math.log10(float(f"{value:.1e}"))))
     return f"{value:.{digits}f}"

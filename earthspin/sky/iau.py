@@ -7,7 +7,9 @@ differ by 2 ms, 1e-10 arcsec of precession).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import erfa
 import numpy as np
@@ -23,6 +25,21 @@ ComplexArray = NDArray[np.complex128]
 NUTATION_NODE_STEP = 1.0
 _SPLINE_DEGREE = 5
 _MARGIN = 4  # nodes beyond each end, so that every time lies well inside
+
+
+class NutationModel(NamedTuple):
+    """A series of nutation: its function in ERFA, and how many terms it adds up."""
+
+    series: Callable[..., tuple[FloatArray, FloatArray]]
+    terms: int
+
+
+#: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its short form, good
+#: to a milliarcsecond (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
+NUTATION_MODELS = {
+    "2000A": NutationModel(erfa.nut06a, 1365),
+    "2000B": NutationModel(erfa.nut00b, 77),
+}
 
 
 def mean_equator(days: FloatArray) -> FloatArray:
@@ -172,7 +189,8 @@ class Nutation:
     """Nutation IAU 2000A adapted to IAU 2006, interpolated between nodes.
 
     `erfa.nut06a` costs some 30 us an epoch, a quintic spline through one node a day a few
-    tenths of one, and between the nodes it is off by 7e-12 rad at most.
+    tenths of one, and between the nodes it is off by 7e-12 rad at most. For less accuracy there
+    are wider spacings, and the 77 terms of IAU 2000B.
 
     Parameters
     ----------
@@ -181,6 +199,8 @@ class Nutation:
     size : int, optional
         How many epochs there will be; where they are fewer than the nodes, nothing is
         interpolated.
+    model : str
+        One of `NUTATION_MODELS`.
     spacing : float
         Days between nodes.
     """
@@ -190,17 +210,22 @@ class Nutation:
         start: float,
         end: float,
         size: int | None = None,
+        *,
+        model: str = "2000A",
         spacing: float = NUTATION_NODE_STEP,
     ) -> None:
-        if size is not None and size * spacing < end - start:
-            self._angles = _nutation_angles
-            return
+        series = NUTATION_MODELS[model].series
+
+        def exact(days: FloatArray) -> FloatArray:
+            return np.stack(series(J2000_JD, days), axis=-1)
+
         margin = _MARGIN * spacing
         count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
-        nodes = start - margin + spacing * np.arange(count)
-        self._angles = make_interp_spline(
-            nodes, _nutation_angles(np.asarray(nodes)), k=_SPLINE_DEGREE
-        )
+        #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
+        self.angles: Callable[[FloatArray], FloatArray] = exact
+        if size is None or size > count:
+            nodes = start - margin + spacing * np.arange(count)
+            self.angles = make_interp_spline(nodes, exact(np.asarray(nodes)), k=_SPLINE_DEGREE)
 
     def true_equator(self, days: FloatArray) -> FloatArray:
         """GCRS to true equator and equinox of date.
@@ -213,12 +238,7 @@ class Nutation:
         -------
         ndarray, shape (n, 3, 3)
         """
-        dpsi, deps = self._angles(days).T
+        dpsi, deps = self.angles(days).T
         mean_obliquity = erfa.obl06(J2000_JD, days)
         nutation = erfa.numat(mean_obliquity, dpsi, deps)
         return np.asarray(erfa.rxr(nutation, mean_equator(days)))
-
-
-def _nutation_angles(days: FloatArray) -> FloatArray:
-    """Nutation in longitude and obliquity, rad, shape (n, 2) (`erfa.nut06a`)."""
-    return np.stack(erfa.nut06a(J2000_JD, days), axis=-1)

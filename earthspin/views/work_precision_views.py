@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin import storage
-from earthspin.checks.work_precision import duration
+from earthspin.checks.work_precision import duration, shown_unit
 from earthspin.views.tables import WIDTH, Table
 
 if TYPE_CHECKING:
@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 _COLOURS = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F3C8D", "#666666",
 )  # fmt: skip
+#: Below this ratio of errors the axis shows more than powers of ten.
+FEW_DECADES = 100
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
-_UNITS = {"uas": "µas"}
 
 
 def accuracy_table(result: xr.Dataset) -> Table:
@@ -42,7 +43,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
             rows.append(_row(str(name) if rung == 0 else "", one.isel(rung=rung)))
     return Table(
         result.attrs["quantity"],
-        ("method", "setting", f"error{f', {unit}' if unit else ''}", "run time", "±", "calls", ""),
+        ("method", "setting", f"error{',' if unit else ''}{unit}", "run time", "±", "calls", ""),
         rows,
         _note(result),
         (),
@@ -72,7 +73,7 @@ def _note(result: xr.Dataset) -> str:
     words = [
         f"{_capital(result.attrs['problem'])}.",
         f"Reference: {result.attrs['reference']}; good to "
-        f"{result.attrs['reference_error']:.1g}{f' {unit}' if unit else ''}.",
+        f"{result.attrs['reference_error']:.1g}{unit}.",
         "Run times are medians, ± half their range.",
     ]
     if result.attrs["skipped"]:
@@ -81,7 +82,7 @@ def _note(result: xr.Dataset) -> str:
         one = result.isel(method=int(place))
         words.append(
             f"FAILS: {one['method'].item()}, error {float(one.error[-1]):.2g}, bound "
-            f"{float(one.bound):.2g}{f' {unit}' if unit else ''}."
+            f"{float(one.bound):.2g}{unit}."
         )
     return " ".join(words)
 
@@ -91,8 +92,8 @@ def _capital(words: str) -> str:
 
 
 def _unit(result: xr.Dataset) -> str:
-    unit = str(result.error.attrs["units"])
-    return "" if unit == "1" else _UNITS.get(unit, unit)
+    """Unit of the error as it stands behind a number, with a space."""
+    return shown_unit(str(result.error.attrs["units"]))
 
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
@@ -131,6 +132,8 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
+    from matplotlib.ticker import LogLocator
+
     from earthspin.views.figures import _axes
 
     ax = _axes(ax, figsize=(7.5, 4.4))
@@ -154,7 +157,11 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         )
     _draw_front(result, ax)
     ax.set_xlabel("run time (s)")
-    ax.set_ylabel(f"error ({unit})" if unit else "relative error")
+    ax.set_ylabel(f"error ({unit.strip()})" if unit else "relative error")
+    if float(result.error.max() / result.error.min()) < FEW_DECADES:
+        ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter("")
     ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
     return ax
 

@@ -31,14 +31,14 @@ def ladder(quick: bool) -> Ladder:
     return Ladder(
         quantity="chandler",
         unit="d",
-        problem=f"period of a randomly driven wobble ({PERIOD:g} d, Q = {QUALITY:g}) from a record "
-        "with seasons, drift and background, one value in 10 d; the error is the rms over "
-        f"{records} simulated records (so it is known to {100 / np.sqrt(2 * records):.0f} per cent)",
+        problem=f"period of a randomly driven wobble ({PERIOD:g} d, Q = {QUALITY:g}) from a "
+        "record with seasons, drift and background, one value in 10 d; the error is the rms over "
+        f"{records} simulated records, known to {100 / np.sqrt(2 * records):.0f} per cent",
         subject="the period of the free wobble from one record",
         reference="the period that the records were simulated with",
         reference_error=1e-9 * DAY,
         methods=_methods(years, records, QUICK_EXCESS if quick else 1.0),
-        useful=30 * DAY,
+        useful=10 * DAY,
         error=lambda periods: float(np.sqrt(np.mean((periods - PERIOD) ** 2))) * DAY,
     )
 

@@ -121,7 +121,7 @@ def _methods(span: float, steps: tuple[float, ...]) -> list[Method]:
         )
     ]
     back = [
-        _method(name, FROM, steps, _from(scheme, span))
+        _method(name, FROM, steps if name == "exact step" else steps[-3:], _from(scheme, span))
         for name, scheme in zip(
             ("exact step", "explicit Euler"),
             map(FROM_EXCITATION.__getitem__, ("exact", "explicit euler")),
@@ -146,7 +146,7 @@ def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Me
 
 def _to(scheme: Callable[..., Complex], span: float, name: str) -> RunAt:
     def run_at(step: float) -> Run:
-        t = step * np.arange(round(span / step) + 1)
+        t = np.asarray(step * np.arange(round(span / step) + 1))
         p, s = true_polar_motion(t), frequency()
         # A central difference speaks for the two intervals about its sample.
         wide = 2 * step if name == "central difference" else step
@@ -158,7 +158,7 @@ def _to(scheme: Callable[..., Complex], span: float, name: str) -> RunAt:
 
 def _from(scheme: Callable[..., Complex], span: float) -> RunAt:
     def run_at(step: float) -> Run:
-        t = step * np.arange(round(span / step) + 1)
+        t = np.asarray(step * np.arange(round(span / step) + 1))
         chi, true, s = true_mean(t[:-1], step), true_polar_motion(t), frequency()
         return lambda: ((scheme(chi, step, s, START), true), t.size)
 

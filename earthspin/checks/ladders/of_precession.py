@@ -16,7 +16,7 @@ from earthspin.constants import DAY, JULIAN_YEAR
 FloatArray = NDArray[np.float64]
 
 #: Epochs about which is averaged, d from J2000.0: no two meet the same Moon.
-EPOCHS = np.arange(-6, 7) * 1237.0
+EPOCHS: FloatArray = np.asarray(np.arange(-6, 7) * 1237.0)
 #: Points along the four angles for the mean of all time; fewer change it by 1e-14.
 TORUS = (24, 16, 24, 16)
 #: Turns of the node, and days between samples, from coarse to fine.
@@ -94,7 +94,7 @@ def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArra
 def _daily_push(times: FloatArray) -> FloatArray:
     """Push at whole days, from a series that is made once."""
     first, series = _series()
-    return series[np.rint(times / DAY).astype(int) - first]
+    return np.asarray(series[np.rint(times / DAY).astype(int) - first])
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -82,7 +83,7 @@ def _methods(place: FloatArray, quick: bool) -> list[Method]:
         Method(
             "zonal series",
             False,
-            [setting(f"to degree {n}", lambda r, n=n: _series(r, n)) for n in degrees],
+            [setting(f"to degree {n}", partial(_series, n_max=n)) for n in degrees],
         ),
         Method("MacCullagh", False, [setting("", _maccullagh)]),
         Method(
@@ -96,7 +97,7 @@ def _methods(place: FloatArray, quick: bool) -> list[Method]:
         Method(
             "sum over the body",
             False,
-            [setting(f"{n}³ cells", lambda r, n=n: _sum(r, n)) for n in cells],
+            [setting(f"{n}³ cells", partial(_sum, cells=n)) for n in cells],
         ),
     ]
 

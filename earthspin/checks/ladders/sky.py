@@ -20,7 +20,8 @@ def body() -> Body:
     """What is pulled: the body that a scene has by default."""
     from earthspin.scene.spec import Scene
 
-    return Scene(compute="pole").body
+    default: Body = Scene(compute="pole").body
+    return default
 
 
 def centre() -> int:
