@@ -442,7 +442,7 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
     if not rows:
         return f"For {subject}: none is of use."
     parts = [
-        f"within {_plain(level)}{shown_unit(ladder.unit)} use "
+        f"within {plain(level)}{shown_unit(ladder.unit)} use "
         f"{name}{f' ({words})' if words else ''}, {duration(seconds)}"
         for level, (_, seconds, name, words) in _steps(rows)
     ]
@@ -476,13 +476,13 @@ def shown_unit(unit: str) -> str:
     return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
 
 
-def _plain(level: float) -> str:
-    """A level of error as one would write it."""
-    return (
-        f"{level:g}"
-        if 1e-3 <= level <= 1e3
-        else f"{level:.0e}".replace("e-0", "e-").replace("e+0", "e")
-    )
+def plain(value: float) -> str:
+    """A number to two digits, as one would write it: 0.05, 920, 1e-6, 2.3e5."""
+    value = float(f"{value:.1e}")
+    if 1e-3 <= abs(value) <= 1e4 or value == 0:
+        return f"{value:g}"
+    digits, power = f"{value:.1e}".split("e")
+    return f"{digits.removesuffix('.0')}e{int(power)}"
 
 
 def duration(seconds: float) -> str:

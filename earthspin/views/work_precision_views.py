@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin import storage
-from earthspin.checks.work_precision import duration, shown_unit
+from earthspin.checks.work_precision import duration, plain, shown_unit
 from earthspin.views.tables import WIDTH, Table
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
     return (
         f"{name}{'' if bool(point.ours) or not name else ' (by hand)'}",
         str(point.setting.values),
-        f"{float(point.error):.2g}",
+        plain(float(point.error)),
         duration(float(point.run_time)),
         duration(float(point.run_time_spread)),
         f"{int(point.evaluations):,}",
@@ -73,7 +73,7 @@ def _note(result: xr.Dataset) -> str:
     words = [
         f"{_capital(result.attrs['problem'])}.",
         f"Reference: {result.attrs['reference']}; good to "
-        f"{result.attrs['reference_error']:.1g}{unit}.",
+        f"{plain(result.attrs['reference_error'])}{unit}.",
         "Run times are medians, ± half their range.",
     ]
     if result.attrs["skipped"]:
@@ -81,8 +81,8 @@ def _note(result: xr.Dataset) -> str:
     for place in np.flatnonzero(~result.holds.values):
         one = result.isel(method=int(place))
         words.append(
-            f"FAILS: {one['method'].item()}, error {float(one.error[-1]):.2g}, bound "
-            f"{float(one.bound):.2g}{unit}."
+            f"FAILS: {one['method'].item()}, error {plain(float(one.error[-1]))}, bound "
+            f"{plain(float(one.bound))}{unit}."
         )
     return " ".join(words)
 

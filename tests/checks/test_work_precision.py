@@ -310,6 +310,14 @@ def test_sentence_names_the_cheapest_that_is_good_enough() -> None:
 
 
 @pytest.mark.parametrize(
+    ("value", "words"),
+    [(0.05, "0.05"), (918.0, "920"), (1e-6, "1e-6"), (2.34e5, "2.3e5"), (0.0, "0"), (9.96, "10")],
+)
+def test_numbers_in_words(value: float, words: str) -> None:
+    assert work_precision.plain(value) == words
+
+
+@pytest.mark.parametrize(
     ("seconds", "words"),
     [(2.5e-6, "2.5 µs"), (8.04e-3, "8.0 ms"), (0.9999, "1.0 s"), (31.4, "31 s"), (0.0, "0 µs")],
 )

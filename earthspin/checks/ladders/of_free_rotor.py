@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.stored import Values, attitude_error, load
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import Ladder, Method, Setting, plain
 
 FloatArray = NDArray[np.float64]
 
@@ -60,14 +60,14 @@ def _methods(t: FloatArray, quick: bool) -> list[Method]:
         Method(
             "integrate_rotation",
             True,
-            [Setting(f"DOP853, rtol {rtol:g}", _integrated(t, rtol)) for rtol in fine],
+            [Setting(f"DOP853, rtol {plain(rtol)}", _integrated(t, rtol)) for rtol in fine],
             bound=1e-3 if quick else 1e-9,
         ),
         *(
             Method(
                 f"solve_ivp {name}",
                 False,
-                [Setting(f"rtol {rtol:g}", _by_hand(t, name, rtol)) for rtol in steps],
+                [Setting(f"rtol {plain(rtol)}", _by_hand(t, name, rtol)) for rtol in steps],
             )
             for name, steps in (("RK45", coarse), ("LSODA", coarse), ("Radau", stiff))
         ),

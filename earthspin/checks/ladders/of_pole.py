@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.ladders.sky import CODES, GM, body, centre, kernel
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import Ladder, Method, Setting, plain
 from earthspin.constants import ARCSEC, DAY, J2000_JD
 
 FloatArray = NDArray[np.float64]
@@ -111,7 +111,7 @@ def _methods(true: dict[str, Values], t: FloatArray, end: float, quick: bool) ->
             Method(
                 f"{name} on the pole alone",
                 False,
-                [Setting(f"rtol {r:g}", _by_hand(start, t, name, r)) for r in loose],
+                [Setting(f"rtol {plain(r)}", _by_hand(start, t, name, r)) for r in loose],
             )
             for name in (("LSODA",) if quick else ("RK45", "LSODA", "DOP853"))
         ),

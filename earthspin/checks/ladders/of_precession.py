@@ -69,7 +69,7 @@ def _methods(epochs: FloatArray, quick: bool) -> list[Method]:
         for taper in TAPERS
     ]
     plain = [
-        _setting(f"{years:g} years, 1 d", "plain", years * JULIAN_YEAR, 1, epochs)
+        _setting(f"{years:g} year{'s' * (years > 1)}, 1 d", "plain", years * JULIAN_YEAR, 1, epochs)
         for years in (BY_HAND[1:3] if quick else BY_HAND)
     ]
     return [*ours, Method("plain mean over years", False, plain)]
