@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.ladders import taylor
 from earthspin.checks.ladders.sky import CODES, GM, body, centre, kernel
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting, plain
@@ -68,6 +69,7 @@ def ladder(quick: bool) -> Ladder:
         methods=_methods(true, true["days"].hi[wanted] * DAY, span * DAY, quick),
         error=lambda found: _error(found, figure),
         useful=1e6 * UAS,
+        skipped="" if taylor.is_installed() else "heyoka, which is not installed",
     )
 
 
@@ -115,7 +117,22 @@ def _methods(true: dict[str, Values], t: FloatArray, end: float, quick: bool) ->
             )
             for name in (("LSODA",) if quick else ("RK45", "LSODA", "DOP853"))
         ),
+        *([_peer(start, momentum, t)] if taylor.is_installed() else []),
     ]
+
+
+def _peer(start: FloatArray, momentum: FloatArray, t: FloatArray) -> Method:
+    """Taylor series of angular momentum and figure axis by heyoka."""
+
+    def setting(tolerance: float) -> Setting:
+        return Setting(
+            f"tolerance {plain(tolerance)}",
+            lambda: taylor.figure_axis(
+                momentum, start, t / DAY, h=H, spin_rate=SPIN, tolerance=tolerance
+            ),
+        )
+
+    return Method("Taylor series by heyoka", False, [setting(v) for v in (1e-9, 1e-12, 1e-16)])
 
 
 def _picard(start: FloatArray, t: FloatArray, end: float, length: int, order: int) -> Run:
