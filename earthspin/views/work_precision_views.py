@@ -57,7 +57,7 @@ def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
         if bool(says)
     ]
     return (
-        f"{name}{'' if bool(point.ours) or not name else ' (by hand)'}",
+        f"{name}{'' if bool(point.ours) or not name else ' (other)'}",
         str(point.setting.values),
         plain(float(point.error)),
         duration(float(point.run_time)),
@@ -152,7 +152,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
             lw=0.8,
             alpha=0.9,
             ls="-" if ours else ":",
-            label=f"{name}{'' if ours else ' (by hand)'}",
+            label=str(name),
             zorder=3,
         )
     _draw_front(result, ax)
@@ -162,7 +162,15 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.yaxis.set_major_formatter("{x:g}")
         ax.yaxis.set_minor_formatter("")
-    ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    ax.legend(
+        title="filled: earthspin\nopen: by hand, or a peer",
+        alignment="left",
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        fontsize=8,
+        title_fontsize=8,
+        borderaxespad=0,
+    )
     return ax
 
 
