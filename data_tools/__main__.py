@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from data_tools import error_models, hashes, kernels, windows
+from data_tools import accuracy_pages, error_models, hashes, kernels, references, windows
 from earthspin.errors import EarthspinError
 
 VERBS = {
@@ -13,7 +13,14 @@ VERBS = {
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
+    "accuracy-pages": (
+        accuracy_pages.main,
+        "measure error against run time, for docs/work_precision.md",
+    ),
+    "references": (references.main, "make the stored references of the checks again"),
 }
+#: Verbs that compare with a kernel.
+WITH_KERNEL = ("kernels", "error-models", "windows")
 
 
 def main(words: list[str] | None = None) -> int:
@@ -22,7 +29,7 @@ def main(words: list[str] | None = None) -> int:
     verbs = parser.add_subparsers(dest="verb", required=True)
     for verb, (_, words_of) in VERBS.items():
         one = verbs.add_parser(verb, help=words_of)
-        if verb != "verify":
+        if verb in WITH_KERNEL:
             one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
     given = parser.parse_args(words)
     try:

@@ -1,4 +1,4 @@
-"""The command line: report, run, plan, scenes, info."""
+"""The command line: report, run, plan, accuracy, scenes, info."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0; 2 with one line on stderr if something given is wrong; 130 if
-        interrupted, 141 if whoever read the output has gone.
+        Exit status: 0; 1 if a check fails; 2 with one line on stderr if something given is
+        wrong; 130 if interrupted, 141 if whoever read the output has gone.
     """
     given = _parser().parse_args(arguments)
     try:
-        given.command(given)
+        status = given.command(given)
         sys.stdout.flush()
     except EarthspinError as error:
         print(f"earthspin: {error}", file=sys.stderr)
@@ -54,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"earthspin: the output cannot be written: {error.strerror}", file=sys.stderr)
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return USAGE_ERROR
-    return 0
+    return status or 0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -85,6 +85,12 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("scene", help="name of a shipped scene, or a TOML file")
     _add_settings(plan)
     plan.set_defaults(command=_plan)
+
+    accuracy = commands.add_parser("accuracy", help="measure error against run time")
+    accuracy.add_argument("quantity", nargs="?", metavar="QUANTITY", help="all by default")
+    accuracy.add_argument("--quick", action="store_true", help="short problems, few settings")
+    accuracy.add_argument("--out", metavar="DIR", help="folder for data, figures and a page")
+    accuracy.set_defaults(command=_accuracy)
 
     commands.add_parser("scenes", help="list the shipped scenes").set_defaults(command=_scenes)
     info = commands.add_parser("info", help="versions, kernels and their coverage")
@@ -173,6 +179,23 @@ def _plan(given: argparse.Namespace) -> None:
     print(planned)
     for words in chosen(planned):
         print(f"\nchosen for an accuracy of {planned.scene.accuracy}: {words}")
+
+
+def _accuracy(given: argparse.Namespace) -> int:
+    from earthspin import storage
+    from earthspin.checks.work_precision import QUANTITIES, accuracy
+    from earthspin.views.work_precision_views import print_accuracy, write_accuracy
+
+    if given.out is not None:
+        storage.check_writable(given.out)
+    results = []
+    for quantity in QUANTITIES if given.quantity is None else [given.quantity]:
+        results.append(accuracy(quantity, quick=given.quick))
+        print_accuracy(results[-1:])
+    if given.out is not None:
+        for path in write_accuracy(results, given.out):
+            print(f"wrote {path}")
+    return int(not all(result.holds.all() for result in results))
 
 
 def _scenes(given: argparse.Namespace) -> None:

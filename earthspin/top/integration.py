@@ -26,10 +26,13 @@ class IntegratedMotion(NamedTuple):
         Unit quaternion w, x, y, z, body to inertial.
     omega_body : ndarray, shape (n, 3)
         Angular velocity along the principal axes of the body, rad/s.
+    evaluations : int
+        How often the equations were evaluated.
     """
 
     attitude: FloatArray
     omega_body: FloatArray
+    evaluations: int
 
 
 def integrate_heavy_top(
@@ -80,7 +83,7 @@ def integrate_heavy_top(
         raise EarthspinError(f"the integration of the heavy top stopped: {solution.message}")
     attitude = solution.y[:4].T
     norm = np.sqrt(np.sum(attitude**2, axis=-1, keepdims=True))
-    return IntegratedMotion(attitude / norm, solution.y[4:].T)
+    return IntegratedMotion(attitude / norm, solution.y[4:].T, int(solution.nfev))
 
 
 def _start_attitude(top: HeavyTop) -> FloatArray:

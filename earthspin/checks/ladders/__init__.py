@@ -1,0 +1,1 @@
+"""One ladder per quantity: its methods, their settings, and the reference."""

@@ -1,0 +1,163 @@
+"""A sky whose mean torque is known: Sun on an ellipse, Moon by the main terms of her theory.
+
+Everything hangs on four angles that run evenly: the Moon's elongation D, the mean anomalies of
+Sun (l') and Moon (l), and the Moon's distance from her node (F). The mean of all time is then
+the mean over the torus of the four, for which the trapezoid rule converges faster than any
+power of its step. Main terms of longitude, latitude and distance after ELP2000-82 (Chapront-Touze &
+Chapront 1983, Astron. Astrophys. 124, 50), as Meeus gives them (1998, Astronomical Algorithms,
+tables 47.A and 47.B); the Sun's perihelion and the equator stand still.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import DAY
+
+FloatArray = NDArray[np.float64]
+
+#: D, l', l, F at J2000.0 (deg) and their rates (deg per Julian century).
+ARGUMENTS = np.array([297.8501921, 357.5291092, 134.9633964, 93.2720950])
+RATES = np.array([445267.1114034, 35999.0502909, 477198.8675055, 483202.0175233])
+#: Of the Sun's orbit: longitude of the perigee (deg), eccentricity, semi-major axis (m).
+PERIGEE, ECCENTRICITY, SEMI_MAJOR_AXIS = 282.93735, 0.016708634, 1.495978707e11
+OBLIQUITY = np.radians(23.4392911)
+
+#: Multiples of D, l', l, F; longitude (1e-6 deg, sine), distance (m, cosine).
+LONGITUDE_AND_DISTANCE = np.array(
+    [
+        (0, 0, 1, 0, 6288774, -20905355),
+        (2, 0, -1, 0, 1274027, -3699111),
+        (2, 0, 0, 0, 658314, -2955968),
+        (0, 0, 2, 0, 213618, -569925),
+        (0, 1, 0, 0, -185116, 48888),
+        (0, 0, 0, 2, -114332, -3149),
+        (2, 0, -2, 0, 58793, 246158),
+        (2, -1, -1, 0, 57066, -152138),
+        (2, 0, 1, 0, 53322, -170733),
+        (2, -1, 0, 0, 45758, -204586),
+        (0, 1, -1, 0, -40923, -129620),
+        (1, 0, 0, 0, -34720, 108743),
+        (0, 1, 1, 0, -30383, 104755),
+        (2, 0, 0, -2, 15327, 10321),
+        (0, 0, 1, 2, -12528, 0),
+        (0, 0, 1, -2, 10980, 79661),
+        (4, 0, -1, 0, 10675, -34782),
+        (0, 0, 3, 0, 10034, -23210),
+        (4, 0, -2, 0, 8548, -21636),
+        (2, 1, -1, 0, -7888, 24208),
+        (2, 1, 0, 0, -6766, 30824),
+        (1, 0, -1, 0, -5163, -8379),
+        (1, 1, 0, 0, 4987, -16675),
+        (2, -1, 1, 0, 4036, -12831),
+    ],
+    dtype=float,
+)
+#: Multiples of D, l', l, F; latitude (1e-6 deg, sine).
+LATITUDE = np.array(
+    [
+        (0, 0, 0, 1, 5128122),
+        (0, 0, 1, 1, 280602),
+        (0, 0, 1, -1, 277693),
+        (2, 0, 0, -1, 173237),
+        (2, 0, -1, 1, 55413),
+        (2, 0, -1, -1, 46271),
+        (2, 0, 0, 1, 32573),
+        (0, 0, 2, 1, 17198),
+        (2, 0, 1, -1, 9266),
+        (0, 0, 2, -1, 8822),
+        (2, -1, 0, -1, 8216),
+        (2, 0, -2, -1, 4324),
+        (2, 0, 1, 1, 4200),
+    ],
+    dtype=float,
+)
+MEAN_DISTANCE = 385000560.0  # m
+
+#: Axis of the equator and normal of the ecliptic, along ecliptic and equinox.
+AXIS = np.array([0.0, -np.sin(OBLIQUITY), np.cos(OBLIQUITY)])
+NORMAL = np.array([0.0, 0.0, 1.0])
+
+
+def arguments(times: FloatArray) -> FloatArray:
+    """D, l', l, F at times in s from J2000.0, rad, shape (4, n)."""
+    centuries = times / (36525 * DAY)
+    return np.asarray(np.radians(ARGUMENTS[:, np.newaxis] + RATES[:, np.newaxis] * centuries))
+
+
+def turn_of_the_node() -> float:
+    """Time in which the Moon's node goes once round, s."""
+    of_node = RATES[3] - RATES[0] - RATES[1]  # F - (D + l'): how fast the node falls back
+    return float(360.0 / of_node * 36525 * DAY)
+
+
+def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Longitude (rad), latitude (rad) and distance (m) of the Moon.
+
+    Parameters
+    ----------
+    angles : ndarray, shape (4, n)
+        D, l', l, F, rad.
+    """
+    micro = np.radians(1e-6)
+    table = LONGITUDE_AND_DISTANCE
+    phase = table[:, :4] @ angles
+    longitude = angles[0] + angles[1] + np.radians(PERIGEE)
+    longitude = longitude + micro * (table[:, 4] @ np.sin(phase))
+    distance = MEAN_DISTANCE + table[:, 5] @ np.cos(phase)
+    latitude = micro * (LATITUDE[:, 4] @ np.sin(LATITUDE[:, :4] @ angles))
+    return longitude, latitude, distance
+
+
+def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Longitude (rad) and distance (m) of the Sun from its mean anomaly (rad)."""
+    e, eccentric = ECCENTRICITY, anomaly
+    for _ in range(8):  # Newton's, for Kepler's equation; three are enough
+        step = eccentric - e * np.sin(eccentric) - anomaly
+        eccentric = eccentric - step / (1 - e * np.cos(eccentric))
+    true = 2 * np.arctan2(
+        np.sqrt(1 + e) * np.sin(eccentric / 2), np.sqrt(1 - e) * np.cos(eccentric / 2)
+    )
+    return true + np.radians(PERIGEE), SEMI_MAJOR_AXIS * (1 - e * np.cos(eccentric))
+
+
+def positions(angles: FloatArray) -> dict[str, FloatArray]:
+    """Sun and Moon along ecliptic and equinox, m, shape (n, 3) each."""
+    longitude, distance = sun(angles[1])
+    flat = np.zeros_like(longitude)
+    of_sun = np.stack([np.cos(longitude), np.sin(longitude), flat], axis=-1)
+    moon_longitude, latitude, moon_distance = moon(angles)
+    across = np.cos(latitude)
+    of_moon = np.stack(
+        [across * np.cos(moon_longitude), across * np.sin(moon_longitude), np.sin(latitude)], -1
+    )
+    return {"sun": distance[:, np.newaxis] * of_sun, "moon": moon_distance[:, np.newaxis] * of_moon}
+
+
+def push(angles: FloatArray) -> FloatArray:
+    """What makes the axis precess, Sun and Moon together, per unit of C - A, s-2, shape (n,)."""
+    from earthspin.checks.ladders.sky import GM
+    from earthspin.torque.average import precessing_push
+    from earthspin.torque.gravity import torque_from_position
+
+    place = positions(angles)
+    torque = sum(torque_from_position(GM[name], 1.0, place[name], AXIS) for name in GM)
+    return precessing_push(np.asarray(torque), AXIS, NORMAL)
+
+
+def torus_mean(counts: tuple[int, int, int, int]) -> float:
+    """Mean push over the torus of D, l', l, F, by the trapezoid rule.
+
+    Parameters
+    ----------
+    counts : tuple of int
+        Points along each angle.
+    """
+    turns = [2 * np.pi * np.arange(count) / count for count in counts]
+    rest = np.stack(np.meshgrid(*turns[1:], indexing="ij")).reshape(3, -1)
+    means = []
+    for elongation in turns[0]:  # slice by slice, to spare memory
+        angles = np.concatenate([np.full((1, rest.shape[1]), elongation), rest])
+        means.append(float(np.mean(push(angles))))
+    return float(np.mean(means))

@@ -1,0 +1,108 @@
+"""Period of the free wobble from polar motion: our fits against the peak of a spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.constants import DAY
+
+Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
+
+#: Truth of the simulated records; d.
+PERIOD, QUALITY = 433.0, 100.0
+YEARS, QUICK_YEARS = (15.0, 30.0, 65.0, 130.0), (20.0, 40.0)
+RECORDS, FEW_RECORDS = 32, 4
+#: What a record counts in which a method finds no wobble: half of the band that it looks in, d.
+NOTHING_FOUND = 35.0
+#: How far beyond the best possible scatter each method of ours may be.
+EXCESS = {"burg": 1.6, "likelihood": 1.6, "least-squares": 3.6}
+QUICK_EXCESS = 2.0  # few records tell a scatter to a third
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    years, records = (QUICK_YEARS, FEW_RECORDS) if quick else (YEARS, RECORDS)
+    return Ladder(
+        quantity="chandler",
+        unit="d",
+        problem=f"period of a randomly driven wobble ({PERIOD:g} d, Q = {QUALITY:g}) from a "
+        "record with seasons, drift and background, one value in 10 d; the error is the rms over "
+        f"{records} simulated records, known to {100 / np.sqrt(2 * records):.0f} per cent",
+        subject="the period of the free wobble from one record",
+        reference="the period that the records were simulated with",
+        reference_error=1e-9 * DAY,
+        methods=_methods(years, records, QUICK_EXCESS if quick else 1.0),
+        useful=10 * DAY,
+        error=lambda periods: float(np.sqrt(np.mean((periods - PERIOD) ** 2))) * DAY,
+    )
+
+
+def best_scatter(years: float) -> float:
+    """Scatter below which no method can come: T sqrt(T/(4 pi Q L)), d."""
+    return float(PERIOD * np.sqrt(PERIOD / (4 * np.pi * QUALITY * years * 365.25)))
+
+
+@cache
+def record(years: float, seed: int) -> Record:
+    """A simulated record: time (d) and polar motion (mas)."""
+    from earthspin.wobble.observed import simulate
+
+    return simulate(years, PERIOD, QUALITY, seed=seed)
+
+
+def _methods(years: tuple[float, ...], records: int, excess: float) -> list[Method]:
+    from earthspin.wobble.observed import METHODS
+
+    def settings(of: Callable[[Record], float]) -> list[Setting]:
+        return [_setting(of, length, records) for length in years]
+
+    ours = [
+        Method(
+            name,
+            True,
+            settings(lambda given, name=name: _fitted(name, given)),  # type: ignore[misc]
+            bound=EXCESS[name] * excess * best_scatter(years[-1]) * DAY,
+        )
+        for name in METHODS
+    ]
+    return [*ours, Method("peak of the FFT", False, settings(_peak))]
+
+
+def _setting(of: Callable[[Record], float], years: float, records: int) -> Setting:
+    first = record(years, 0)
+    return Setting(
+        f"{years:g} years",
+        lambda: (of(first), first[0].size),
+        judged=lambda: np.array([of(record(years, seed)) for seed in range(records)]),
+    )
+
+
+def _fitted(name: str, given: Record) -> float:
+    from earthspin.errors import UndefinedError
+    from earthspin.wobble.observed import fit
+
+    try:
+        return fit(*given, name).period
+    except UndefinedError:
+        return PERIOD + NOTHING_FOUND
+
+
+def _peak(given: Record) -> Any:
+    """Highest line of the spectrum of the record less its line, in the wobble's band."""
+    from earthspin.wobble.observed import BAND
+
+    time, p = given
+    p = p - np.polyval(np.polyfit(time, p, 1), time)
+    frequency = np.fft.fftfreq(time.size, time[1] - time[0])
+    with np.errstate(divide="ignore"):
+        period = 1 / frequency
+    inside = (period > BAND[0]) & (period < BAND[1])
+    if not np.any(inside):
+        return PERIOD + NOTHING_FOUND
+    return period[inside][np.argmax(np.abs(np.fft.fft(p))[inside])]

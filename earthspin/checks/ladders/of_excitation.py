@@ -1,0 +1,165 @@
+r"""Polar motion and its excitation: the exact pair against schemes that are only near.
+
+The excitation is known: sinusoids and steps. So is its polar motion, in closed form: with
+p' = i s (p - chi), a sinusoid chi = c exp(i w t) gives
+
+    p = c [exp(i w t) - exp(i s t)] s/(s - w)
+
+and a step of size c at time u gives c [1 - exp(i s (t - u))] after it. The steps fall on times
+of every series, so that the mean over an interval is the sinusoids' and a constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.constants import MAS
+
+Complex = NDArray[np.complex128]
+FloatArray = NDArray[np.float64]
+Run = Callable[[], tuple[Any, int]]
+RunAt = Callable[[float], Run]
+
+#: Period (d), Q, and length of the series (d); quick ones are shorter.
+PERIOD, QUALITY = 433.0, 100.0
+SPAN, SHORT_SPAN = 14400.0, 1440.0
+#: Amplitudes (mas) and periods (d) of the sinusoids; negative ones turn backwards.
+WAVES = ((15.0, 365.25), (6.0, -365.25), (4.0, 182.6), (3.0, -61.0), (2.0, 27.6))
+#: Sizes (mas) and times (d) of the steps.
+JUMPS = ((8.0 - 3.0j, 360.0), (-5.0 + 2.0j, 1080.0))
+START = 60.0 + 40.0j  # mas
+STEPS = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5)
+
+TO, FROM = "excitation from polar motion", "polar motion from excitation"
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    span = SHORT_SPAN if quick else SPAN
+    return Ladder(
+        quantity="excitation",
+        unit="mas",
+        problem=f"{span / 365.25:.0f} years of polar motion with a free wobble of {PERIOD:g} d, "
+        f"Q = {QUALITY:g}, driven by five sinusoids and two steps; the error is the largest of "
+        "the mean excitation of an interval, or of the polar motion at its end",
+        subject="excitation",
+        reference="closed form of both, for sinusoids and steps",
+        reference_error=2e-13 * MAS,
+        methods=_methods(span, (10.0, 1.0) if quick else STEPS),
+        useful=10 * MAS,
+        error=lambda values: float(np.max(np.abs(values[0] - values[1]))) * MAS,
+    )
+
+
+def frequency() -> complex:
+    """Complex frequency of the wobble, rad/d."""
+    from earthspin.wobble.resonance import chandler_frequency
+
+    return chandler_frequency(PERIOD, QUALITY)
+
+
+def true_polar_motion(t: FloatArray) -> Complex:
+    """Polar motion that the excitation drives, mas."""
+    s = frequency()
+    p = START * np.exp(1j * s * t)
+    for size, period in WAVES:
+        w = 2 * np.pi / period
+        p = p + size * s / (s - w) * (np.exp(1j * w * t) - np.exp(1j * s * t))
+    for jump, begin in JUMPS:
+        after = np.maximum(t - begin, 0.0)
+        p = p - jump * np.expm1(1j * s * after)
+    return np.asarray(p)
+
+
+def true_mean(begin: FloatArray, length: float) -> Complex:
+    """Mean excitation over intervals that hold no step, mas."""
+    middle = begin + length / 2
+    chi = np.zeros(begin.shape, dtype=complex)
+    for size, period in WAVES:
+        chi += size * np.sinc(length / period) * np.exp(2j * np.pi * middle / period)
+    for jump, when in JUMPS:
+        chi += jump * np.clip((begin + length - when) / length, 0.0, 1.0)
+    return chi
+
+
+def weighting_error(step: float, *, resonant: bool) -> float:
+    """What it does that a response weighs an interval's end more than its start, mas.
+
+    An even mean of c exp(i w t) differs from the weighted one by c s w D^2/12, and the
+    polar motion that it drives by s/(s - w) times as much, and as much again at the start.
+
+    Parameters
+    ----------
+    step : float
+        D, d.
+    resonant : bool
+        Of the polar motion, not of the excitation.
+    """
+    s = frequency()
+    total = 0.0
+    for size, period in WAVES:
+        w = 2 * np.pi / period
+        gain = 2 * abs(s / (s - w)) if resonant else 1.0
+        total += gain * size * abs(s * w) * step**2 / 12
+    return float(total)
+
+
+def _methods(span: float, steps: tuple[float, ...]) -> list[Method]:
+    from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION
+
+    to = [
+        _method(name, TO, steps, _to(scheme, span, name))
+        for name, scheme in zip(
+            ("exact mean", "central difference", "Wilson's filter"),
+            map(TO_EXCITATION.__getitem__, ("exact", "central difference", "wilson")),
+            strict=True,
+        )
+    ]
+    back = [
+        _method(name, FROM, steps if name == "exact step" else steps[-3:], _from(scheme, span))
+        for name, scheme in zip(
+            ("exact step", "explicit Euler"),
+            map(FROM_EXCITATION.__getitem__, ("exact", "explicit euler")),
+            strict=True,
+        )
+    ]
+    return to + back
+
+
+def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Method:
+    """A scheme at every step; only the exact pair promises anything."""
+    ours = name.startswith("exact")
+    promised = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
+    return Method(
+        name,
+        ours,
+        [Setting(f"{step:g} d", run_at(step)) for step in steps],
+        bound=promised if ours else np.inf,
+        task=task,
+    )
+
+
+def _to(scheme: Callable[..., Complex], span: float, name: str) -> RunAt:
+    def run_at(step: float) -> Run:
+        t = np.asarray(step * np.arange(round(span / step) + 1))
+        p, s = true_polar_motion(t), frequency()
+        # A central difference speaks for the two intervals about its sample.
+        wide = 2 * step if name == "central difference" else step
+        true = true_mean(t[: t.size - round(wide / step)], wide)
+        return lambda: ((scheme(p, step, s), true), t.size)
+
+    return run_at
+
+
+def _from(scheme: Callable[..., Complex], span: float) -> RunAt:
+    def run_at(step: float) -> Run:
+        t = np.asarray(step * np.arange(round(span / step) + 1))
+        chi, true, s = true_mean(t[:-1], step), true_polar_motion(t), frequency()
+        return lambda: ((scheme(chi, step, s, START), true), t.size)
+
+    return run_at

@@ -1,0 +1,186 @@
+"""Attraction and torque of a homogeneous spheroid: exact form against series and sums."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.stored import Values, load
+from earthspin.checks.work_precision import Ladder, Method, Setting
+
+FloatArray = NDArray[np.float64]
+Field = Callable[[Any], tuple[Any, Any]]
+
+FLATTENING = 1 / 298.25
+#: Distances in equatorial radii: just outside, near, the Moon's, far, the Sun's.
+DISTANCES = (1.05, 1.5, 4.0, 60.0, 1e4, 2.35e4)
+LATITUDES = (-70.0, -30.0, 10.0, 45.0, 80.0)
+
+ROUNDING = 1e-28
+
+
+def points() -> FloatArray:
+    """Points at which the field is asked for, in equatorial radii, by distance, shape (n, 3).
+
+    Rounded to 2^-30, so that they are the same wherever they are made.
+    """
+    latitude = np.radians(LATITUDES)
+    azimuth = 0.3 + np.arange(latitude.size)
+    across = np.cos(latitude)
+    direction = np.stack(
+        [across * np.cos(azimuth), across * np.sin(azimuth), np.sin(latitude)], axis=-1
+    )
+    direction = np.round(direction * 2.0**30) / 2.0**30
+    return np.concatenate([distance * direction for distance in DISTANCES])
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    place = points()
+    true = load("spheroid", {"flattening": FLATTENING, "points": place.tolist()})
+    return Ladder(
+        quantity="spheroid",
+        unit="1",
+        problem=f"attraction and torque of a homogeneous spheroid of flattening 1/298.25 at "
+        f"{len(place)} points from 1.05 to 23,500 equatorial radii; the error is the largest of "
+        "both, relative to their sizes",
+        subject="attraction and torque of a spheroid at any distance",
+        reference="the textbook's arctangents (MacMillan) with 80 digits, kept to 32",
+        reference_error=ROUNDING,
+        methods=_methods(place, quick),
+        useful=0.1,
+        error=lambda found: _error(found, true),
+    )
+
+
+def _error(found: Any, true: dict[str, Values]) -> float:
+    """Largest relative error of both, over all points."""
+    return max(float(np.max(relative_errors(found, true)[name])) for name in true)
+
+
+def relative_errors(found: Any, true: dict[str, Values]) -> dict[str, FloatArray]:
+    """Relative errors of attraction and torque at each point."""
+    errors = {}
+    for values, (name, of) in zip(found, true.items(), strict=True):
+        off = np.linalg.norm(of.error_of(np.asarray(values)), axis=1)
+        errors[name] = np.asarray(off / np.linalg.norm(of.hi, axis=1), dtype=np.float64)
+    return errors
+
+
+def _methods(place: FloatArray, quick: bool) -> list[Method]:
+    degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
+    cells = (4, 8) if quick else (4, 8, 12, 16, 20)
+
+    def setting(words: str, field: Field, where: Any = place) -> Setting:
+        return Setting(words, lambda: (field(where), len(where)))
+
+    return [
+        Method("exact", True, [setting("", _exact)], bound=1e-14),
+        Method(
+            "zonal series",
+            False,
+            [setting(f"to degree {n}", partial(_series, n_max=n)) for n in degrees],
+        ),
+        Method("MacCullagh", False, [setting("", _maccullagh)]),
+        Method(
+            "textbook's arctangents",
+            False,
+            [
+                setting("float64", _arctangents),
+                setting("long double", _arctangents, place.astype(np.longdouble)),
+            ],
+        ),
+        Method(
+            "sum over the body",
+            False,
+            [setting(f"{n}³ cells", partial(_sum, cells=n)) for n in cells],
+        ),
+    ]
+
+
+def _exact(r: FloatArray) -> tuple[Any, Any]:
+    from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
+
+    return spheroid_attraction(1.0, 1.0, FLATTENING, r), spheroid_torque(
+        1.0, 1.0, FLATTENING, 1.0, r
+    )
+
+
+def _torque(push: Any, r: Any) -> Any:
+    """Torque on the body from a unit mass that it pulls along the axis by `push` too much."""
+    return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
+
+
+def _series(r: FloatArray, n_max: int) -> tuple[Any, Any]:
+    """Zonal series by Legendre polynomials and their derivatives."""
+    from numpy.polynomial import legendre
+
+    from earthspin.mass.zonal import spheroid_zonals
+
+    zonals = spheroid_zonals(FLATTENING, n_max)
+    distance = np.linalg.norm(r, axis=1)
+    u = r[:, 2] / distance
+    radial, along = np.zeros_like(u), np.zeros_like(u)
+    for n in range(0, n_max + 1, 2):
+        unit = np.eye(n + 1)[n]
+        power = zonals[n] / distance ** (n + 2)
+        radial += (n + 1) * power * legendre.legval(u, unit)
+        along -= power * legendre.legval(u, legendre.legder(unit))
+    # g = radial r/|r| + along (k - u r/|r|)
+    attraction = ((radial - along * u) / distance)[:, np.newaxis] * r
+    attraction[:, 2] += along
+    return attraction, _torque(-along, r)
+
+
+def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
+    """Monopole and C - A alone (I.9.31, I.9.32)."""
+    from earthspin.mass.maccullagh import maccullagh_torque
+
+    bulge = (1 - (1 - FLATTENING) ** 2) / 5
+    square = np.sum(r * r, axis=1)
+    distance = np.sqrt(square)
+    pull = 1 + 1.5 * bulge / square * (1 - 5 * r[:, 2] ** 2 / square)
+    attraction = -(pull / distance**3)[:, np.newaxis] * r
+    attraction[:, 2] -= 3 * bulge * r[:, 2] / distance**5
+    return attraction, maccullagh_torque(1.0, np.diag([0.0, 0.0, bulge]), r)
+
+
+def _arctangents(r: Any) -> tuple[Any, Any]:
+    """Confocal coordinate by the quadratic, attraction by arctangents (MacMillan 1930)."""
+    one = r.dtype.type(1)
+    c = one - r.dtype.type(FLATTENING)
+    e2 = one - c * c
+    across, along = r[:, 0] ** 2 + r[:, 1] ** 2, r[:, 2] ** 2
+    half = (across + along - one - c * c) / 2
+    root = half + np.sqrt(half * half - (c * c - across * c * c - along))
+    u, t, e = one + root, c * c + root, np.sqrt(e2)
+    i0 = 2 / e * np.arctan(e / np.sqrt(t))
+    a1 = (i0 / 2 - np.sqrt(t) / u) / e2
+    a3 = (2 / np.sqrt(t) - i0) / e2
+    attraction = -1.5 * np.stack([a1, a1, a3], axis=-1) * r
+    return attraction, _torque(1.5 * (a3 - a1) * r[:, 2], r)
+
+
+def _sum(r: FloatArray, cells: int) -> tuple[Any, Any]:
+    """Sum over Gauss points in the radius and the latitude, even ones in longitude."""
+    node, weight = np.polynomial.legendre.leggauss(cells)
+    size, size_weight = (1 + node) / 2, weight / 2
+    turn = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)
+    s, u, phi = np.meshgrid(size, node, turn, indexing="ij")
+    mass = 3 * s**2 * size_weight[:, np.newaxis, np.newaxis] * weight[:, np.newaxis]
+    mass = (mass / (4 * cells)).ravel()  # they add up to 1
+    across = s * np.sqrt(1 - u * u)
+    body = np.stack(
+        [across * np.cos(phi), across * np.sin(phi), s * u * (1 - FLATTENING)], axis=-1
+    ).reshape(-1, 3)
+    attraction, torque = np.empty_like(r), np.empty_like(r)
+    for number, point in enumerate(r):
+        apart = body - point
+        pull = mass / np.sum(apart * apart, axis=1) ** 1.5
+        attraction[number] = pull @ apart
+        torque[number] = np.cross(pull @ body, point)
+    return attraction, torque

@@ -1,0 +1,216 @@
+"""Sun and Moon at the true equator of date: nutation from nodes, at each epoch, or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.ladders.sky import CODES, centre, kernel
+from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.constants import ARCSEC, J2000_JD, MAS
+
+FloatArray = NDArray[np.float64]
+LongArray = NDArray[np.longdouble]
+
+START, YEAR = 8000.25, 366.0  # days from J2000.0 TDB
+EPOCHS, FEW_EPOCHS = 10_000, 400
+SPACINGS = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
+#: Fukushima & Williams angles of IAU 2006 with the frame bias, arcsec and Julian centuries:
+#: gamma, phi, psi, and the obliquity (Hilton et al. 2006, Celest. Mech. 94, 351).
+FUKUSHIMA_WILLIAMS = (
+    (-0.052928, 10.556378, 0.4932044, -0.00031238, -0.000002788, 0.0000000260),
+    (84381.412819, -46.811016, 0.0511268, 0.00053289, -0.000000440, -0.0000000176),
+    (-0.041775, 5038.481484, 1.5584175, -0.00018522, -0.000026452, -0.0000000148),
+    (84381.406, -46.836769, -0.0001831, 0.00200340, -0.000000576, -0.0000000434),
+)
+#: What IAU 2006 changes in the nutation of IAU 2000A: scale, and rate of J2 per century
+#: (Wallace & Capitaine 2006, Astron. Astrophys. 459, 981, eq. 5).
+SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
+TENTH_UAS = 1e-7 * ARCSEC
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
+    true = reference(days)
+    return Ladder(
+        quantity="torque",
+        unit="mas",
+        problem=f"directions of Sun and Moon at the true equator and equinox of date (IAU "
+        f"2006/2000A), positions of DE421, {days.size} epochs in a year; the error is the largest "
+        "angle",
+        subject=f"Sun and Moon at the true equator of date, {days.size} epochs in a year",
+        reference="IAU 2006/2000A summed in long double with Skyfield's tables of the series and "
+        "the angles of Fukushima & Williams",
+        reference_error=4 * float(np.finfo(np.longdouble).eps),
+        methods=_methods(days, quick),
+        error=lambda found: float(np.max(np.linalg.norm(found - true, axis=-1))),
+        useful=1e3 * MAS,
+    )
+
+
+def reference(days: FloatArray) -> LongArray:
+    """True directions of Sun and Moon, shape (2, n, 3)."""
+    turn = long_matrix(days)
+    found = kernel().positions(CODES, centre(), days)
+    place = np.stack([found[name] for name in CODES]).astype(np.longdouble)
+    seen = np.sum(turn * place[:, :, np.newaxis, :], axis=-1)
+    return np.asarray(seen / np.sqrt(np.sum(seen * seen, axis=-1))[..., np.newaxis])
+
+
+def long_matrix(days: FloatArray) -> LongArray:
+    """GCRS to true equator and equinox of date in long double, shape (n, 3, 3)."""
+    t = days.astype(np.longdouble) / 36525
+    gamma, phi, psi, obliquity = (
+        np.polynomial.polynomial.polyval(t, np.array(angle, dtype=np.longdouble)) * _arcsec()
+        for angle in FUKUSHIMA_WILLIAMS
+    )
+    dpsi, deps = long_nutation(t)
+    matrix = _about(2, gamma)
+    for axis, angle in ((0, phi), (2, -(psi + dpsi)), (0, -(obliquity + deps))):
+        matrix = np.einsum("tij,tjk->tik", _about(axis, angle), matrix)
+    return matrix
+
+
+def long_nutation(t: LongArray) -> tuple[LongArray, LongArray]:
+    """Nutation of IAU 2000A as IAU 2006 adapts it, summed in long double, rad.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Julian centuries from J2000.0.
+    """
+    from skyfield import nutationlib as tables
+
+    polynomials = (tables.fa0, tables.fa1, tables.fa2, tables.fa3, tables.fa4)
+    moon_and_sun = sum(
+        c[:, 0, np.newaxis].astype(np.longdouble) * t**n for n, c in enumerate(polynomials)
+    )
+    linear = tables.anomaly_coefficient.astype(np.longdouble)[:, np.newaxis] * t
+    planets = linear + tables.anomaly_constant.astype(np.longdouble)[:, np.newaxis]
+    planets[-1] *= t  # general precession has no constant, but a square
+    longitude = np.zeros_like(t)
+    obliquity = np.zeros_like(t)
+    for first in range(0, t.size, 500):
+        part = slice(first, first + 500)
+        arguments = tables.nals_t.astype(np.longdouble) @ (moon_and_sun[:, part] * _arcsec())
+        sine, cosine = np.sin(arguments), np.cos(arguments)
+        a, b = tables.lunisolar_longitude_coefficients, tables.lunisolar_obliquity_coefficients
+        longitude[part] = a[:, 0] @ sine + t[part] * (a[:, 1] @ sine) + a[:, 2] @ cosine
+        obliquity[part] = b[:, 0] @ cosine + t[part] * (b[:, 1] @ cosine) + b[:, 2] @ sine
+        arguments = tables.napl_t.astype(np.longdouble) @ planets[:, part]
+        sine, cosine = np.sin(arguments), np.cos(arguments)
+        a, b = tables.nutation_coefficients_longitude, tables.nutation_coefficients_obliquity
+        longitude[part] += a[:, 0] @ sine + a[:, 1] @ cosine
+        obliquity[part] += b[:, 0] @ sine + b[:, 1] @ cosine
+    of_j2 = J2_RATE_2006 * t
+    unit = np.longdouble(1e-7) * _arcsec()
+    return longitude * (1 + SCALE_2006 + of_j2) * unit, obliquity * (1 + of_j2) * unit
+
+
+def _arcsec() -> Any:
+    """One arcsecond in rad, in long double."""
+    return 4 * np.arctan(np.longdouble(1)) / 648000
+
+
+def _about(axis: int, angle: LongArray) -> LongArray:
+    """Matrices that turn the axes about one of them, shape (n, 3, 3)."""
+    c, s = np.cos(angle), np.sin(angle)
+    one, two = (axis + 1) % 3, (axis + 2) % 3
+    matrix = np.zeros((angle.size, 3, 3), dtype=np.longdouble)
+    matrix[:, axis, axis] = 1
+    matrix[:, one, one] = matrix[:, two, two] = c
+    matrix[:, one, two], matrix[:, two, one] = s, -s
+    return matrix
+
+
+# --- methods -----------------------------------------------------------------------------------
+
+
+def _methods(days: FloatArray, quick: bool) -> list[Method]:
+    import erfa
+
+    from earthspin.sky import iau
+
+    start, end = float(days[0]), float(days[-1])
+
+    def nodes(model: str, spacing: float) -> Setting:
+        def run() -> tuple[Any, int]:
+            nutation = iau.Nutation(start, end, model=model, spacing=spacing)
+            return _seen(nutation.true_equator(days), days), days.size
+
+        return Setting(f"every {spacing:g} d", run)
+
+    def at_each(matrices: Callable[[], FloatArray]) -> list[Setting]:
+        return [Setting("", lambda: (_seen(matrices(), days), days.size))]
+
+    return [
+        Method(
+            "IAU 2000A from nodes",
+            True,
+            [nodes("2000A", spacing) for spacing in ((8.0, 1.0) if quick else SPACINGS)],
+            bound=8e-12,
+        ),
+        Method(
+            "IAU 2000B from nodes",
+            True,
+            [nodes("2000B", spacing) for spacing in ((2.0,) if quick else SPACINGS[2:5])],
+            bound=2 * MAS,
+        ),
+        Method(
+            "IAU 2000A at each epoch",
+            True,
+            at_each(lambda: iau.Nutation(start, end, 1).true_equator(days)),
+            bound=2e-15,
+        ),
+        Method("IAU 2000B at each epoch", False, at_each(lambda: erfa.pnm00b(J2000_JD, days))),
+        Method("mean equator alone", False, at_each(lambda: iau.mean_equator(days))),
+        Method("Skyfield, radec of date", False, [Setting("", _skyfield(days))]),
+    ]
+
+
+def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
+    """Directions of Sun and Moon, shape (2, n, 3)."""
+    from earthspin.sky.equator import rotate
+
+    found = kernel().positions(CODES, centre(), days)
+    seen = np.stack([rotate(turn, found[name]) for name in CODES])
+    return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
+
+
+@cache
+def _skyfield_kernel() -> Any:
+    from skyfield.jpllib import SpiceKernel
+
+    return SpiceKernel(str(kernel().path))
+
+
+def _skyfield(days: FloatArray) -> Callable[[], tuple[Any, int]]:
+    """Skyfield as one uses it, with fresh times."""
+    from skyfield.api import load
+
+    scale = load.timescale(builtin=True)
+
+    def run() -> tuple[Any, int]:
+        t = scale.tdb_jd(J2000_JD, days)
+        here, found = _skyfield_kernel()[centre()], []
+        for code in CODES.values():
+            ra, dec, _ = (_skyfield_kernel()[code] - here).at(t).radec(epoch="date")
+            across = np.cos(dec.radians)
+            found.append(
+                np.stack(
+                    [
+                        across * np.cos(ra.radians),
+                        across * np.sin(ra.radians),
+                        np.sin(dec.radians),
+                    ],
+                    axis=-1,
+                )
+            )
+        return np.stack(found), days.size
+
+    return run

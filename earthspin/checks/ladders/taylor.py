@@ -1,0 +1,123 @@
+"""The figure axis by a peer's Taylor integrator, heyoka, where that is installed.
+
+Angular momentum and figure axis as in `earthspin.motion.exact`; Sun and Moon are polynomials in
+pieces of four days, as the kernel has them, whose coefficients are parameters, so that the
+equations are compiled once.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
+from earthspin.constants import DAY
+
+FloatArray = NDArray[np.float64]
+
+PIECE, DEGREE = 4.0, 12  # d
+FIRST_EDGE = 0.5 - PIECE  # d: records end half a day from J2000.0
+_OF_BODY = 3 * (DEGREE + 1)
+
+
+def is_installed() -> bool:
+    """Whether heyoka can be imported."""
+    return find_spec("heyoka") is not None
+
+
+def figure_axis(
+    momentum: FloatArray,
+    start: FloatArray,
+    days: FloatArray,
+    *,
+    h: float,
+    spin_rate: float,
+    tolerance: float,
+) -> tuple[FloatArray, int]:
+    """Figure axis at ascending days from J2000.0, shape (n, 3), and how many steps it took.
+
+    Parameters
+    ----------
+    momentum, start : ndarray, shape (3,)
+        Angular momentum in units of C Omega and figure axis at J2000.0.
+    days : ndarray, shape (n,)
+    h, spin_rate : float
+        Of the body; rad/s.
+    tolerance : float
+        Of a step.
+    """
+    integrator = _compiled(h, spin_rate, tolerance)
+    integrator.time = 0.0
+    integrator.state[:] = np.concatenate([momentum, start])
+    pieces = _pieces(float(days[-1]))
+    found, steps, asked = np.empty((days.size, 3)), 0, 0
+    for number, coefficients in enumerate(pieces):
+        edge = FIRST_EDGE + PIECE * number
+        integrator.pars[:-1] = coefficients
+        integrator.pars[-1] = (edge + PIECE / 2) * DAY
+        while asked < days.size and days[asked] <= edge + PIECE:
+            steps += integrator.propagate_until(days[asked] * DAY)[3]
+            found[asked] = integrator.state[3:]
+            asked += 1
+        if asked < days.size:
+            steps += integrator.propagate_until((edge + PIECE) * DAY)[3]
+    return found, steps
+
+
+def _pieces(end: float) -> FloatArray:
+    """Coefficients of powers of x in [-1, 1], per piece, for Sun and Moon, m."""
+    count = int((end - FIRST_EDGE) / PIECE) + 1
+    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+    edges = FIRST_EDGE + PIECE * np.arange(count)[:, np.newaxis]
+    days = edges + PIECE * (nodes + 1) / 2
+    found = kernel().positions(CODES, centre(), days.ravel())
+    values = np.stack([found[name] for name in GM], axis=1).reshape(count, DEGREE + 1, 6)
+    vander = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
+    to_powers = np.zeros((DEGREE + 1, DEGREE + 1))
+    for n in range(DEGREE + 1):
+        to_powers[: n + 1, n] = np.polynomial.chebyshev.cheb2poly(np.eye(DEGREE + 1)[n])[: n + 1]
+    series = to_powers @ np.linalg.solve(vander, values)
+    return np.ascontiguousarray(np.swapaxes(series, 1, 2)).reshape(count, -1)
+
+
+@cache
+def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
+    """Compile the equations; coefficients and the middle of the piece are parameters."""
+    import heyoka as hy
+
+    lx, ly, lz, fx, fy, fz = hy.make_vars("lx", "ly", "lz", "fx", "fy", "fz")
+    x = (hy.time - hy.par[2 * _OF_BODY]) / (PIECE / 2 * DAY)
+    pull = [hy.expression(0.0)] * 3
+    for body, gm in enumerate(GM.values()):
+        r = [_polynomial(hy, x, body * _OF_BODY + k * (DEGREE + 1)) for k in range(3)]
+        square = hy.sum([v * v for v in r])
+        along = gm * (r[0] * fx + r[1] * fy + r[2] * fz) * square**-2.5
+        pull = [total + along * v for total, v in zip(pull, r, strict=True)]
+    qx, qy, qz = pull
+    scale, kappa = 3 * h / spin_rate, (1 - h) / spin_rate
+    return hy.taylor_adaptive(
+        [
+            (lx, scale * (qy * fz - qz * fy)),
+            (ly, scale * (qz * fx - qx * fz)),
+            (lz, scale * (qx * fy - qy * fx)),
+            (fx, (ly * fz - lz * fy) / kappa),
+            (fy, (lz * fx - lx * fz) / kappa),
+            (fz, (lx * fy - ly * fx) / kappa),
+        ],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
+        pars=[1.0] * (2 * _OF_BODY) + [0.0],
+        tol=tolerance,
+        compact_mode=True,
+    )
+
+
+def _polynomial(hy: Any, x: Any, first: int) -> Any:
+    """Horner's rule for the coefficients from parameter `first` on."""
+    value = hy.par[first + DEGREE]
+    for n in range(DEGREE - 1, -1, -1):
+        value = value * x + hy.par[first + n]
+    return value

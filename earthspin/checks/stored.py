@@ -1,0 +1,79 @@
+"""References that were made once, with many digits, and are shipped.
+
+Each number is an unevaluated sum of two floats, so that errors of the last digit of a float
+can be measured. `python -m data_tools references` makes the files again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+
+FloatArray = NDArray[np.float64]
+
+FOLDER = Path(__file__).parent / "references"
+
+
+@dataclass(frozen=True)
+class Values:
+    """Reference values hi + lo."""
+
+    hi: FloatArray
+    lo: FloatArray
+
+    def __getitem__(self, key: Any) -> Values:
+        return Values(self.hi[key], self.lo[key])
+
+    def __neg__(self) -> Values:
+        return Values(-self.hi, -self.lo)
+
+    def error_of(self, found: FloatArray) -> FloatArray:
+        """How far numbers are from these, to the digits that they share."""
+        return np.asarray((found - self.hi) - self.lo)
+
+
+def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
+    """Read a reference and check that it was made for the problem as it is now.
+
+    Parameters
+    ----------
+    name : str
+    inputs : mapping
+        Plain numbers and lists that the values hang on.
+
+    Raises
+    ------
+    UndefinedError
+        If it was made for other numbers.
+    """
+    stored = json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
+    if stored["inputs"] != json.loads(json.dumps(inputs)):
+        raise UndefinedError(
+            f"the stored reference '{name}' was made for other numbers; make it again with "
+            "python -m data_tools references"
+        )
+    return {
+        key: Values(np.array(pair["hi"]), np.array(pair["lo"]))
+        for key, pair in stored["values"].items()
+    }
+
+
+def attitude_error(found: FloatArray, true: Values) -> float:
+    """Largest angle between attitudes given as unit quaternions, rad.
+
+    Parameters
+    ----------
+    found : ndarray, shape (n, 4)
+        q and -q are the same attitude.
+    true : Values, shape (n, 4)
+    """
+    same = np.where(np.sum(found * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
+    return float(2 * np.max(np.linalg.norm(true.error_of(same * found), axis=1)))

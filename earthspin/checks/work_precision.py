@@ -1,0 +1,500 @@
+"""Error against run time: what each way to a number costs, and how wrong it then is.
+
+A ladder holds, for one quantity, every method with its settings from coarse to fine, and a
+reference made in another way that is at least a hundred times better. Each setting is run and
+timed; no point of the front (Pareto's) is beaten in error and run time at once by another.
+
+Run times are medians after a warm-up, with half their range as spread; what takes less than
+two milliseconds is repeated until a sample lasts that long.
+"""
+
+from __future__ import annotations
+
+import gc
+import math
+import statistics
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.dataset import FROM_SI, Variable, build
+from earthspin.errors import SceneError, nearest
+from earthspin.progress import Advance, progress
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+#: Quantities, and the module of `earthspin.checks.ladders` that measures each.
+QUANTITIES: dict[str, str] = {
+    "precession": "of_precession",
+    "torque": "of_torque",
+    "pole": "of_pole",
+    "free-rotor": "of_free_rotor",
+    "top": "of_top",
+    "spheroid": "of_spheroid",
+    "excitation": "of_excitation",
+    "chandler": "of_chandler",
+}
+
+#: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
+SHORTEST_SAMPLE = 2e-3
+SAMPLES, FEW_SAMPLES, LONG_RUN = 5, 3, 1.0
+#: How much better than a measured error its reference has to be.
+REFERENCE_MARGIN = 100.0
+#: Most steps of error that the sentence tells of.
+MOST_STEPS = 4
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One way to run a method.
+
+    Attributes
+    ----------
+    words : str
+        What is set, e.g. ``"8 d, 14 nodes"``.
+    run : callable
+        What is timed; gives values and how often the costly function was evaluated.
+    judged : callable or None
+        Values that the error is taken from, where those of one run are too few (many epochs,
+        many records); it is not timed.
+    """
+
+    words: str
+    run: Callable[[], tuple[Any, int]]
+    judged: Callable[[], Any] | None = None
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method with its settings.
+
+    Attributes
+    ----------
+    name : str
+    ours : bool
+        Whether it is what this package does, or what one would do by hand or with a peer.
+    settings : sequence of Setting
+        From coarse to fine.
+    bound : float
+        Error that the last setting stays within, SI; a method of ours that does not, fails.
+    task : str
+        Which way it goes, where a ladder holds two.
+    """
+
+    name: str
+    ours: bool
+    settings: Sequence[Setting]
+    bound: float = math.inf
+    task: str = ""
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """All methods for one quantity.
+
+    Attributes
+    ----------
+    quantity : str
+    unit : str
+        In which errors are shown.
+    problem : str
+        What is solved, and what the error is.
+    subject : str
+        The same in a few words, for a sentence that begins with "For".
+    reference : str
+        Where the true values come from.
+    reference_error : float
+        SI.
+    methods : sequence of Method
+    error : callable
+        From values to their error, SI.
+    useful : float
+        Larger errors are of no use to anybody, SI; the sentence passes over them.
+    skipped : str
+        What is left out here, and why.
+    """
+
+    quantity: str
+    unit: str
+    problem: str
+    subject: str
+    reference: str
+    reference_error: float
+    methods: Sequence[Method]
+    error: Callable[[Any], float]
+    useful: float = math.inf
+    skipped: str = ""
+
+    @property
+    def rungs(self) -> int:
+        """Settings of the method that has most."""
+        return max(len(method.settings) for method in self.methods)
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Run time of a call.
+
+    Attributes
+    ----------
+    first : float
+        Of the first call, with what it imports and prepares, s.
+    median, spread : float
+        Of the calls after it, and half the range, s.
+    given : object
+        What the first call gave.
+    """
+
+    first: float
+    median: float
+    spread: float
+    given: Any
+
+
+@dataclass(frozen=True)
+class Point:
+    """A setting, measured; errors in SI, times in s."""
+
+    words: str
+    error: float
+    run_time: float
+    spread: float
+    warm_up: float
+    evaluations: int
+
+
+# --- measuring ---------------------------------------------------------------------------------
+
+
+def timed(run: Callable[[], Any]) -> Timing:
+    """Time a call: once to warm up, then as often as its length asks for.
+
+    Parameters
+    ----------
+    run : callable
+    """
+    with _without_garbage_collection():
+        first, given = _seconds(run, 1)
+        once, _ = _seconds(run, 1)
+        loops = max(1, math.ceil(SHORTEST_SAMPLE / max(once, 1e-9)))
+        samples = [once] if loops == 1 else []
+        wanted = FEW_SAMPLES if once > LONG_RUN else SAMPLES
+        while len(samples) < wanted:
+            seconds, _ = _seconds(run, loops)
+            if seconds < SHORTEST_SAMPLE:  # the first guess was too slow
+                loops, samples = 2 * loops, []
+                continue
+            samples.append(seconds / loops)
+    return Timing(first, statistics.median(samples), (max(samples) - min(samples)) / 2, given)
+
+
+def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
+    """Time of so many calls, s, and what the last one gave."""
+    given = None
+    begun = time.perf_counter()
+    for _ in range(loops):
+        given = run()
+    return time.perf_counter() - begun, given
+
+
+@contextmanager
+def _without_garbage_collection() -> Iterator[None]:
+    """Keep the collector from running in the middle of a sample."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
+
+
+def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list[Point]]:
+    """Run and time every setting of a ladder.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    advance : callable
+        Told of each setting that is done.
+
+    Returns
+    -------
+    list of list of Point
+        By method; as many as its settings.
+    """
+    found = []
+    for method in ladder.methods:
+        points = []
+        for setting in method.settings:
+            points.append(_measured(setting, ladder))
+            advance(1)
+        found.append(points)
+    return found
+
+
+def _measured(setting: Setting, ladder: Ladder) -> Point:
+    timing = timed(setting.run)
+    values, evaluations = timing.given
+    if setting.judged is not None:
+        values = setting.judged()
+    return Point(
+        words=setting.words,
+        # nothing is known below the error of the reference
+        error=max(float(ladder.error(values)), ladder.reference_error),
+        run_time=timing.median,
+        spread=timing.spread,
+        warm_up=timing.first,
+        evaluations=int(evaluations),
+    )
+
+
+def pareto_front(error: Any, run_time: Any) -> BoolArray:
+    """Points that no other beats: none has both at most the error and at most the run time.
+
+    Parameters
+    ----------
+    error, run_time : array_like, of one shape
+        Equal points do not beat each other.
+    """
+    e, t = np.ravel(error), np.ravel(run_time)
+    no_worse = (e[:, np.newaxis] <= e) & (t[:, np.newaxis] <= t)
+    better = (e[:, np.newaxis] < e) | (t[:, np.newaxis] < t)
+    beaten = np.any(no_worse & better, axis=0)
+    return np.asarray(~beaten.reshape(np.shape(error)))
+
+
+# --- the result --------------------------------------------------------------------------------
+
+
+def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
+    """Error against run time of every method for a quantity, ours and by hand.
+
+    Parameters
+    ----------
+    quantity : str
+        ``"precession"``, ``"torque"``, ``"pole"``, ``"free-rotor"``, ``"top"``,
+        ``"spheroid"``, ``"excitation"`` or ``"chandler"``.
+    quick : bool
+        A short problem with few settings, in a second or two.
+
+    Returns
+    -------
+    Dataset
+        Over `method` and `rung`: `error` (in the unit of the quantity), `run_time` with its
+        `run_time_spread` and `warm_up_time` (s), `evaluations`, `setting` in words, `pareto`,
+        and `at_floor` where the reference is not a hundred times better; over `method`:
+        `ours`, `bound` (infinite where none is claimed) and `holds`. A method with few
+        settings stays at its last one.
+
+    Raises
+    ------
+    SceneError
+        If there is no such quantity.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> found = earthspin.accuracy("spheroid", quick=True)
+    >>> print(bool(found.holds.all()))
+    True
+    """
+    ladder = ladder_of(quantity, quick=quick)
+    with progress(quantity, sum(len(method.settings) for method in ladder.methods)) as advance:
+        points = measure(ladder, advance)
+    return dataset(ladder, points, quick=quick)
+
+
+def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
+    """Make the ladder of a quantity.
+
+    Raises
+    ------
+    SceneError
+        If there is no such quantity.
+    """
+    if quantity not in QUANTITIES:
+        raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
+    module = import_module(f"earthspin.checks.ladders.{QUANTITIES[quantity]}")
+    made: Ladder = module.ladder(quick)
+    return made
+
+
+def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -> xr.Dataset:
+    """Label what was measured.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    points : sequence of sequence of Point
+        As `measure` gives them.
+    quick : bool
+    """
+    full = [[*row, *[row[-1]] * (ladder.rungs - len(row))] for row in points]
+
+    def table(of: Callable[[Point], Any]) -> Any:
+        return np.array([[of(point) for point in row] for row in full])
+
+    error, run_time = table(lambda p: p.error), table(lambda p: p.run_time)
+    bound = np.array([method.bound for method in ladder.methods])
+    ours = np.array([method.ours for method in ladder.methods])
+    result = build(
+        "accuracy",
+        schema(ladder.unit),
+        {
+            "error": error,
+            "run_time": run_time,
+            "run_time_spread": table(lambda p: p.spread),
+            "warm_up_time": table(lambda p: p.warm_up),
+            "evaluations": table(lambda p: p.evaluations),
+            "setting": table(lambda p: p.words),
+            "pareto": pareto_front(error, run_time),
+            "at_floor": error < REFERENCE_MARGIN * ladder.reference_error,
+            "ours": ours,
+            "bound": bound,
+            "holds": ~ours | (error[:, -1] <= bound),
+            "settings": np.array([len(method.settings) for method in ladder.methods]),
+        },
+        coords={
+            "method": [method.name for method in ladder.methods],
+            "rung": np.arange(1, ladder.rungs + 1),
+        },
+    )
+    result.attrs = _attributes(ladder, points, quick)
+    return result
+
+
+def schema(unit: str) -> Mapping[str, Variable]:
+    """What the variables of a result are; errors are shown in `unit`."""
+    point, method = ("method", "rung"), ("method",)
+    return {
+        "error": Variable(point, unit, "error against the reference"),
+        "run_time": Variable(point, "s", "median run time"),
+        "run_time_spread": Variable(point, "s", "half the range of the run times"),
+        "warm_up_time": Variable(point, "s", "run time of the first call"),
+        "evaluations": Variable(point, "1", "evaluations of the costly function"),
+        "setting": Variable(point, "", "setting"),
+        "pareto": Variable(point, "", "no other point has less error and less run time"),
+        "at_floor": Variable(point, "", "the reference is less than a hundred times better"),
+        "ours": Variable(method, "", "a method of this package"),
+        "bound": Variable(method, unit, "bound on the error of the last setting"),
+        "holds": Variable(method, "", "the last setting stays within its bound"),
+        "settings": Variable(method, "1", "how many settings differ"),
+    }
+
+
+def _attributes(
+    ladder: Ladder, points: Sequence[Sequence[Point]], quick: bool
+) -> dict[str, str | float | int]:
+    from importlib.metadata import version
+
+    from earthspin._version import __version__
+    from earthspin.dataset import CONVENTIONS
+
+    return {
+        "title": f"Error against run time: {ladder.quantity}",
+        "Conventions": CONVENTIONS,
+        "quantity": ladder.quantity,
+        "problem": ladder.problem,
+        "reference": ladder.reference,
+        "reference_error": ladder.reference_error * FROM_SI.get(ladder.unit, 1.0),
+        "sentence": sentence(ladder, points),
+        "skipped": ladder.skipped,
+        "quick": int(quick),
+        "source": f"earthspin {__version__}, numpy {version('numpy')}, scipy {version('scipy')}",
+    }
+
+
+# --- in a sentence -----------------------------------------------------------------------------
+
+
+def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
+    """Say which method is cheapest for a few errors, and what it costs.
+
+    Parameters
+    ----------
+    ladder : Ladder
+    points : sequence of sequence of Point
+        As `measure` gives them.
+    """
+    tasks = list(dict.fromkeys(method.task for method in ladder.methods))
+    return " ".join(_sentence_of_task(ladder, points, task) for task in tasks)
+
+
+def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: str) -> str:
+    subject, factor = task or ladder.subject, FROM_SI.get(ladder.unit, 1.0)
+    rows = [
+        (point.error * factor, point.run_time, method.name, point.words)
+        for method, row in zip(ladder.methods, points, strict=True)
+        for point in row
+        if method.task == task and point.error <= ladder.useful
+    ]
+    if not rows:
+        return f"For {subject}: none is of use."
+    parts = [
+        f"within {plain(level)}{shown_unit(ladder.unit)} use "
+        f"{name}{f' ({words})' if words else ''}, {duration(seconds)}"
+        for level, (_, seconds, name, words) in _steps(rows)
+    ]
+    return f"For {subject}: " + "; ".join(parts) + "."
+
+
+def _steps(rows: list[tuple[float, float, str, str]]) -> list[tuple[float, Any]]:
+    """Cheapest row for each level of error, each once, at the finest level that it meets."""
+    found: dict[Any, float] = {}
+    for level in _levels(min(row[0] for row in rows), max(row[0] for row in rows)):
+        enough = [row for row in rows if row[0] <= level]
+        found[min(enough, key=lambda row: row[1])] = level
+    steps = [(level, row) for row, level in found.items()]
+    if len(steps) <= MOST_STEPS:
+        return steps
+    chosen = np.linspace(0, len(steps) - 1, MOST_STEPS).round().astype(int)
+    return [steps[place] for place in chosen]
+
+
+def _levels(least: float, largest: float) -> list[float]:
+    """Powers of ten that frame errors, falling; with 2 and 5 between where there are few."""
+    between = (5.0, 2.0, 1.0) if largest < 100 * least else (1.0,)
+    powers = range(math.floor(math.log10(largest)) + 1, math.floor(math.log10(least)) - 1, -1)
+    levels = [float(f"{digit:g}e{power}") for power in powers for digit in between]
+    above = [level for level in levels if level >= largest]
+    return [level for level in levels if least <= level <= min(above)]
+
+
+def shown_unit(unit: str) -> str:
+    """A unit as it stands behind a number, with a space; nothing for pure numbers."""
+    return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
+
+
+def plain(value: float) -> str:
+    """A number to two digits, as one would write it: 0.05, 920, 1e-6, 2.3e5."""
+    value = float(f"{value:.1e}")
+    if 1e-3 <= abs(value) <= 1e4 or value == 0:
+        return f"{value:g}"
+    digits, power = f"{value:.1e}".split("e")
+    return f"{digits.removesuffix('.0')}e{int(power)}"
+
+
+def duration(seconds: float) -> str:
+    """A time to two digits, in the unit that suits it."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3)):
+        if seconds >= 0.9995 * size:
+            return f"{_two_digits(seconds / size)} {unit}"
+    return f"{_two_digits(seconds * 1e6)} µs"
+
+
+def _two_digits(value: float) -> str:
+    if not value > 0:
+        return "0"
+    digits = max(0, 1 - math.floor(math.log10(float(f"{value:.1e}"))))
+    return f"{value:.{digits}f}"

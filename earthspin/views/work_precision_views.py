@@ -1,0 +1,298 @@
+"""Error against run time: table, figure, page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from earthspin import storage
+from earthspin.checks.work_precision import duration, plain, shown_unit
+from earthspin.views.tables import WIDTH, Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008), and markers.
+_COLOURS = (
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F3C8D", "#666666",
+)  # fmt: skip
+#: Below this ratio of errors the axis shows more than powers of ten.
+FEW_DECADES = 100
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
+
+
+def accuracy_table(result: xr.Dataset) -> Table:
+    """Every setting that was measured, each once.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `earthspin.accuracy` gives it.
+    """
+    unit = _unit(result)
+    rows = []
+    for place, name in enumerate(result["method"].values):
+        one = result.isel(method=place)
+        for rung in range(int(one.settings)):
+            rows.append(_row(str(name) if rung == 0 else "", one.isel(rung=rung)))
+    return Table(
+        result.attrs["quantity"],
+        ("method", "setting", f"error{',' if unit else ''}{unit}", "run time", "±", "calls", ""),
+        rows,
+        _note(result),
+        (),
+    )
+
+
+def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
+    remarks = [
+        words
+        for words, says in (("front", point.pareto), ("at the reference's floor", point.at_floor))
+        if bool(says)
+    ]
+    return (
+        f"{name}{'' if bool(point.ours) or not name else ' (other)'}",
+        str(point.setting.values),
+        plain(float(point.error)),
+        duration(float(point.run_time)),
+        duration(float(point.run_time_spread)),
+        f"{int(point.evaluations):,}",
+        ", ".join(remarks),
+    )
+
+
+def _note(result: xr.Dataset) -> str:
+    """What is solved, against what, and what fails."""
+    unit = _unit(result)
+    words = [
+        f"{_capital(result.attrs['problem'])}.",
+        f"Reference: {result.attrs['reference']}; good to "
+        f"{plain(result.attrs['reference_error'])}{unit}.",
+        "Run times are medians, ± half their range.",
+    ]
+    if result.attrs["skipped"]:
+        words.append(f"Left out: {result.attrs['skipped']}.")
+    for place in np.flatnonzero(~result.holds.values):
+        one = result.isel(method=int(place))
+        words.append(
+            f"FAILS: {one['method'].item()}, error {plain(float(one.error[-1]))}, bound "
+            f"{plain(float(one.bound))}{unit}."
+        )
+    return " ".join(words)
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _unit(result: xr.Dataset) -> str:
+    """Unit of the error as it stands behind a number, with a space."""
+    return shown_unit(str(result.error.attrs["units"]))
+
+
+def print_accuracy(results: Sequence[xr.Dataset]) -> None:
+    """Print table and sentence of each quantity to the terminal."""
+    import sys
+
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table as RichTable
+
+    console = Console(width=None if sys.stdout.isatty() else WIDTH + 10, highlight=False)
+    for result in results:
+        table = accuracy_table(result)
+        shown = RichTable(
+            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+        )
+        for number, header in enumerate(table.headers):
+            shown.add_column(header, justify="right" if 2 <= number <= 5 else "left")
+        for row in table.rows:
+            shown.add_row(*row)
+        console.print(shown)
+        console.print(table.note, style="dim", markup=False)
+        console.print(f"\n{result.attrs['sentence']}\n", markup=False)
+
+
+# --- figure ------------------------------------------------------------------------------------
+
+
+def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Error against run time on log axes: filled markers are ours, the line is the front.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `earthspin.accuracy` gives it.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    from matplotlib.ticker import LogLocator
+
+    from earthspin.views.figures import _axes
+
+    ax = _axes(ax, figsize=(7.5, 4.4))
+    unit = _unit(result)
+    for number, name in enumerate(result["method"].values):
+        one = result.isel(method=number, rung=slice(0, int(result.settings[number])))
+        colour, ours = _COLOURS[number % len(_COLOURS)], bool(one.ours)
+        ax.loglog(
+            one.run_time,
+            one.error,
+            marker=_MARKERS[number % len(_MARKERS)],
+            ms=5.5,
+            mfc=colour if ours else "white",
+            mec=colour,
+            color=colour,
+            lw=0.8,
+            alpha=0.9,
+            ls="-" if ours else ":",
+            label=str(name),
+            zorder=3,
+        )
+    _draw_front(result, ax)
+    ax.set_xlabel("run time (s)")
+    ax.set_ylabel(f"error ({unit.strip()})" if unit else "relative error")
+    if float(result.error.max() / result.error.min()) < FEW_DECADES:
+        ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter("")
+    ax.legend(
+        title="filled: earthspin\nopen: by hand, or a peer",
+        alignment="left",
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        fontsize=8,
+        title_fontsize=8,
+        borderaxespad=0,
+    )
+    return ax
+
+
+def _draw_front(result: xr.Dataset, ax: Axes) -> None:
+    """Steps through the points that no other beats."""
+    on_front = result.pareto.values
+    time, error = result.run_time.values[on_front], result.error.values[on_front]
+    order = np.lexsort((-error, time))
+    time, error = time[order], error[order]
+    right, top = float(result.run_time.max()), float(result.error.max())
+    ax.step(
+        [time[0], *time, right],
+        [top, *error, error[-1]],
+        where="post",
+        color="0.55",
+        lw=3.5,
+        alpha=0.35,
+        zorder=1,
+        solid_joinstyle="round",
+        label="front (Pareto)",
+    )
+
+
+def accuracy_figure(result: xr.Dataset) -> Figure:
+    """Figure of a quantity in the house's style, to be saved."""
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    from earthspin.views.figures import STYLE
+
+    with rc_context(STYLE):
+        ax = plot_accuracy(result)
+        ax.set_title(_figure_title(result), loc="left")
+        assert isinstance(ax.figure, Figure)
+        return ax.figure
+
+
+def _figure_title(result: xr.Dataset) -> str:
+    return _capital(result.attrs["quantity"].replace("-", " "))
+
+
+def svg_of(result: xr.Dataset) -> str:
+    """Figure of a quantity as the text of an SVG."""
+    from matplotlib import rc_context
+
+    from earthspin.views.figures import STYLE, _svg
+
+    figure = accuracy_figure(result)
+    with rc_context(STYLE):
+        return _svg(figure)
+
+
+# --- files -------------------------------------------------------------------------------------
+
+
+def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Path]:
+    """Write the data of each quantity, its figure, and one page of all.
+
+    Parameters
+    ----------
+    results : sequence of Dataset
+    folder : str or Path
+        Gets ``accuracy.html`` and, for each quantity, ``accuracy-QUANTITY.nc`` and ``.svg``.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be written to.
+    """
+    place = storage.check_writable(folder)
+    drawn = [svg_of(result) for result in results]
+    page = accuracy_page(results, drawn)
+    names = [f"accuracy-{result.attrs['quantity']}" for result in results]
+    written = [place / "accuracy.html"]
+    with ExitStack() as together:
+        draft = together.enter_context(storage.replacing(written[0]))
+        draft.write_text(page, encoding="utf-8")
+        for name, result, svg in zip(names, results, drawn, strict=True):
+            data, picture = place / f"{name}.nc", place / f"{name}.svg"
+            storage.write_netcdf(result, together.enter_context(storage.replacing(data)))
+            sketch = together.enter_context(storage.replacing(picture))
+            sketch.write_text(svg, encoding="utf-8")
+            written += [data, picture]
+    return written
+
+
+def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
+    """Page of all quantities: sentence, table, figure.
+
+    Parameters
+    ----------
+    results : sequence of Dataset
+    drawn : sequence of str
+        Their figures as SVG.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    from earthspin.views.drawing import Drawing
+    from earthspin.views.page import _render
+
+    tables: list[tuple[Table, Any]] = [
+        (accuracy_table(result), result.attrs["sentence"]) for result in results
+    ]
+    return _render(
+        title="Error against run time",
+        lead="What each way to a number costs, and how wrong it then is.",
+        note="Under each table stands what to use. Filled markers are this package's methods, open "
+        "ones what one would do by hand or with a peer; the front joins the points that no other "
+        "beats in both.",
+        footer=f"{results[0].attrs['source']}.",
+        tables=tables,
+        drawings=[
+            Drawing(_figure_title(result), f"{result.attrs['sentence']}", svg)
+            for result, svg in zip(results, drawn, strict=True)
+        ],
+        solids=[],
+        parts=[],
+    )
