@@ -13,8 +13,8 @@ WIDTH = 100
 class Terminal(Console):
     """A console that leaves a closed pipe to the command line, which knows its exit status."""
 
-    def __init__(self) -> None:
-        super().__init__(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
+    def __init__(self, width: int = WIDTH) -> None:
+        super().__init__(width=None if sys.stdout.isatty() else width, highlight=False)
 
     def on_broken_pipe(self) -> None:
         """Whoever read our output has gone: say so instead of leaving with status 1."""

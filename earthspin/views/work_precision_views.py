@@ -12,7 +12,7 @@ import xarray as xr
 
 from earthspin import storage
 from earthspin.checks.work_precision import duration, plain, shown_unit
-from earthspin.views.tables import WIDTH, Table
+from earthspin.views.tables import Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -98,13 +98,12 @@ def _unit(result: xr.Dataset) -> str:
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
     """Print table and sentence of each quantity to the terminal."""
-    import sys
-
     from rich import box
-    from rich.console import Console
     from rich.table import Table as RichTable
 
-    console = Console(width=None if sys.stdout.isatty() else WIDTH + 10, highlight=False)
+    from earthspin.views.terminal import WIDTH, Terminal
+
+    console = Terminal(WIDTH + 10)
     for result in results:
         table = accuracy_table(result)
         shown = RichTable(
