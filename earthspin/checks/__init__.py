@@ -1,0 +1,1 @@
+"""How good it is: error against run time, and the stiff and extreme cases."""
