@@ -1,1 +1,1 @@
-"""How good it is: error against run time, and the stiff and extreme cases."""
+"""What the package checks of itself on request: error against run time, stiff cases."""

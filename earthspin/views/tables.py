@@ -322,10 +322,7 @@ def free_rotor(result: xr.Dataset) -> Table:
             ("period of the polhode, s", f"{float(one.polhode_period):.10g}"),
             ("invariable plane, rad/s", f"{float(one.invariable_plane_distance):.10g}"),
             ("herpolhode between, rad/s", f"{inner:.8g} and {outer:.8g}"),
-            (
-                "turn of the herpolhode per round, deg",
-                f"{float(np.degrees(one.herpolhode_advance)):.8f}",
-            ),
+            ("turn of the herpolhode per round, deg", _advance(one)),
             ("growth rate about x, y, z, 1/s", _list(one.growth_rate.values)),
         ]
     return Table(
@@ -336,6 +333,12 @@ def free_rotor(result: xr.Dataset) -> Table:
         "the axis is stable.",
         ("free-rotation", "poinsot"),
     )
+
+
+def _advance(one: xr.Dataset) -> str:
+    if "herpolhode_advance" not in one:
+        return "none (no round ends)"
+    return f"{float(np.degrees(one.herpolhode_advance)):.8f}"
 
 
 def top(result: xr.Dataset) -> Table:

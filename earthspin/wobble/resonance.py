@@ -69,7 +69,7 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
         For a step of whole free periods without loss, at whose end nothing tells what drove it.
     """
     decay, rise = _response(step, s)
-    if abs(rise) <= _LEAST_TRACE * abs(s * step):
+    if abs(rise) <= _LEAST_TRACE * abs(s.real * step):
         raise UndefinedError(
             f"a step of {s.real * step / (2 * np.pi):.6g} free periods without loss: what drives "
             f"the pole leaves no trace at its end; choose another step"
