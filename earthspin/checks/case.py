@@ -10,13 +10,15 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from earthspin.errors import EarthspinError
+from earthspin.errors import EarthspinError, UndefinedError
 
 HOLDS, REFUSED, FAILS = "holds", "refused", "fails"
 
@@ -153,6 +155,20 @@ def _on_refusal(case: Case, line: str) -> tuple[float, str, str]:
 
 def _one_line(text: str) -> str:
     return " ".join(text.split())
+
+
+@contextmanager
+def without_folder(path: Path) -> Iterator[None]:
+    """Let a refusal name a file without the folder that it happens to lie in.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    try:
+        yield
+    except EarthspinError as error:
+        raise UndefinedError(str(error).replace(str(path), path.name)) from None
 
 
 class Cases(list[Case]):

@@ -115,7 +115,10 @@ def chosen_cases(
     cases = tuple(c for c in cases if (long or not c.long) and not (quick and c.slow))
     if not cases:
         raise SceneError(
-            "only", only, "its cases take long; leave out --quick, or add --long", source="stability"
+            "only",
+            only,
+            "its cases take long; leave out --quick, or add --long",
+            source="stability",
         )
     return cases
 

@@ -321,9 +321,8 @@ def _round_of_polhode(result: xr.Dataset) -> str:
     if "herpolhode_advance" not in result:
         return "It does not come back to where it was."
     turned = float(np.degrees(result.herpolhode_advance))
-    return (
-        f"A round of the polhode, {float(result.polhode_period):.4g} s, turns it by {turned:.4f} deg."
-    )
+    period = float(result.polhode_period)
+    return f"A round of the polhode, {period:.4g} s, turns it by {turned:.4f} deg."
 
 
 def top_drawings(result: xr.Dataset) -> list[Drawing]:

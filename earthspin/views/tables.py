@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from earthspin.constants import DAY, P_A_RATE, TROPICAL_YEAR
 from earthspin.scene.parts import PARTS
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 WIDTH = 100
 
@@ -392,23 +395,41 @@ def run_times(result: xr.Dataset, parts: tuple[str, ...]) -> str:
 
 def print_tables(result: xr.Dataset) -> None:
     """Print the tables of a result, and what each cost, to the terminal."""
-    from rich import box
+    console = terminal()
+    for table in tables_for(result):
+        print_table(console, table)
+        console.print(f"[{run_times(result, table.parts)}]\n", style="dim", markup=False)
+
+
+def terminal() -> Console:
+    """Where tables are printed to: as wide as the terminal, or of a fixed width in a file."""
     from rich.console import Console
+
+    return Console(width=None if _is_terminal() else WIDTH, highlight=False)
+
+
+def print_table(console: Console, table: Table) -> None:
+    """Print one table and its note.
+
+    Parameters
+    ----------
+    console : Console
+        As `terminal` gives it.
+    table : Table
+    """
+    from rich import box
     from rich.table import Table as RichTable
 
-    console = Console(width=None if _is_terminal() else WIDTH, highlight=False)
-    for table in tables_for(result):
-        shown = RichTable(
-            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
-        )
-        for number, header in enumerate(table.headers):
-            shown.add_column(header, justify="right" if number else "left")
-        for row in table.rows:
-            shown.add_row(*row)
-        console.print(shown)
-        if table.note:
-            console.print(table.note, style="dim")
-        console.print(f"[{run_times(result, table.parts)}]\n", style="dim", markup=False)
+    shown = RichTable(
+        title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+    )
+    for number, header in enumerate(table.headers):
+        shown.add_column(header, justify="right" if number else "left")
+    for row in table.rows:
+        shown.add_row(*row)
+    console.print(shown)
+    if table.note:
+        console.print(table.note, style="dim")
 
 
 def _is_terminal() -> bool:

@@ -276,7 +276,7 @@ def _hardly_converging() -> float:
     exact = 1 / np.linalg.norm(one - other)
     found = float(inverse_distance(one, other, 300))
     claimed = float(inverse_distance_bound(one, other, 300))
-    return abs(found - exact) / (claimed + 20 * EPS * exact)
+    return float(abs(found - exact) / (claimed + 20 * EPS * exact))
 
 
 @CASES.hold(
@@ -298,9 +298,9 @@ def _legendre() -> float:
 )
 def _dumbbell() -> float:
     angle = 0.7
-    found = torque_on_masses(
-        1e20, [1e6, 0.0, 0.0], np.full(2, 5.0), ring_positions(2, 1.0, angle)
-    )[2]
+    found = torque_on_masses(1e20, [1e6, 0.0, 0.0], np.full(2, 5.0), ring_positions(2, 1.0, angle))[
+        2
+    ]
     return float(found / dumbbell_torque(1e20, 1e6, 5.0, 1.0, angle) - 1)
 
 
@@ -312,9 +312,9 @@ def _dumbbell() -> float:
 )
 def _ring() -> float:
     angle, distance = 0.2, 100.0
-    found = torque_on_masses(
-        1e6, [distance, 0.0, 0.0], np.ones(6), ring_positions(6, 1.0, angle)
-    )[2]
+    found = torque_on_masses(1e6, [distance, 0.0, 0.0], np.ones(6), ring_positions(6, 1.0, angle))[
+        2
+    ]
     closed = float(ring_torque(1e6, distance, 1.0, 1.0, 6, angle))
     return float(found - closed) / abs(float(dumbbell_torque(1e6, distance, 1.0, 1.0, angle)))
 

@@ -373,9 +373,7 @@ def _sphere() -> float:
 )
 def _tiny_h() -> float:
     times = np.linspace(0.0, YEAR, 20)
-    small, large = (
-        _path(365.25, _figure(h=h)).at(times)["figure"] - NORTH for h in (1e-9, 1e-6)
-    )
+    small, large = (_path(365.25, _figure(h=h)).at(times)["figure"] - NORTH for h in (1e-9, 1e-6))
     return float(np.max(np.abs(small - 1e-3 * large)) / UAS)
 
 
@@ -440,8 +438,10 @@ def _whole_kernel() -> float:
     times = np.linspace(start, end, 3000)
     limits = (start, end)
     usual, finer = (
-        axis_path(_forces(), NORTH, 0.0, limits, limits=limits, **settings).at(times)
-        for settings in ({}, {"window": 4 * DAY, "order": 16})
+        axis_path(_forces(), NORTH, 0.0, limits, limits=limits, window=days * DAY, order=nodes).at(
+            times
+        )
+        for days, nodes in ((8, 14), (4, 16))
     )
     return _apart(usual["figure"], finer["figure"])
 

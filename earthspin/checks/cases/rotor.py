@@ -341,12 +341,10 @@ def _exact_pairs() -> float:
     rng = np.random.default_rng(2)
     a, b = rng.normal(size=200) * 10.0 ** rng.integers(-30, 30, 200), rng.normal(size=200)
     lost = Fraction(0)
-    for exact, pair in (
-        (lambda x, y: x + y, two_sum(a, b)),
-        (lambda x, y: x * y, two_product(a, b)),
-    ):
-        for x, y, hi, lo in zip(a, b, *pair, strict=True):
-            lost = max(lost, abs(exact(Fraction(x), Fraction(y)) - Fraction(hi) - Fraction(lo)))
+    for x, y, *pairs in zip(a, b, *two_sum(a, b), *two_product(a, b), strict=True):
+        sum_hi, sum_lo, product_hi, product_lo = (Fraction(p) for p in pairs)
+        lost = max(lost, abs(Fraction(x) + Fraction(y) - sum_hi - sum_lo))
+        lost = max(lost, abs(Fraction(x) * Fraction(y) - product_hi - product_lo))
     return float(lost)
 
 
