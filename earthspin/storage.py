@@ -90,10 +90,11 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
         If zarr is not installed.
     """
     try:
-        import zarr  # noqa: F401
+        import zarr
     except ImportError:
         raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
-    with replacing(path) as draft:
+    # Each thread of zarr's would keep the memory of the largest chunk that it has ever packed.
+    with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
         for number, block in enumerate(blocks):
             if number == 0:
                 block.to_zarr(
