@@ -5,14 +5,17 @@ from __future__ import annotations
 import argparse
 import sys
 
-from data_tools import hashes, kernels, windows
+from data_tools import hashes, kernels, stability, windows
 from earthspin.errors import EarthspinError
 
 VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
+    "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
+#: Verbs that compare with a kernel.
+WITH_KERNEL = ("kernels", "windows")
 
 
 def main(words: list[str] | None = None) -> int:
@@ -21,7 +24,7 @@ def main(words: list[str] | None = None) -> int:
     verbs = parser.add_subparsers(dest="verb", required=True)
     for verb, (_, words_of) in VERBS.items():
         one = verbs.add_parser(verb, help=words_of)
-        if verb != "verify":
+        if verb in WITH_KERNEL:
             one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
     given = parser.parse_args(words)
     try:

@@ -101,7 +101,10 @@ def chosen_cases(
     cases = all_cases()
     if only is not None:
         word = only.lower()
-        cases = tuple(c for c in cases if word == c.part or word in c.name.lower())
+        if word in PARTS:
+            cases = tuple(c for c in cases if c.part == word)
+        else:
+            cases = tuple(c for c in cases if word in c.name.lower())
         if not word or not cases:
             words = {*PARTS, *(w for c in all_cases() for w in c.name.lower().split())}
             hint = nearest(only, words).split("allowed:")[0]

@@ -216,7 +216,7 @@ def _exponent(spans: list[float], counts: list[int]) -> float:
     "cost of the average as the span grows",
     because="a cost that grows faster than the span would end all long spans",
     against="exponent 1 of the number of epochs, over 3 to 5 turns of the node",
-    bound=1e-3,
+    bound=3e-4,
 )
 def _cost_of_average() -> float:
     spans = [3.0, 4.0, 5.0]
@@ -260,6 +260,7 @@ def _cost_of_exact() -> float:
     because="the step is bound to the turn of the body",
     against="exponent 1 of the number of evaluations, over 8 to 32 d",
     bound=0.1,
+    slow=True,
 )
 def _cost_of_attitude() -> float:
     spans = [8.0, 16.0, 32.0]
@@ -450,7 +451,7 @@ def _whole_kernel() -> float:
     "obliquities of 0, 90 and 180 degrees in time",
     because="longitudes lose their meaning; vectors must not",
     against="unit vectors, and no torque on a body upright in a circular orbit",
-    bound=1e-15,
+    bound=5e-15,
 )
 def _obliquities() -> float:
     phase = 2 * np.pi / (20 * DAY)

@@ -65,7 +65,7 @@ def _first_and_last() -> float:
     "torques at the very first and last epoch of the kernel",
     because="nutation wants nodes beyond the ends, the kernel has none",
     against="the same epoch inside a series, over the largest torque",
-    bound=1e-10,
+    bound=3e-11,
 )
 def _torque_at_the_ends() -> float:
     alone = torque_series(times=["1899-07-29", "2053-10-09"], equator="true")
@@ -160,7 +160,7 @@ def _orthogonal() -> float:
     "equator of an axis upright on its orbit",
     because="it has no equinox: the node is a vector of zeros",
     against="right-handed unit axes whose third is the spin axis",
-    bound=1e-15,
+    bound=5e-15,
 )
 def _no_equinox() -> float:
     worst = 0.0
@@ -177,7 +177,7 @@ def _no_equinox() -> float:
     because="an arc sine there is right to half the digits alone",
     against="the distance from the pole that was put in",
     unit="rad",
-    bound=4e-16,
+    bound=5e-15,
 )
 def _beside_the_pole() -> float:
     away = np.array([1e-3, 1e-6, 1e-9])
@@ -192,7 +192,7 @@ def _beside_the_pole() -> float:
     "a planet seen from another, kernel codes of barycentres",
     because="common legs of the two paths must cancel, not be subtracted",
     against="the same, seen the other way, over the distance",
-    bound=1e-15,
+    bound=5e-15,
 )
 def _both_ways() -> float:
     days = np.linspace(-30000.0, 15000.0, 50)

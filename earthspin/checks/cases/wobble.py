@@ -52,7 +52,7 @@ def _round_trip(quality_factor: float, step: float = 1.0, size: int = DAYS) -> f
     because="the excitation is a difference of nearly equal poles, 1/70 of their size",
     against="the excitation that drove the pole, and that pole",
     unit="mas",
-    bound=2e-11,
+    bound=1e-11,
 )
 def _there_and_back() -> float:
     return _round_trip(100.0)
@@ -208,7 +208,7 @@ def _sphere() -> float:
     "prolate and oblate wobble alike",
     because="the wobble goes the other way; periods count without sign",
     against="A/(C - A) turns, relative, down to H of 1e-15",
-    bound=2e-15,
+    bound=5e-15,
 )
 def _prolate() -> float:
     h = np.array([0.3, 3e-3, 1e-9, 1e-15])
