@@ -111,8 +111,9 @@ def test_a_folder_that_cannot_be_replaced_is_put_back(
 
 
 def test_other_endings_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"neither \.nc nor \.zarr"):
+    with pytest.raises(OutputError, match=r"neither \.nc nor \.zarr") as error:
         storage.write(small(), tmp_path / "r.txt")
+    assert error.value.path == str(tmp_path / "r.txt")
     assert list(tmp_path.iterdir()) == []
 
 
