@@ -5,7 +5,15 @@ from __future__ import annotations
 import argparse
 import sys
 
-from data_tools import accuracy_pages, error_models, hashes, kernels, references, windows
+from data_tools import (
+    accuracy_pages,
+    error_models,
+    hashes,
+    kernels,
+    references,
+    stability,
+    windows,
+)
 from earthspin.errors import EarthspinError
 
 VERBS = {
@@ -18,6 +26,7 @@ VERBS = {
         "measure error against run time, for docs/work_precision.md",
     ),
     "references": (references.main, "make the stored references of the checks again"),
+    "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.
 WITH_KERNEL = ("kernels", "error-models", "windows")

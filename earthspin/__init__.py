@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from earthspin.calls import torque_series as torque_series
     from earthspin.calls import wobble_ladder as wobble_ladder
     from earthspin.calls import write_series as write_series
+    from earthspin.checks.gauntlet import stability as stability
     from earthspin.checks.work_precision import accuracy as accuracy
     from earthspin.errors import AccuracyError as AccuracyError
     from earthspin.errors import BodyError as BodyError
@@ -69,6 +70,7 @@ _HOME = {
         "wobble_ladder",
         "write_series",
     ),
+    "earthspin.checks.gauntlet": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",

@@ -19,6 +19,9 @@ from earthspin.errors import BodyError, SceneError, nearest
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
 
+#: More than the mass of all that is seen, and longer than its age: beyond, squares overflow.
+_LARGEST_GM, _LONGEST_DAY = 1e60, 1e30
+
 #: Word for a pole of date and an ecliptic that follow the IAU 2006 models.
 IAU_2006 = "iau2006"
 
@@ -118,6 +121,7 @@ class Body:
                 raise BodyError(self.name, name, value, "it must be a finite number")
         self._check_directions()
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
+        self._require("gm", lambda gm: gm <= _LARGEST_GM, f"give at most {_LARGEST_GM:g} m3 s-2")
         self._require("cycle", lambda t: t > 0, "a cycle lasts longer than zero")
         self._require("orbital_period", lambda t: t > 0, "a year lasts longer than zero")
         for name, u in self.relative_uncertainty.items():
@@ -131,6 +135,9 @@ class Body:
                 raise BodyError(self.name, "radius", self.radius, "M a2 is out of a float's range")
         self._require("radius", lambda a: a > 0, "a radius is greater than zero")
         self._require("spin_period", lambda p: p != 0, "a period is not zero")
+        self._require(
+            "spin_period", lambda p: abs(p) <= _LONGEST_DAY, f"give at most {_LONGEST_DAY:g} s"
+        )
         self._require("flattening", lambda f: f < 1, "a flattening is less than 1")
         self._require(
             "dynamical_flattening",

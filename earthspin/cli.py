@@ -1,4 +1,4 @@
-"""The command line: report, run, plan, accuracy, scenes, info."""
+"""The command line: report, run, plan, scenes, accuracy, stability, info."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, SceneError
 
-USAGE_ERROR = 2
+CHECK_FAILED, USAGE_ERROR = 1, 2
 
 
 class _Parser(argparse.ArgumentParser):
@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = _parser().parse_args(arguments)
     try:
-        status = given.command(given)
+        status: int | None = given.command(given)
         sys.stdout.flush()
     except EarthspinError as error:
         print(f"earthspin: {error}", file=sys.stderr)
@@ -95,6 +95,12 @@ def _parser() -> argparse.ArgumentParser:
     commands.add_parser("scenes", help="list the shipped scenes").set_defaults(command=_scenes)
     info = commands.add_parser("info", help="versions, kernels and their coverage")
     info.set_defaults(command=_info)
+
+    stability = commands.add_parser("stability", help="run the stiff and extreme cases")
+    stability.add_argument("--quick", action="store_true", help="only those that take a moment")
+    stability.add_argument("--only", metavar="WORD", help="a part, or a word of a case's name")
+    stability.add_argument("--long", action="store_true", help="also those that take minutes")
+    stability.set_defaults(command=_stability)
     return parser
 
 
@@ -221,6 +227,16 @@ def _info(given: argparse.Namespace) -> None:
 
     for name in NAMED_KERNELS:
         print(f"  {name:<10} {describe_kernel(name)}")
+
+
+def _stability(given: argparse.Namespace) -> int:
+    from earthspin.checks.case import FAILS
+    from earthspin.checks.gauntlet import stability, tally
+    from earthspin.views.gauntlet_views import print_verdicts
+
+    result = stability(quick=given.quick, only=given.only, long=given.long)
+    print_verdicts(result)
+    return CHECK_FAILED if tally(result)[FAILS] else 0
 
 
 def _scene(given: argparse.Namespace) -> Any:

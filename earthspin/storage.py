@@ -49,6 +49,7 @@ def write(result: xr.Dataset, path: str | Path) -> Path:
     """
     if Path(path).suffix == ".zarr":
         return write_blocks([result], path)
+    _refuse_other_endings(Path(path))  # by its own name, not the draft's
     with replacing(path) as draft:
         write_netcdf(result, draft)
     return Path(path)
@@ -62,9 +63,13 @@ def write_netcdf(result: xr.Dataset, path: Path) -> None:
     OutputError
         If the name does not end in ``.nc``.
     """
+    _refuse_other_endings(path)
+    result.to_netcdf(path, engine="netcdf4", encoding=_encoding(result))
+
+
+def _refuse_other_endings(path: Path) -> None:
     if path.suffix != ".nc":
         raise OutputError(path, "it ends in neither .nc nor .zarr", "choose one of the two")
-    result.to_netcdf(path, engine="netcdf4", encoding=_encoding(result))
 
 
 def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
@@ -85,10 +90,11 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
         If zarr is not installed.
     """
     try:
-        import zarr  # noqa: F401
+        import zarr
     except ImportError:
         raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
-    with replacing(path) as draft:
+    # Each thread of zarr's would keep the memory of the largest chunk that it has ever packed.
+    with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
         for number, block in enumerate(blocks):
             if number == 0:
                 block.to_zarr(

@@ -35,6 +35,8 @@ def test_a_name_that_is_nearly_right() -> None:
         ({"gm": -1.0}, "gm"),
         ({"mass": -5e24}, "gm"),
         ({"gm": math.nan}, "gm"),
+        ({"gm": 1e61}, "gm"),
+        ({"spin_period": -1e31}, "spin_period"),
         ({"radius": 0.0}, "radius"),
         ({"radius": math.inf}, "radius"),
         ({"spin_period": 0.0}, "spin_period"),

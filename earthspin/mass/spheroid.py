@@ -31,10 +31,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import elliprc, elliprd, hyp2f1
 
-from earthspin.mass._checks import FloatArray, positive, vectors
+from earthspin.errors import UndefinedError
+from earthspin.mass._checks import FloatArray, first, positive, vectors
 from earthspin.mass.figure import check_flattening, eccentricity_squared
 
 _BODY = "spheroid"
+#: Farther away, in radii, the fifth power of the distance overflows.
+_FARTHEST = 1e50
 
 #: Relative error that the closed form keeps. Measured: 7e-15 on 3000 spheroids, disc to needle.
 CLOSED_FORM_ERROR = 5e-14
@@ -104,9 +107,20 @@ def attraction_integrals(
         f, from -10^6 (needle) over 0 (sphere) to below 1 (disc).
     position : array_like, shape (..., 3)
         From the centre, z along the axis, m. Radius and flattening broadcast against (...).
+
+    Raises
+    ------
+    UndefinedError
+        Beyond 10^50 radii, where powers of the distance overflow.
     """
     a = positive(_BODY, "radius", radius)
     scaled = vectors("position", position) / a[..., np.newaxis]
+    far = np.abs(scaled) > _FARTHEST
+    if np.any(far):
+        raise UndefinedError(
+            f"a position {first(scaled, far):.3g} radii away is beyond what can be computed; "
+            f"give positions within {_FARTHEST:g} radii"
+        )
     across, along = confocal_squares(flattening, scaled)
     e2 = eccentricity_squared(flattening)
     gauss = hyp2f1(1.0, 1.5, 3.5, -e2 / along)

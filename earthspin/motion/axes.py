@@ -43,6 +43,8 @@ SEGMENT_TURN = 0.2
 LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
 
 _ROUND_OFF = 1e-15  # rad
+#: A round that moves the axis by more than this has run away: the next ones would overflow, rad.
+_RUNAWAY = 1e3
 #: Rounds on the slow manifold: a few while the path is not yet known, then all that help.
 _FEW, _ALL = 2, 9
 
@@ -312,7 +314,7 @@ def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _S
         tilt, terms = tilt_of_figure(windows, axis, rate, kappa, _FEW if rounds < 3 else _ALL)
         previous, change = change, float(np.max(np.abs(momentum - tilt - axis)))
         axis = momentum - tilt
-        if rounds > 6 and change > 0.5 * previous:
+        if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
             break  # at the floor of rounding, or not converging: decided below
     if not change < 1e-13:
         raise UndefinedError(

@@ -46,6 +46,8 @@ _NEGLIGIBLE = 2.0**-450
 _LEAST_CONTRAST = 2.0**-1000
 #: A slower rate, rad/s, has a period that no float can hold.
 _SLOWEST = 1e-280
+#: Powers of two between which energies, J, keep all their digits.
+_LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -164,11 +166,12 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     BodyError
         For moments that no body has, and for numbers that are not finite.
     UndefinedError
-        For a start without angular momentum.
+        For a start without angular momentum, or with an energy out of the range of floats.
     """
     body, spin = _broadcast(principal_moments(moments), _read_omega(omega))
     # Dividing by powers of two is exact, and makes every number one of order one.
     size, speed = _power_of_two(body.values), _power_of_two(spin)
+    _refuse_range(size, speed)
     unit = PrincipalMoments(
         body.moment.scaled(1 / size[..., np.newaxis]),
         body.difference.scaled(1 / size[..., np.newaxis]),
@@ -310,6 +313,17 @@ def _read_omega(omega: Any) -> FloatArray:
             "follow; give a start with at least one component other than zero"
         )
     return spin
+
+
+def _refuse_range(size: FloatArray, speed: FloatArray) -> None:
+    exponent = np.log2(size) + 2 * np.log2(speed)
+    outside = (exponent < _LEAST_ENERGY) | (exponent > _LARGEST_ENERGY)
+    if np.any(outside):
+        moment, rate = float(size[outside].flat[0]), float(speed[outside].flat[0])
+        raise UndefinedError(
+            f"a float cannot hold the energy of a body with moments of {moment:.1g} kg m2 at "
+            f"{rate:.1g} rad/s; choose other units"
+        )
 
 
 def _broadcast(body: PrincipalMoments, spin: FloatArray) -> tuple[PrincipalMoments, FloatArray]:

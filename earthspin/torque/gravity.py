@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
+from earthspin.errors import UndefinedError
 
 FloatArray = NDArray[np.float64]
 
@@ -43,7 +44,13 @@ def torque_from_declination(
     -------
     ndarray, shape (n, 3)
         N m, along the axes that right ascension and declination refer to.
+
+    Raises
+    ------
+    UndefinedError
+        For a mass in the centre of the body.
     """
+    _refuse_centre(distance)
     size = -3 * gm * moment_difference / distance**3 * np.sin(declination) * np.cos(declination)
     zero = np.zeros_like(size)
     return np.stack([-size * np.sin(right_ascension), size * np.cos(right_ascension), zero], -1)
@@ -69,6 +76,11 @@ def torque_from_position(
     -------
     ndarray, shape (n, 3)
         N m, in the same axes.
+
+    Raises
+    ------
+    UndefinedError
+        For a mass in the centre of the body.
     """
     direction, distance = _direction(position)
     size = 3 * gm * moment_difference / distance**3 * np.sum(direction * axis, axis=-1)
@@ -112,4 +124,16 @@ def torque_error(
 def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Unit vectors and lengths; never r5, which overflows at 10^61 m."""
     distance = np.sqrt(np.sum(position * position, axis=-1))
+    _refuse_centre(distance)
     return position / distance[..., np.newaxis], distance
+
+
+def _refuse_centre(distance: FloatArray) -> None:
+    """Refuse distances that are not above zero; NaN is not."""
+    away = np.asarray(distance) > 0
+    if not np.all(away):
+        wrong = float(np.asarray(distance)[~away].flat[0])
+        raise UndefinedError(
+            f"a mass at a distance of {wrong!r} m has no direction to pull in; "
+            f"give places away from the centre of the body"
+        )

@@ -309,13 +309,20 @@ def free_rotor_drawings(result: xr.Dataset) -> list[Drawing]:
                 Drawing(
                     "Herpolhode",
                     "The tip of the angular velocity in the invariable plane, between its bounds "
-                    f"(dashed). A round of the polhode, {float(result.polhode_period):.4g} s, "
-                    f"turns it by {float(np.degrees(result.herpolhode_advance)):.4f} deg.",
+                    f"(dashed). {_round_of_polhode(result)}",
                     _svg(ax.figure),
                     square=True,
                 )
             )
         return drawn
+
+
+def _round_of_polhode(result: xr.Dataset) -> str:
+    if "herpolhode_advance" not in result:
+        return "It does not come back to where it was."
+    turned = float(np.degrees(result.herpolhode_advance))
+    period = float(result.polhode_period)
+    return f"A round of the polhode, {period:.4g} s, turns it by {turned:.4f} deg."
 
 
 def top_drawings(result: xr.Dataset) -> list[Drawing]:

@@ -320,10 +320,7 @@ def free_rotor(result: xr.Dataset) -> Table:
             ("period of the polhode, s", f"{float(one.polhode_period):.10g}"),
             ("invariable plane, rad/s", f"{float(one.invariable_plane_distance):.10g}"),
             ("herpolhode between, rad/s", f"{inner:.8g} and {outer:.8g}"),
-            (
-                "turn of the herpolhode per round, deg",
-                f"{float(np.degrees(one.herpolhode_advance)):.8f}",
-            ),
+            ("turn of the herpolhode per round, deg", _advance(one)),
             ("growth rate about x, y, z, 1/s", _list(one.growth_rate.values)),
         ]
     return Table(
@@ -334,6 +331,12 @@ def free_rotor(result: xr.Dataset) -> Table:
         "the axis is stable.",
         ("free-rotation", "poinsot"),
     )
+
+
+def _advance(one: xr.Dataset) -> str:
+    if "herpolhode_advance" not in one:
+        return "none (no round ends)"
+    return f"{float(np.degrees(one.herpolhode_advance)):.8f}"
 
 
 def top(result: xr.Dataset) -> Table:
@@ -387,21 +390,9 @@ def run_times(result: xr.Dataset, parts: tuple[str, ...]) -> str:
 
 def print_tables(result: xr.Dataset) -> None:
     """Print the tables of a result, and what each cost, to the terminal."""
-    from rich import box
-    from rich.table import Table as RichTable
-
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
     for table in tables_for(result):
-        shown = RichTable(
-            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
-        )
-        for number, header in enumerate(table.headers):
-            shown.add_column(header, justify="right" if number else "left")
-        for row in table.rows:
-            shown.add_row(*row)
-        console.print(shown)
-        if table.note:
-            console.print(table.note, style="dim")
+        console.print_table(table)
         console.print(f"[{run_times(result, table.parts)}]\n", style="dim", markup=False)

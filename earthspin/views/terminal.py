@@ -3,8 +3,15 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Collection
+from typing import TYPE_CHECKING
 
+from rich import box
 from rich.console import Console
+from rich.table import Table as RichTable
+
+if TYPE_CHECKING:
+    from earthspin.views.tables import Table
 
 #: Columns where the output goes to a file or a pipe.
 WIDTH = 100
@@ -19,3 +26,23 @@ class Terminal(Console):
     def on_broken_pipe(self) -> None:
         """Whoever read our output has gone: say so instead of leaving with status 1."""
         raise BrokenPipeError
+
+    def print_table(self, table: Table, words: Collection[int] = (0,)) -> None:
+        """Print a table and its note.
+
+        Parameters
+        ----------
+        table : Table
+        words : collection of int
+            The columns that hold words rather than numbers.
+        """
+        shown = RichTable(
+            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+        )
+        for number, header in enumerate(table.headers):
+            shown.add_column(header, justify="left" if number in words else "right")
+        for row in table.rows:
+            shown.add_row(*row)
+        self.print(shown)
+        if table.note:
+            self.print(table.note, style="dim", markup=False)

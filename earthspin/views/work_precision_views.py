@@ -98,23 +98,12 @@ def _unit(result: xr.Dataset) -> str:
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
     """Print table and sentence of each quantity to the terminal."""
-    from rich import box
-    from rich.table import Table as RichTable
-
     from earthspin.views.terminal import WIDTH, Terminal
 
     console = Terminal(WIDTH + 10)
     for result in results:
         table = accuracy_table(result)
-        shown = RichTable(
-            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
-        )
-        for number, header in enumerate(table.headers):
-            shown.add_column(header, justify="right" if 2 <= number <= 5 else "left")
-        for row in table.rows:
-            shown.add_row(*row)
-        console.print(shown)
-        console.print(table.note, style="dim", markup=False)
+        console.print_table(table, words={0, 1, *range(6, len(table.headers))})
         console.print(f"\n{result.attrs['sentence']}\n", markup=False)
 
 

@@ -20,6 +20,9 @@ from earthspin.errors import UndefinedError
 
 Complex = NDArray[np.complex128]
 
+#: Share of a steady excitation's effect that must be left at the end of a step.
+_LEAST_TRACE = 1e-10
+
 
 def chandler_frequency(period: float, quality_factor: float) -> complex:
     """Complex frequency s = (2 pi/T)(1 + i/(2 Q)), rad per unit of T.
@@ -59,8 +62,18 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
     -------
     complex array, shape (n - 1,)
         In the unit of p.
+
+    Raises
+    ------
+    UndefinedError
+        For a step of whole free periods without loss, at whose end nothing tells what drove it.
     """
     decay, rise = _response(step, s)
+    if abs(rise) <= _LEAST_TRACE * abs(s.real * step):
+        raise UndefinedError(
+            f"a step of {s.real * step / (2 * np.pi):.6g} free periods without loss: what drives "
+            f"the pole leaves no trace at its end; choose another step"
+        )
     return np.asarray((p[1:] - decay * p[:-1]) / rise)
 
 

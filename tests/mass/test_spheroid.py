@@ -277,6 +277,13 @@ def test_bodies_that_cannot_be(arguments: tuple[object, ...], message: str) -> N
         spheroid.spheroid_potential(*arguments)  # type: ignore[arg-type]
 
 
+def test_points_too_far_for_floats() -> None:
+    for place in ([1e51, 0.0, 0.0], [0.0, 0.0, -1e300]):
+        with pytest.raises(UndefinedError, match="beyond what can be computed"):
+            spheroid.spheroid_potential(1.0, 1.0, 0.1, place)
+    assert np.all(np.isfinite(spheroid.spheroid_torque(1.0, 1.0, 0.1, 1.0, [1e49, 0.0, 1e49])))
+
+
 def test_points_that_cannot_be() -> None:
     with pytest.raises(UndefinedError, match="nan"):
         spheroid.spheroid_attraction(1.0, 1.0, 0.1, [1.0, np.nan, 0.0])

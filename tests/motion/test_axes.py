@@ -78,6 +78,12 @@ def test_a_spin_of_two_days_is_within_its_error(de421: Ephemeris) -> None:
     assert off < 2 * path.error / UAS < 10
 
 
+@pytest.mark.parametrize("h", [-1e6, -1e100])
+def test_an_axis_that_runs_away_is_refused_before_it_overflows(de421: Ephemeris, h: float) -> None:
+    with pytest.raises(UndefinedError, match="turns too fast"):
+        axis_path(forces(de421, figure(h=h)), NORTH, 0.0, (0.0, YEAR))
+
+
 def test_a_flat_triaxial_body_is_refused(de421: Ephemeris) -> None:
     with pytest.raises(UndefinedError, match="resonates"):
         axis_path(forces(de421, figure(h=0.5, triaxiality=1e-3)), NORTH, 0.0, (0.0, 10 * DAY))

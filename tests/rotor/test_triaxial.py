@@ -179,6 +179,12 @@ def test_units_do_not_matter(
     assert np.array_equal(scaled.attitude, plain.attitude)
 
 
+@pytest.mark.parametrize(("size", "speed"), [(1e200, 1e60), (1e-200, 1e-60), (1.0, 1e200)])
+def test_energies_that_no_float_holds_are_refused(size: float, speed: float) -> None:
+    with pytest.raises(UndefinedError, match="cannot hold the energy"):
+        free_rotation(np.multiply(BODY, size), np.multiply([0.1, 0.2, 0.3], speed), TIMES)
+
+
 def test_stopping_and_starting_again() -> None:
     for case in cases("generic", 20):
         first = free_rotation(*case, [2.0])

@@ -12,6 +12,8 @@ from earthspin.rotor.euler import integrate_rotation
 from earthspin.scene.spec import scene_from_table
 from earthspin.top.integration import integrate_heavy_top
 from earthspin.top.start import HeavyTop
+from earthspin.views.figures import free_rotor_drawings
+from earthspin.views.tables import tables_for
 
 TIMES = np.linspace(0.0, 20.0, 41)
 TOP = {
@@ -53,6 +55,26 @@ def test_several_starts_at_once() -> None:
     assert np.array_equal(many.omega_body.isel(start=0), one.omega_body)
     assert "polhode" in one
     assert "polhode" not in many
+
+
+@pytest.mark.parametrize(
+    ("moments", "omega"),
+    [
+        ([3.0, 4.0, 6.0], [2.0, 0.0, 1.0]),  # on the separatrix
+        ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0]),  # about the middle axis
+        ([2.0, 2.0, 2.0], [0.3, 0.4, 0.5]),  # a sphere
+    ],
+)
+def test_a_polhode_without_a_period_has_no_advance(moments: list, omega: list) -> None:
+    result = earthspin.free_rotor(moments, omega, TIMES)
+    numeric = integrate_rotation(moments, omega, TIMES)
+    # omega falls off the middle axis in e-foldings, as errors of the integrator grow
+    assert np.allclose(result.attitude, numeric.attitude, rtol=0, atol=1e-6)
+    assert np.isposinf(result.polhode_period)
+    assert "herpolhode_advance" not in result
+    rows = dict(tables_for(result)[0].rows)
+    assert rows["turn of the herpolhode per round, deg"] == "none (no round ends)"
+    assert "does not come back" in free_rotor_drawings(result)[1].caption
 
 
 def test_heavy_top_against_the_full_equations() -> None:

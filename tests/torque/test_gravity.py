@@ -1,10 +1,12 @@
 """The torque at an instant: both forms, an independent sum of forces, and its symmetries."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from earthspin.errors import UndefinedError
 from earthspin.torque.gravity import torque_error, torque_from_declination, torque_from_position
 
 GM, BULGE = 1.3e20, 2.6e35
@@ -77,6 +79,15 @@ def test_no_torque_on_the_equator_at_the_pole_or_on_a_sphere() -> None:
     for position in ([[1.0, 2.0, 0.0]], [[0.0, 0.0, 3.0]]):
         assert not np.any(torque_from_position(GM, BULGE, np.array(position), axis))
     assert not np.any(torque_from_position(GM, 0.0, np.array([[1.0, 2.0, 3.0]]), axis))
+
+
+@pytest.mark.parametrize("wrong", [0.0, np.nan])
+def test_a_mass_in_the_centre_is_refused(wrong: float) -> None:
+    places = np.array([[1.0, 0.0, 1.0], [wrong, 0.0, 0.0]])
+    with pytest.raises(UndefinedError, match="no direction to pull in"):
+        torque_from_position(GM, BULGE, places, np.array([0.0, 0.0, 1.0]))
+    with pytest.raises(UndefinedError, match="no direction to pull in"):
+        torque_from_declination(GM, BULGE, np.zeros(2), np.zeros(2), np.array([1.0, wrong]))
 
 
 def test_distances_at_the_ends_of_the_float_range() -> None:

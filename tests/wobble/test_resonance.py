@@ -54,6 +54,16 @@ def test_a_free_wobble_has_no_excitation() -> None:
     assert np.max(abs(ex.excitation(p, 1.0, S))) < 1e-10
 
 
+def test_whole_periods_without_loss_leave_no_trace() -> None:
+    lossless = ex.chandler_frequency(433.0, np.inf)
+    p = np.array([1.0, 2.0, 3.0], dtype=complex)
+    for turns in (1, 2, 7):
+        with pytest.raises(UndefinedError, match=f"{turns} free periods .* no trace"):
+            ex.excitation(p, turns * 433.0, lossless)
+    for step, s in ((433.0 * 1.001, lossless), (433.0, S), (1e-6, lossless)):
+        assert np.all(np.isfinite(ex.excitation(p, step, s)))
+
+
 def test_a_step_of_zero_loss_is_allowed() -> None:
     s = ex.chandler_frequency(433.0, np.inf)
     assert s.imag == 0

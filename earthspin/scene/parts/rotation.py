@@ -52,6 +52,8 @@ def free_rotation(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
 
 def poinsot(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Ellipsoids, polhode, invariable plane and herpolhode of one start."""
+    import numpy as np
+
     from earthspin.dataset import build
     from earthspin.rotor import poinsot as p
     from earthspin.rotor.euler import axis_stability
@@ -60,9 +62,12 @@ def poinsot(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     moments, omega = settings["moments"], settings["omega"]
     path = p.polhode(moments, omega)
     stability = axis_stability(moments, sum(w * w for w in omega) ** 0.5)
+    returns = {}
+    if bool(np.isfinite(path.period)):
+        returns["herpolhode_advance"] = p.herpolhode_advance(moments, omega)
     return build(
         "poinsot",
-        POINSOT.gives,
+        dict(POINSOT.gives) | (ADVANCE if returns else {}),
         {
             "inertia_ellipsoid": p.inertia_ellipsoid(moments, omega),
             "momentum_ellipsoid": p.momentum_ellipsoid(moments, omega),
@@ -71,7 +76,7 @@ def poinsot(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
             "invariable_plane_distance": p.invariable_plane_distance(moments, omega),
             "herpolhode": p.herpolhode(moments, omega, settings["times"]),
             "herpolhode_radius": p.herpolhode_radii(moments, omega),
-            "herpolhode_advance": p.herpolhode_advance(moments, omega),
+            **returns,
             "growth_rate": stability.growth_rate,
         },
         coords={
@@ -144,9 +149,11 @@ POINSOT = Part(
             ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
         ),
         "herpolhode_radius": Variable(("bound",), "rad/s", "bounds of the herpolhode"),
-        "herpolhode_advance": Variable((), "rad", "turn of the herpolhode per round"),
         "growth_rate": Variable(
             ("component",), "1/s", "rate at which a small tilt off each axis grows; 0 if stable"
         ),
     },
 )
+
+#: Given where the polhode has a period: not on the separatrix, nor where omega stands still.
+ADVANCE = {"herpolhode_advance": Variable((), "rad", "turn of the herpolhode per round")}

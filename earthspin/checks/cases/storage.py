@@ -1,0 +1,150 @@
+"""Stiff and extreme cases of results on disk."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from earthspin import storage
+from earthspin.checks.case import Cases, without_folder
+from earthspin.dataset import Variable, build
+
+CASES = Cases("storage")
+
+TIMES = np.array(
+    ["1550-01-01T00:00:00.000001", "2000-02-29", "2650-12-31T23:59:59.999999"], "M8[us]"
+)
+
+
+def _small(value: float = 1.0) -> xr.Dataset:
+    return xr.Dataset(
+        {"x": ("time", np.full(TIMES.size, value), {"units": "m"})}, {"time": ("time", TIMES)}
+    )
+
+
+@contextmanager
+def _folder() -> Iterator[Path]:
+    with tempfile.TemporaryDirectory() as folder:
+        yield Path(folder)
+
+
+class _HalfWayError(Exception):
+    """What goes wrong in the middle of a write."""
+
+
+@CASES.hold(
+    "epochs of 1550 and 2650 on disk",
+    because="nanoseconds since 1970 wrap around: 1550 would come back as 2134",
+    against="the microsecond that was written",
+    unit="us",
+    bound=0.0,
+)
+def _far_epochs() -> float:
+    with _folder() as folder:
+        back = storage.read(storage.write(_small(), folder / "r.nc"))
+    return float(np.max(np.abs((back.time.values - TIMES).astype(np.int64))))
+
+
+@CASES.hold(
+    "infinity, the least and the largest float on disk",
+    because="fill values stand for missing ones, and some are such numbers",
+    against="the number that was written, bit for bit",
+    bound=0.0,
+)
+def _odd_numbers() -> float:
+    wrong = 0
+    for value in (np.inf, 5e-324, 9.969209968386869e36, 1.7976931348623157e308):
+        with _folder() as folder:
+            back = storage.read(storage.write(_small(value), folder / "r.nc"))
+        wrong += int(np.sum(back.x.values != value))
+    return float(wrong)
+
+
+@CASES.hold(
+    "a write to netCDF that fails half-way",
+    because="half a file looks like a file",
+    against="the old result, whole, and nothing beside it",
+    bound=0.0,
+)
+def _half_netcdf() -> float:
+    with _folder() as folder:
+        path = storage.write(_small(1.0), folder / "r.nc")
+        try:
+            with storage.replacing(path) as draft:
+                draft.write_bytes(path.read_bytes()[:100])
+                raise _HalfWayError
+        except _HalfWayError:
+            pass
+        left = {p.name for p in folder.iterdir()} ^ {"r.nc"}
+        return float(len(left) + np.sum(storage.read(path).x.values != 1.0))
+
+
+@CASES.hold(
+    "a write to a Zarr folder that fails half-way",
+    because="a store is many files, replaced as one",
+    against="the old files, and nothing beside them",
+    bound=0.0,
+)
+def _half_zarr() -> float:
+    with _folder() as folder:
+        old = folder / "r.zarr"
+        old.mkdir()
+        (old / ".zgroup").write_text("old")
+        try:
+            with storage.replacing(old) as draft:
+                draft.mkdir()
+                (draft / ".zgroup").write_text("new")
+                raise _HalfWayError
+        except _HalfWayError:
+            pass
+        left = {p.name for p in folder.iterdir()} ^ {"r.zarr"}
+        return float(len(left)) + float((old / ".zgroup").read_text() != "old")
+
+
+@CASES.refuse(
+    "a result with a hole in it",
+    because="NaN on disk is read as missing, and plotted as nothing",
+    saying="has no value here",
+)
+def _hole() -> None:
+    build("gauntlet", {"x": Variable(("n",), "m", "a length")}, {"x": np.array([1.0, np.nan])})
+
+
+@CASES.refuse(
+    "a file cut in half",
+    because="its head is whole and promises the rest",
+    saying="it cannot be read",
+)
+def _cut_file() -> None:
+    with _folder() as folder:
+        whole = storage.write(_small(), folder / "r.nc").read_bytes()
+        (folder / "cut.nc").write_bytes(whole[: len(whole) // 2])
+        with without_folder(folder / "cut.nc"):
+            storage.read(folder / "cut.nc")
+
+
+@CASES.refuse(
+    "a place where a file stands in the way of a folder",
+    because="some of the path exists, and none of it can be written",
+    saying="cannot be written",
+)
+def _blocked() -> None:
+    with _folder() as folder:
+        (folder / "file").write_text("in the way")
+        with without_folder(folder / "file"):
+            storage.write(_small(), folder / "file" / "r.nc")
+
+
+@CASES.refuse(
+    "a file of another kind",
+    because="it would be written in a format that its name denies",
+    saying="neither .nc nor .zarr",
+)
+def _other_ending() -> None:
+    with _folder() as folder, without_folder(folder / "r.txt"):
+        storage.write(_small(), folder / "r.txt")

@@ -1,0 +1,159 @@
+"""The gauntlet: every stiff and extreme case, run and judged, as one dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from earthspin._version import __version__
+from earthspin.checks.case import FAILS, HOLDS, REFUSED, Case, Outcome, judge
+from earthspin.dataset import CONVENTIONS, Variable, build
+from earthspin.errors import SceneError, nearest
+from earthspin.progress import progress
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Rooms that have cases, in the order in which they run.
+PARTS = (
+    "mass",
+    "rotor",
+    "top",
+    "torque",
+    "motion",
+    "wobble",
+    "compare",
+    "sky",
+    "scene",
+    "units",
+    "storage",
+)
+#: How the verdicts are told in a tally.
+VERDICTS = (HOLDS, REFUSED, FAILS)
+
+_CASE = ("case",)
+_MIXED = (("comment", "in the unit that 'unit' names for the case"),)
+SCHEMA = {
+    "measured": Variable(_CASE, "", "distance from what the case is held against", _MIXED),
+    "bound": Variable(_CASE, "", "largest distance that holds", _MIXED),
+    "unit": Variable(_CASE, "", "unit of the distance and its bound"),
+    "verdict": Variable(_CASE, "", "holds, refused or fails"),
+    "must_hold": Variable(_CASE, "", "whether only an answer will do"),
+    "case_part": Variable(_CASE, "", "part of the house that is tried"),
+    "hard_because": Variable(_CASE, "", "what makes it hard"),
+    "held_against": Variable(_CASE, "", "invariant, or independent reference"),
+    "reason": Variable(_CASE, "", "why it was refused, or fails"),
+    "run_time": Variable(_CASE, "s", "run time of the case"),
+}
+
+
+def stability(*, quick: bool = False, only: str | None = None, long: bool = False) -> xr.Dataset:
+    """Run the stiff and extreme cases.
+
+    Parameters
+    ----------
+    quick : bool
+        Leave out those that take more than a moment.
+    only : str, optional
+        A part (``"motion"``), or a word in the names of the cases that are wanted.
+    long : bool
+        Also run those that take minutes.
+
+    Returns
+    -------
+    Dataset
+        Over `case`: `measured`, `bound` and their `unit`; `verdict` (``holds``, ``refused``,
+        ``fails``); `must_hold`; `case_part`, `hard_because`, `held_against`, `reason`,
+        `run_time` (s). Where a refusal was expected and came, `measured` and `bound` are 0 and
+        `reason` is its line.
+
+    Raises
+    ------
+    SceneError
+        If no case has that word.
+    """
+    cases = chosen_cases(quick=quick, only=only, long=long)
+    outcomes = []
+    with progress("stability", len(cases)) as advance:
+        for case in cases:
+            outcomes.append(judge(case))
+            advance(1)
+    return labelled(cases, outcomes)
+
+
+def all_cases() -> tuple[Case, ...]:
+    """Every case there is."""
+    rooms = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
+    return tuple(case for room in rooms for case in room.CASES)
+
+
+def chosen_cases(
+    *, quick: bool = False, only: str | None = None, long: bool = False
+) -> tuple[Case, ...]:
+    """Cases that a run takes; arguments as of `stability`.
+
+    Raises
+    ------
+    SceneError
+        If there are none.
+    """
+    cases = all_cases()
+    if only is not None:
+        word = only.lower()
+        if word in PARTS:
+            cases = tuple(c for c in cases if c.part == word)
+        else:
+            cases = tuple(c for c in cases if word in c.name.lower())
+        if not word or not cases:
+            words = {*PARTS, *(w for c in all_cases() for w in c.name.lower().split())}
+            hint = nearest(only, words).split("allowed:")[0]
+            raise SceneError(
+                "only",
+                only,
+                f"no case has that word; {hint}give a part ({', '.join(PARTS)}) or a word of a "
+                f"case's name",
+                source="stability",
+            )
+    cases = tuple(c for c in cases if (long or not c.long) and not (quick and c.slow))
+    if not cases:
+        raise SceneError(
+            "only",
+            only,
+            "its cases take long; leave out --quick, or add --long",
+            source="stability",
+        )
+    return cases
+
+
+def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
+    """The dataset of cases and how they went."""
+    result = build(
+        "stability",
+        SCHEMA,
+        {
+            "measured": [o.measured for o in outcomes],
+            "bound": [o.bound for o in outcomes],
+            "unit": [c.unit for c in cases],
+            "verdict": [o.verdict for o in outcomes],
+            "must_hold": [c.must_hold for c in cases],
+            "case_part": [c.part for c in cases],
+            "hard_because": [c.hard_because for c in cases],
+            "held_against": [c.held_against for c in cases],
+            "reason": [o.reason for o in outcomes],
+            "run_time": [o.run_time for o in outcomes],
+        },
+        coords={"case": ("case", [c.name for c in cases], {"long_name": "stiff or extreme case"})},
+    )
+    result.attrs = {
+        "Conventions": CONVENTIONS,
+        "title": "Stiff and extreme cases",
+        "source": f"earthspin {__version__}",
+        "earthspin_version": __version__,
+    }
+    return result
+
+
+def tally(result: xr.Dataset) -> dict[str, int]:
+    """How many cases hold, are refused, and fail."""
+    return {verdict: int((result.verdict == verdict).sum()) for verdict in VERDICTS}

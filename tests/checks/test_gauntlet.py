@@ -1,0 +1,328 @@
+"""The gauntlet: what it holds, how it judges, and that it can fail."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from data_tools.stability import BEGIN, END, PAGE, with_tables
+from earthspin import storage
+from earthspin.checks import gauntlet
+from earthspin.checks.case import Case, Cases, judge
+from earthspin.checks.gauntlet import PARTS, all_cases, chosen_cases, labelled, tally
+from earthspin.cli import main
+from earthspin.errors import SceneError, UndefinedError
+from earthspin.views.gauntlet_views import markdown, tally_line, verdict_tables
+
+#: Bounds that do not come from what was measured.
+BOUND_OTHERWISE = {
+    "series of 1/R to degree 300 where it hardly converges": "what the series claims itself",
+    "steady precession at the least spin that allows it": "the square root of rounding",
+    "averages at steps that resonate with the month and the node": "sums in any order",
+    "a response whose core resonates next to the annual term": "where the search may stop",
+    "every leap second since 1972": "by how much TDB swings",
+}
+
+
+def rows_of_the_page() -> list[tuple[str, float, float]]:
+    """Name, measured and bound of the cases that hold, as the page has them."""
+    found = []
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        cells = line.removeprefix("| ").removesuffix(" |").split(" | ")
+        if line.startswith("| ") and cells[-1] == "holds":
+            measured, bound = (float(cell.split()[0]) for cell in cells[3:5])
+            found.append((cells[0], measured, bound))
+    return found
+
+
+@pytest.fixture(scope="module")
+def quick() -> xr.Dataset:
+    return earthspin.stability(quick=True)
+
+
+def planted(measure: Callable[[], Any], **changes: Any) -> Case:
+    given: dict[str, Any] = {
+        "name": "planted",
+        "part": "mass",
+        "hard_because": "it was planted",
+        "held_against": "nothing",
+        "bound": 1.0,
+    }
+    return Case(measure=measure, **(given | changes))
+
+
+def refusing(line: str = "it cannot be told") -> Callable[[], None]:
+    def measure() -> None:
+        raise UndefinedError(line)
+
+    return measure
+
+
+# --- the cases -----------------------------------------------------------------------------
+
+
+def test_there_are_enough_cases_of_every_part() -> None:
+    cases = all_cases()
+    assert len(cases) >= 200
+    assert sum(case.must_hold for case in cases) >= 130
+    assert len({case.name for case in cases}) == len(cases)
+    assert {case.part for case in cases} == set(PARTS)
+
+
+@pytest.mark.parametrize("case", all_cases(), ids=lambda case: case.name)
+def test_every_case_says_what_it_is(case: Case) -> None:
+    for words in (case.name, case.hard_because, case.held_against):
+        assert words
+        assert words == " ".join(words.split())
+    assert case.unit
+    assert 0 <= case.bound < math.inf
+    # A refusal is expected in words of its own, or an answer is the only thing that will do.
+    assert case.must_hold == (case.refusal == "")
+
+
+def test_a_quick_run_is_a_part_of_all() -> None:
+    few, usual, every = chosen_cases(quick=True), chosen_cases(), chosen_cases(long=True)
+    assert 150 < len(few) < len(usual) < len(every) == len(all_cases())
+    assert not any(case.long for case in usual)
+
+
+def test_none_fails(quick: xr.Dataset) -> None:
+    failed = quick.case.values[quick.verdict.values == "fails"]
+    assert list(failed) == [], quick.reason.sel(case=failed).values
+    assert np.all(quick.verdict.values[quick.must_hold.values] == "holds")
+    assert np.all(quick.verdict.values[~quick.must_hold.values] == "refused")
+
+
+def test_what_is_measured_is_within_the_bound(quick: xr.Dataset) -> None:
+    assert np.all(np.isfinite(quick.measured))
+    assert np.all(abs(quick.measured) <= quick.bound)
+    refused = quick.isel(case=quick.verdict.values == "refused")
+    assert np.all(refused.measured == 0)
+    assert np.all(refused.bound == 0)
+    assert all("\n" not in line and line for line in refused.reason.values)
+
+
+@pytest.mark.parametrize("row", rows_of_the_page(), ids=lambda row: row[0])
+def test_bounds_are_near_what_was_measured(row: tuple[str, float, float]) -> None:
+    """As on the page, where they stand side by side; at rounding a bound may be farther off."""
+    name, measured, bound = row
+    assert bound <= max(10.5 * measured, 1e-14) or name in BOUND_OTHERWISE, (measured, bound)
+
+
+# --- the verdicts --------------------------------------------------------------------------
+
+
+def test_a_distance_within_the_bound_holds() -> None:
+    for measured in (0.0, -1.0, np.float64(0.5), np.array(0.2)):
+        found = judge(planted(lambda measured=measured: measured))
+        assert (found.verdict, found.reason, found.bound) == ("holds", "", 1.0)
+        assert found.measured == measured
+        assert found.run_time >= 0
+
+
+def warn() -> float:
+    warnings.warn("digits were lost", RuntimeWarning, stacklevel=1)
+    return 0.0
+
+
+@pytest.mark.parametrize(
+    ("measure", "reason"),
+    [
+        (lambda: math.nan, "NaN"),
+        (lambda: np.float64(math.nan), "NaN"),
+        (lambda: 1.5, "beyond the bound"),
+        (lambda: -1.5, "beyond the bound"),
+        (lambda: math.inf, "beyond the bound"),
+        (lambda: float(np.float64(1e300) * np.float64(1e300) > 0), "overflow"),
+        (lambda: float(np.zeros(1)[0] / np.zeros(1)[0] > 0), "invalid value"),
+        (lambda: float(1 / np.zeros(1)[0] < 0), "divide by zero"),
+        (warn, "digits were lost"),
+        (lambda: [][1], "IndexError"),
+        (lambda: None, "no number but NoneType"),
+        (lambda: "text", "no number but str"),
+        (refusing(), "it was refused: it cannot be told"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_all_else_fails(measure: Callable[[], Any], reason: str) -> None:
+    found = judge(planted(measure))
+    assert found.verdict == "fails"
+    assert reason in found.reason
+    assert not math.isnan(found.measured)
+
+
+def test_an_expected_refusal_is_refused() -> None:
+    case = planted(refusing(), must_hold=False, refusal="cannot be told")
+    found = judge(case)
+    assert (found.measured, found.bound, found.verdict) == (0.0, 0.0, "refused")
+    assert found.reason == "it cannot be told"
+
+
+@pytest.mark.parametrize(
+    ("measure", "reason"),
+    [
+        (lambda: 0.0, "answered where a refusal was due"),
+        (lambda: None, "answered where a refusal was due"),
+        (refusing("quite another thing"), "does not say 'cannot be told'"),
+        (refusing("it cannot be told\nin one line"), "not one line"),
+        (lambda: 1 / 0, "ZeroDivisionError"),
+    ],
+)
+def test_a_refusal_that_does_not_come_fails(measure: Callable[[], Any], reason: str) -> None:
+    found = judge(planted(measure, must_hold=False, refusal="cannot be told"))
+    assert found.verdict == "fails"
+    assert reason in found.reason
+
+
+def test_what_may_be_refused_is_refused() -> None:
+    assert judge(planted(refusing(), must_hold=False)).verdict == "refused"
+
+
+def test_judging_leaves_no_trace() -> None:
+    before, filters = np.geterr(), list(warnings.filters)
+    judge(planted(lambda: 0.0))
+    judge(planted(warn))
+    assert np.geterr() == before
+    assert warnings.filters == filters
+
+
+def test_what_libraries_will_change_is_no_failure() -> None:
+    def measure() -> float:
+        warnings.warn("will be renamed", DeprecationWarning, stacklevel=1)
+        return 0.0
+
+    assert judge(planted(measure)).verdict == "holds"
+
+
+def test_cases_are_added_where_they_are_defined() -> None:
+    cases = Cases("top")
+
+    @cases.hold("one", because="b", against="a", bound=2.0, unit="mas")
+    def _one() -> float:
+        return 1.0
+
+    @cases.refuse("two", because="b", saying="no")
+    def _two() -> None: ...
+
+    assert [(c.name, c.part, c.must_hold, c.refusal) for c in cases] == [
+        ("one", "top", True, ""),
+        ("two", "top", False, "no"),
+    ]
+    assert _one() == 1.0
+
+
+# --- the dataset ---------------------------------------------------------------------------
+
+
+def test_the_dataset_is_as_promised(quick: xr.Dataset) -> None:
+    for name in ("measured", "bound", "verdict", "must_hold", "unit", "hard_because"):
+        assert quick[name].dims == ("case",)
+    assert quick.must_hold.dtype == bool
+    assert set(quick.verdict.values) == {"holds", "refused"}
+    assert quick.run_time.attrs["units"] == "s"
+    assert all(variable.attrs["long_name"] for variable in quick.variables.values())
+    assert quick.sizes["case"] == len(np.unique(quick.case))
+
+
+def test_it_comes_back_from_disk(quick: xr.Dataset, tmp_path: Path) -> None:
+    xr.testing.assert_identical(storage.read(storage.write(quick, tmp_path / "s.nc")), quick)
+
+
+def test_only_some() -> None:
+    parts = earthspin.stability(only="units")
+    assert set(parts.case_part.values) == {"units"}
+    words = earthspin.stability(only="Leap SECOND")
+    assert words.case.values.tolist() == [
+        "through the leap second of 2016-12-31",
+        "every leap second since 1972",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"only": "motio"}, "did you mean 'motion'"),
+        ({"only": "zzz"}, "no case has that word"),
+        ({"only": ""}, "no case has that word"),
+        ({"only": "10^8 epochs in", "quick": True}, "take long"),
+    ],
+)
+def test_words_that_no_case_has(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(SceneError, match="stability: only") as error:
+        earthspin.stability(**given)
+    assert said in str(error.value)
+
+
+# --- the command ---------------------------------------------------------------------------
+
+
+def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stability", "--quick", "--only", "leap second"]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    assert "through the leap second" in out
+    assert out.splitlines()[-1].startswith("2 cases, 2 of which must hold: 2 hold, 0 are refused")
+
+
+def test_a_mistake_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stability", "--only", "zzz"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "measure", [lambda: math.nan, lambda: 1 / 0, lambda: float(np.exp(np.float64(1e4)))]
+)
+def test_a_failure_is_told_and_is_the_exit_status(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, measure: Any
+) -> None:
+    cases = (planted(lambda: 0.0, name="sound"), planted(measure))
+    monkeypatch.setattr(gauntlet, "all_cases", lambda: cases)
+    assert main(["stability"]) == 1
+    out = capsys.readouterr().out
+    assert "fails: planted: " in out
+    assert "1 hold, 0 are refused as they should be, 1 fail" in out
+
+
+def test_tables_and_tally() -> None:
+    cases = (
+        planted(lambda: 0.0, name="one"),
+        planted(lambda: 2.0, name="two", unit="mas"),
+        planted(refusing("|a| is no"), name="three", must_hold=False, part="top"),
+    )
+    result = labelled(cases, [judge(case) for case in cases])
+    assert tally(result) == {"holds": 1, "refused": 1, "fails": 1}
+    first, second = verdict_tables(result)
+    assert [row[-1] for row in first.rows] == ["holds", "fails"]
+    assert second.rows == [("three", "", "", "", "refused")]
+    assert tally_line(result).startswith("3 cases, 2 of which must hold: 1 hold")
+    text = markdown(result)
+    assert "| two | it was planted | nothing | 2.0e+00 mas | 1.0e+00 mas | fails |" in text
+    assert "| three | it was planted | \\|a\\| is no |" in text
+
+
+# --- the page ------------------------------------------------------------------------------
+
+
+def test_the_page_shows_every_case() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    shown = {line.split(" | ")[0].removeprefix("| ") for line in page.splitlines()}
+    missing = {case.name for case in chosen_cases()} - shown
+    assert not missing, "run python -m data_tools stability"
+    assert "| fails |" not in page.split(BEGIN)[1]
+
+
+def test_the_measured_part_is_replaced_and_nothing_else() -> None:
+    page = f"words\n{BEGIN}\nold\n{END}\nmore words\n"
+    new = with_tables(page, "new")
+    assert new == f"words\n{BEGIN}\n\nnew\n{END}\nmore words\n"
+    assert with_tables(new, "new") == new
