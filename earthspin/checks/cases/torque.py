@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.calls import precession, torque_series
+from earthspin.calls import pole, precession, torque_series
 from earthspin.checks.case import Cases
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.scene.parts.averaging import mean_rates, sample_torques
@@ -229,6 +229,36 @@ def _far() -> float:
 )
 def _in_the_centre() -> None:
     torque_from_position(1e20, 1e35, np.array([[4e8, 0.0, 0.0], [0.0, 0.0, 0.0]]), NORTH)
+
+
+SWOLLEN = 5e8  # m, beyond the Moon
+
+
+@CASES.refuse(
+    "perturber inside the body, a series",
+    because="the formula goes on inside, and gives a plausible wrong number",
+    saying="holds outside it alone",
+)
+def _inside_a_series() -> None:
+    torque_series(times=["2000-01-01"], body=_body(radius=SWOLLEN))
+
+
+@CASES.refuse(
+    "perturber inside the body, an average",
+    because="the formula goes on inside, and gives a plausible wrong number",
+    saying="holds outside it alone",
+)
+def _inside_an_average() -> None:
+    _rate(_body(radius=SWOLLEN), MOON)
+
+
+@CASES.refuse(
+    "perturber inside the body, the pole",
+    because="the formula goes on inside, and gives a plausible wrong number",
+    saying="holds outside it alone",
+)
+def _inside_the_pole() -> None:
+    pole("2000-01-01", "2000-01-11", "1 d", body=_body(radius=SWOLLEN))
 
 
 @CASES.refuse(

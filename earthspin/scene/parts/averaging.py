@@ -73,7 +73,7 @@ def sample_torques(scene: Scene, given: Mapping[str, Any]) -> Samples:
     equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
     axis = equator[..., 2, :]
     axis_at_epoch = equator_of_date(pole, orbit, np.array([window.centre / DAY]))[..., 2, :]
-    positions = sky.ephemeris.positions(sky.targets, sky.centre, days)
+    positions = sky.positions(days)
     torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in scene.perturbers]
     names = [p.name for p in scene.perturbers]
     return Samples(

@@ -50,7 +50,7 @@ class Pulls:
         known = self._seen.setdefault(key, {}) if keep else {}
         missing = {name: self.targets[name] for name in names if name not in known}
         if missing:
-            known |= self.sky.ephemeris.positions(missing, self.sky.centre, times / DAY)
+            known |= self.sky.positions(times / DAY, missing)
         return known
 
 

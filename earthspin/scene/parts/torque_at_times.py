@@ -72,7 +72,7 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
         )
     now = given["times"].days(first, last)
     equator = equator_of_date(body.needed("pole"), body.orbit_pole, now, given.get("nutation"))
-    positions = sky.ephemeris.positions(sky.targets, sky.centre, now)
+    positions = sky.positions(now)
     names = list(sky.targets)
     seen = {name: spherical(rotate(equator, positions[name])) for name in names}
     choice = given.get("chosen-nutation")
