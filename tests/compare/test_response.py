@@ -56,6 +56,8 @@ def test_a_response_that_was_put_in_comes_out() -> None:
     frequency = np.concatenate([MULTIPLES, -MULTIPLES]) @ RATES
     rigid = (rng.normal(size=frequency.size) + 1j * rng.normal(size=frequency.size)) * ARCSEC
     found = fit_response(frequency, rigid, true.transfer(frequency) * rigid, H, SPIN)
+    # -430.21 d in Mathews, Herring & Buffett 2002; 0.0009 d measured
+    assert abs(true.period / DAY + 430.21) < 0.005
     assert abs(found.period - true.period) < 1e-3 * DAY
     assert abs(found.quality / true.quality - 1) < 1e-4
     assert np.max(np.abs(found.transfer(frequency) - true.transfer(frequency))) < 1e-7

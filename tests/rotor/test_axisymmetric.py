@@ -226,3 +226,12 @@ def test_period_of_the_wobble() -> None:
     assert 2 * np.pi / rotor.wobble_rate == pytest.approx(100.0, rel=1e-15)
     # 95 % of a normal distribution lie within 1.96 standard deviations.
     assert free_wobble_error(300.0, 0.0, 1e-3) == pytest.approx(0.588, abs=1e-4)
+
+
+def test_error_of_the_period_is_what_moving_h_gives() -> None:
+    """At a flattening so large that A and C are far apart: P = (1 - H)/H turns."""
+    h, u = 0.25, 1e-6
+    moved = [free_wobble_period((h * (1 + s * u)) / (1 - h * (1 + s * u)), 1.0) for s in (-1, 1)]
+    shift = 1.959963984540054 * (moved[0] - moved[1]) / 2
+    # 2e-10 measured, of the difference of two floats
+    assert free_wobble_error(3.0, h, u) == pytest.approx(shift, rel=1e-9)

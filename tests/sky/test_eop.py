@@ -80,6 +80,18 @@ def test_what_can_be_put_right_is_said(lines: list[str], file: Path) -> None:
     assert np.all(np.diff(series.mjd) == 1)
 
 
+def test_the_longest_gap_that_is_bridged(lines: list[str], file: Path) -> None:
+    """Nine days without a row are ten steps; ten days are one too many."""
+    file.write_text("\n".join(lines[:100] + lines[109:]))
+    bridged = eop.read_polar_motion(file)
+    assert "9 missing steps bridged" in bridged.repairs
+    whole = eop.read_polar_motion().mjd[:400]
+    assert np.array_equal(bridged.mjd, whole)
+    file.write_text("\n".join(lines[:100] + lines[110:]))
+    with pytest.raises(SeriesError, match=r"a gap of 11.0 d"):
+        eop.read_polar_motion(file)
+
+
 def damaged(lines: list[str], how: str) -> list[str]:
     whole = lines.copy()
     if how == "cut":

@@ -54,6 +54,14 @@ def test_a_free_wobble_has_no_excitation() -> None:
     assert np.max(abs(ex.excitation(p, 1.0, S))) < 1e-10
 
 
+def test_the_quality_factor_is_what_a_turn_costs() -> None:
+    """The energy, which goes as the square, falls by 2 pi/Q of itself in a turn; slowly lost."""
+    s = ex.chandler_frequency(433.0, 1e6)
+    left = ex.polar_motion_from(np.zeros(433, complex), 1.0, s, 1 + 0j)[-1]
+    assert 1 - abs(left) ** 2 == pytest.approx(2 * np.pi / 1e6, rel=1e-5)  # measured: 3e-6
+    assert np.angle(left) == pytest.approx(0.0, abs=1e-11)
+
+
 def test_a_step_of_zero_loss_is_allowed() -> None:
     s = ex.chandler_frequency(433.0, np.inf)
     assert s.imag == 0
