@@ -106,7 +106,7 @@ def test_no_microsecond_is_lost_between_1550_and_2650(count: int) -> None:
 def test_a_grid_is_exact(step: int, size: int, start: int) -> None:
     grid = units.TimeGrid(start, step, size)
     expected = [(start + k * step) / units.MICROSECONDS_PER_DAY for k in range(size)]
-    assert np.allclose(grid.days(), expected, rtol=0, atol=2e-11)
+    assert np.allclose(grid.days(), expected, rtol=0, atol=2e-14)
     assert np.array_equal(grid.days(size // 2, size), grid.days()[size // 2 :])
 
 

@@ -30,8 +30,8 @@ def test_rates_at_j2000_are_the_published_constants() -> None:
         (rates.omega_a, OMEGA_A_RATE),
         (rates.chi_a, CHI_A_RATE),
     ):
-        # The cubic terms add up to 1e-8 arcsec/yr over a year on either side.
-        assert abs(ours / ARCSEC_PER_YEAR - constant.value) < 2e-8
+        # measured: 2e-10 arcsec/yr, rounding of an angle over a week
+        assert abs(ours / ARCSEC_PER_YEAR - constant.value) < 1e-9
 
 
 def rate_at_j2000(angle: str) -> float:
@@ -82,8 +82,8 @@ def test_the_published_first_order() -> None:
     shares = budget.published_contributions(["first-order", "geodesic", "j3"])
     # cos(84381.406 arcsec) = 0.917482143065
     expected = 54.94062986 * 0.917482143065 - 269.43e-5
-    assert shares["first-order"] / ARCSEC_PER_YEAR == pytest.approx(expected, rel=1e-12)
-    assert shares["geodesic"] / ARCSEC_PER_YEAR == pytest.approx(-0.01919883, rel=1e-15)
+    assert shares["first-order"] / ARCSEC_PER_YEAR == pytest.approx(expected, rel=1e-12, abs=0)
+    assert shares["geodesic"] / ARCSEC_PER_YEAR == pytest.approx(-0.01919883, rel=1e-15, abs=0)
     assert shares["j3"] == 0.0
 
 
