@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: report test check docs bench clean
+.PHONY: report test check docs bench mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -20,6 +20,9 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.check
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+
+mutants: $(VENV)/.test
+	$(BIN)/python -m tests.mutants --page docs/measured/mutants.md
 
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/torque_series.py

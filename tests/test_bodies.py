@@ -84,9 +84,34 @@ def test_moments_give_the_figure_they_came_from(a: float, stretch: float, flat: 
     body = EARTH.replace(moments=(a, b, c))
     scale = body.mass * body.radius**2
     mean = c - body.j2 * scale
-    assert np.isclose(mean, (a + b) / 2, rtol=1e-9, atol=0)
-    assert np.isclose(body.j2 * scale / body.dynamical_flattening, c, rtol=1e-9, atol=0)
-    assert np.isclose(body.triaxiality * scale, b - a, rtol=1e-6, atol=1e-9 * a)
+    assert np.isclose(mean, (a + b) / 2, rtol=1e-15, atol=0)
+    assert np.isclose(body.j2 * scale / body.dynamical_flattening, c, rtol=2e-15, atol=0)
+    assert np.isclose(body.triaxiality * scale, b - a, rtol=2e-15, atol=0)
+
+
+def test_moments_may_be_named_either_way_round() -> None:
+    one, two = (
+        EARTH.replace(moments=m) for m in ((8.0e37, 8.1e37, 8.2e37), (8.1e37, 8e37, 8.2e37))
+    )
+    assert one.triaxiality == two.triaxiality > 0
+    assert one.j2 == two.j2
+    assert one.dynamical_flattening == pytest.approx(0.15 / 8.2, rel=1e-14, abs=0)
+
+
+def test_the_uncertainty_of_the_bulge() -> None:
+    """C - A = J2 (GM/G) a2, moved in each number in turn and added up as squares."""
+    known = {"j2": 3e-3, "gm": 1e-3, "radius": 2e-3}
+    body = EARTH.replace(relative_uncertainty=known)
+
+    def bulge(**moved: float) -> float:
+        return (
+            (1 + moved.get("j2", 0)) * (1 + moved.get("gm", 0)) * (1 + moved.get("radius", 0)) ** 2
+        )
+
+    shares = [bulge(**{name: u}) - 1 for name, u in known.items()]
+    expected = math.hypot(*shares, 1.5e-15 / 6.67430e-11)
+    # the square of a radius moved by 2e-3 adds 2e-6 to 4e-3
+    assert body.relative_uncertainty_of_bulge() == pytest.approx(expected, rel=1e-3, abs=0)
 
 
 def test_what_is_changed_loses_its_uncertainty() -> None:

@@ -105,7 +105,7 @@ SCHEMA = {"x": Variable(("time",), "deg", "an angle")}
 
 def test_values_are_turned_from_si() -> None:
     built = build("p", SCHEMA, {"x": np.array([np.pi])})
-    assert built.x.values == pytest.approx([180.0])
+    assert built.x.values == pytest.approx([180.0], rel=1e-15, abs=0)
     assert built.x.attrs == {"long_name": "an angle", "part": "p", "units": "deg"}
 
 

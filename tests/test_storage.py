@@ -90,6 +90,25 @@ def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
     process.wait()
     process.stdout.close()
     assert np.all(storage.read(path).x == 1.0)
+    # What the dead process left is cleared away by the next.
+    assert len(list(tmp_path.iterdir())) == 2
+    storage.write(small(3.0), path)
+    assert list(tmp_path.iterdir()) == [path]
+    assert np.all(storage.read(path).x == 3.0)
+
+
+def test_a_folder_that_a_dead_process_had_moved_aside_is_put_back(tmp_path: Path) -> None:
+    """Killed between the two moves: the next write that fails finds the old store again."""
+    path = storage.write(small(1.0), tmp_path / "r.zarr")
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    box = tmp_path / f".r.zarr.{dead.pid}.x"
+    box.mkdir()
+    path.rename(box / "old")
+    with pytest.raises(RuntimeError, match="half-way"), storage.replacing(path):
+        raise RuntimeError("half-way")
+    assert np.all(storage.read(path).x == 1.0)
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_a_folder_that_cannot_be_replaced_is_put_back(

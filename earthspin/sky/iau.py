@@ -148,7 +148,7 @@ def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> 
     days : ndarray, shape (n,)
     """
     x, y, _ = np.moveaxis(mean_equator(days), 1, 0)
-    shift = eta.real[:, np.newaxis] * x - eta.imag[:, np.newaxis] * y
+    shift = eta.real[:, np.newaxis] * x + eta.imag[:, np.newaxis] * y
     moved = pole + shift
     return np.asarray(moved / np.linalg.norm(moved, axis=1, keepdims=True))
 

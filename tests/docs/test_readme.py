@@ -28,4 +28,4 @@ def test_the_python_runs_and_gives_the_same_numbers() -> None:
     ).stdout
     numbers = [float(n) for n in re.findall(r"\d+\.\d+", out)]
     assert np.min(np.abs(np.array(numbers) - 50.404315)) < 1e-5
-    assert np.min(np.abs(np.array(numbers) - 25712.084)) < 0.02
+    assert np.min(np.abs(np.array(numbers) - 25712.084)) < 0.005

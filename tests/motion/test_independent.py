@@ -92,9 +92,13 @@ def test_attitude_of_a_triaxial_body(de421: Ephemeris, uneven_path: AxisPath) ->
         few,
     )
     found = uneven_path.at(few)
+    matrix = rotation_matrix(turn)
+    moments = 1 - np.array([H + TRIAXIALITY / 2, H - TRIAXIALITY / 2, 0.0])
+    omega = np.einsum("tij,tj->ti", matrix, np.einsum("tji,tj->ti", matrix, momentum) / moments)
+    assert apart(found["rotation"], omega) < 0.01
     # 0.003 uas measured; the motion itself has 34
     assert apart(found["figure"], rotation_matrix(turn)[:, :, 2]) < 0.02
-    assert apart(found["angular_momentum"], momentum) < 0.02
+    assert apart(found["angular_momentum"], momentum) < 0.008
     assert 20 < apart(found["figure"], uneven_path.at(few, semidiurnal=False)["figure"]) < 50
 
 
@@ -104,7 +108,7 @@ def test_rotation_axis_is_where_the_body_turns_about(
     """omega = L/A + (1 - C/A) Omega F, with L and F integrated."""
     momentum, axis = integrated
     omega = momentum / (1 - H) + (1 - 1 / (1 - H)) * axis
-    assert apart(round_path.at(TIMES)["rotation"], omega) < 0.02
+    assert apart(round_path.at(TIMES)["rotation"], omega) < 0.008
 
 
 def test_a_quaternion_and_its_matrix() -> None:
@@ -112,6 +116,6 @@ def test_a_quaternion_and_its_matrix() -> None:
     for _ in range(20):
         q = rng.normal(size=4)
         matrix = rotation_matrix(q)
-        assert np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-15)
+        assert np.allclose(matrix @ matrix.T, np.eye(3), rtol=0, atol=1e-15)
         again = quaternion_from_matrix(matrix)
         assert abs(abs(again @ q) / np.linalg.norm(q) - 1) < 1e-15

@@ -79,9 +79,10 @@ def test_the_full_equations_step_by_step(family: str) -> None:
         times = np.array([-10.0, 7.0, 25.0]) / speed
         stepped = integrate_rotation(case.moments, case.omega, times)
         closed = free_rotation(case.moments, case.omega, times)
-        # measured: 6e-13, all of it the integrator's
-        np.testing.assert_allclose(stepped.omega_body, closed.omega_body, atol=5e-12 * speed)
-        np.testing.assert_allclose(stepped.attitude, closed.attitude, atol=5e-12)
+        # measured: 6e-13, all of it the integrator's, and 5e-12 on the separatrix
+        off = 4e-11 if "separatrix" in family else 5e-12
+        np.testing.assert_allclose(stepped.omega_body, closed.omega_body, rtol=0, atol=off * speed)
+        np.testing.assert_allclose(stepped.attitude, closed.attitude, rtol=0, atol=off)
 
 
 # --- what stays the same -------------------------------------------------------------------
@@ -108,10 +109,10 @@ def test_invariants_over_ten_thousand_periods(family: str) -> None:
 def test_the_start_is_what_was_given(family: str) -> None:
     for case in cases(family, 10):
         found = free_rotation(*case, [0.0])
-        np.testing.assert_allclose(found.attitude, [[1, 0, 0, 0]], atol=1e-15)
+        np.testing.assert_allclose(found.attitude, [[1, 0, 0, 0]], rtol=0, atol=1e-15)
         scale = np.max(np.abs(case.omega))
-        np.testing.assert_allclose(found.omega_body[0], case.omega, atol=1e-14 * scale)
-        np.testing.assert_allclose(found.omega_inertial[0], case.omega, atol=1e-14 * scale)
+        np.testing.assert_allclose(found.omega_body[0], case.omega, rtol=0, atol=1e-14 * scale)
+        np.testing.assert_allclose(found.omega_inertial[0], case.omega, rtol=0, atol=1e-14 * scale)
 
 
 def test_attitude_does_not_jump() -> None:
@@ -133,8 +134,8 @@ TIMES = np.array([-7.0, 0.4, 3.0, 50.0])
 
 def close(found: FreeRotation, omega: Any, attitude: Any, tolerance: float = 2e-13) -> None:
     """Near the separatrix u reaches 40 in these bodies, and with it the error 1e-14."""
-    np.testing.assert_allclose(found.omega_body, omega, atol=tolerance)
-    np.testing.assert_allclose(found.attitude, attitude, atol=tolerance)
+    np.testing.assert_allclose(found.omega_body, omega, rtol=0, atol=tolerance)
+    np.testing.assert_allclose(found.attitude, attitude, rtol=0, atol=tolerance)
 
 
 @given(bodies, starts)
@@ -191,9 +192,9 @@ def test_stopping_and_starting_again() -> None:
         second = free_rotation(case.moments, first.omega_body[0], [3.0])
         whole = free_rotation(*case, [5.0])
         # measured: 2e-15 and the start's rounding
-        np.testing.assert_allclose(second.omega_body, whole.omega_body, atol=5e-14)
+        np.testing.assert_allclose(second.omega_body, whole.omega_body, rtol=0, atol=5e-14)
         turn = multiply(first.attitude, second.attitude)
-        np.testing.assert_allclose(turn, whole.attitude, atol=5e-14)
+        np.testing.assert_allclose(turn, whole.attitude, rtol=0, atol=5e-14)
 
 
 @pytest.mark.parametrize("difference", [0.4, -0.6, 1e-9, -1e-9])
@@ -230,10 +231,10 @@ def test_from_prolate_to_oblate_through_the_sphere() -> None:
 def test_a_sphere_turns_about_a_fixed_axis() -> None:
     omega, times = np.array([1.0, 2.0, -2.0]), np.linspace(-9, 9, 7)
     found = free_rotation([0.4, 0.4, 0.4], omega, times)
-    np.testing.assert_allclose(found.omega_body, np.tile(omega, (7, 1)), atol=1e-15)
-    np.testing.assert_allclose(found.omega_inertial, np.tile(omega, (7, 1)), atol=3e-15)
+    np.testing.assert_allclose(found.omega_body, np.tile(omega, (7, 1)), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found.omega_inertial, np.tile(omega, (7, 1)), rtol=0, atol=3e-15)
     wanted = np.column_stack([np.cos(1.5 * times), np.outer(np.sin(1.5 * times), omega / 3)])
-    np.testing.assert_allclose(found.attitude, wanted, atol=5e-15)
+    np.testing.assert_allclose(found.attitude, wanted, rtol=0, atol=5e-15)
 
 
 @pytest.mark.parametrize("moments", [(1.0, 2.0, 2.5), (2.0, 1.0, 2.5), (2.5, 2.0, 1.0)])
@@ -245,7 +246,7 @@ def test_a_rotation_about_an_axis_stays(moments: Any, axis: int, sign: int) -> N
     found = free_rotation(moments, omega, times)
     assert np.array_equal(found.omega_body, np.tile(omega, (3, 1)))
     wanted = np.column_stack([np.cos(times / 2), np.outer(np.sin(times / 2), omega)])
-    np.testing.assert_allclose(found.attitude, wanted, atol=5e-14)  # sin(500) in floats
+    np.testing.assert_allclose(found.attitude, wanted, rtol=0, atol=5e-14)  # sin(500) in floats
 
 
 @pytest.mark.parametrize("moments", [(1.0, 1.0, 1.5), (1.5, 1.0, 1.5), (1.0, 1.5, 1.5)])
@@ -255,9 +256,9 @@ def test_a_rotation_across_the_axis_of_symmetry_stays(moments: Any) -> None:
         if np.any(np.cross(inertia_omega, omega)):
             continue
         found = free_rotation(moments, omega, [0.0, 3.0])
-        np.testing.assert_allclose(found.omega_body, [omega, omega], atol=1e-15)
+        np.testing.assert_allclose(found.omega_body, [omega, omega], rtol=0, atol=1e-15)
         wanted = [np.cos(1.5), *(np.sin(1.5) * np.array(omega))]
-        np.testing.assert_allclose(found.attitude[1], wanted, atol=1e-15)
+        np.testing.assert_allclose(found.attitude[1], wanted, rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("size", [1e-270, 1e-250, 1e-100])
@@ -266,7 +267,7 @@ def test_differences_beyond_any_digit_of_the_moments(size: float) -> None:
     motion = jacobi_motion({"A": 1.0, "B-A": size, "C-A": 3 * size}, [0.3, 0.2, 1.0])
     like = jacobi_motion({"A": 1.0, "B-A": 1e-20, "C-A": 3e-20}, [0.3, 0.2, 1.0])
     np.testing.assert_allclose(motion.amplitudes, like.amplitudes, rtol=1e-15)
-    assert motion.period * size == pytest.approx(float(like.period) * 1e-20, rel=1e-15)
+    assert motion.period * size == pytest.approx(float(like.period) * 1e-20, rel=1e-15, abs=0)
 
 
 @pytest.mark.parametrize("size", [5e-324, -5e-324, 1e-310, 1e-290, -1e-100])
@@ -275,8 +276,8 @@ def test_differences_that_no_time_is_long_enough_for(size: float) -> None:
     found = free_rotation({"A": 1.0, "B-A": size, "C-A": 3 * size}, omega, [7.0])
     sphere = free_rotation([1.0, 1.0, 1.0], omega, [7.0])
     assert jacobi_motion({"A": 1.0, "B-A": size, "C-A": 3 * size}, omega).period > 1e100
-    np.testing.assert_allclose(found.omega_body, sphere.omega_body, atol=1e-15)
-    np.testing.assert_allclose(found.attitude, sphere.attitude, atol=1e-15)
+    np.testing.assert_allclose(found.omega_body, sphere.omega_body, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found.attitude, sphere.attitude, rtol=0, atol=1e-15)
 
 
 def test_the_separatrix_ends_on_the_middle_axis() -> None:
@@ -297,10 +298,10 @@ def test_next_to_the_middle_axis_the_racket_turns_over_late() -> None:
     motion = jacobi_motion(BODY, [1e-100, 1.0, 1e-120])
     half = float(motion.period) / 2
     found = free_rotation(BODY, [1e-100, 1.0, 1e-120], [0.0, half / 4, half])
-    np.testing.assert_allclose(found.omega_body[:, 1], [1.0, 1.0, -1.0], atol=1e-15)
+    np.testing.assert_allclose(found.omega_body[:, 1], [1.0, 1.0, -1.0], rtol=0, atol=1e-15)
     rate = np.sqrt(1 * 0.5 / 2.5)
     # sqrt of A(B-A)/(C(C-B)) and the like are of order one: ln(1e100) time constants.
-    assert half * rate == pytest.approx(2 * np.log(1e100), rel=0.01)
+    assert half * rate == pytest.approx(2 * np.log(1e100), rel=0.01, abs=0)
 
 
 # --- the Earth's numbers -------------------------------------------------------------------
@@ -356,10 +357,12 @@ def test_bodies_and_starts_broadcast() -> None:
     for row in range(5):
         one = free_rotation(moments[row], omega[row], times)
         for name in ("omega_body", "attitude", "omega_inertial", "energy"):
-            np.testing.assert_allclose(getattr(many, name)[row], getattr(one, name), atol=3e-15)
+            np.testing.assert_allclose(
+                getattr(many, name)[row], getattr(one, name), rtol=0, atol=3e-15
+            )
     table = free_rotation(moments[:, None], omega, times)
     assert table.attitude.shape == (5, 5, 11, 4)
-    np.testing.assert_allclose(table.omega_body[2, 2], many.omega_body[2], atol=1e-15)
+    np.testing.assert_allclose(table.omega_body[2, 2], many.omega_body[2], rtol=0, atol=1e-15)
     steps = {"A": 1.0, "B-A": np.array([0.0, 0.1]), "C-A": 0.5}
     assert free_rotation(steps, [0.1, 0.2, 1.0], times).energy.shape == (2, 11)
     assert free_rotation(BODY, [0.1, 0.2, 1.0], []).omega_body.shape == (0, 3)

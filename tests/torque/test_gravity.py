@@ -43,7 +43,7 @@ def test_against_a_sum_of_forces_on_masses() -> None:
     exact = np.sum(np.cross(masses, force), axis=0)
     ours = torque_from_position(GM, bulge, away[np.newaxis], np.array([0.0, 0.0, 1.0]))[0]
     # The next degree is (s/r)2 = 2e-7 smaller; the sum itself loses 1e-10 by cancellation.
-    assert np.linalg.norm(ours - exact) < 1e-6 * np.linalg.norm(exact)
+    assert np.linalg.norm(ours - exact) < 1.5e-7 * np.linalg.norm(exact)
 
 
 @given(directions, directions)
@@ -51,8 +51,8 @@ def test_torque_is_across_axis_and_mass(position: np.ndarray, axis: np.ndarray) 
     axis = axis / np.linalg.norm(axis)
     torque = torque_from_position(1.0, 1.0, position[np.newaxis], axis)[0]
     scale = 3 / np.linalg.norm(position) ** 3
-    assert abs(torque @ axis) < 1e-14 * scale
-    assert abs(torque @ position) < 1e-14 * scale * np.linalg.norm(position)
+    assert abs(torque @ axis) < 1e-15 * scale
+    assert abs(torque @ position) < 1e-15 * scale * np.linalg.norm(position)
 
 
 @given(directions)
@@ -110,4 +110,4 @@ def test_the_error_is_what_moving_the_mass_gives() -> None:
         size(declination, distance - length) - size(declination, distance),
     )
     claimed = torque_error(GM, BULGE, declination, distance, angle, length, 0.0)
-    assert np.allclose(claimed, moved, rtol=1e-6)
+    assert np.allclose(claimed, moved, rtol=1e-6, atol=0)

@@ -57,11 +57,11 @@ def test_moments_against_quadrature(body: LayeredBody) -> None:
             quad(lambda r: density(body, r) * r**power, a, b)[0] for a, b in parts if b <= top
         )
 
-    assert np.isclose(body.mass, 4 * np.pi * moment(2, body.radius), rtol=1e-12)
+    assert np.isclose(body.mass, 4 * np.pi * moment(2, body.radius), rtol=4e-15, atol=0)
     whole = 8 * np.pi / 3 * moment(4, body.radius)
-    assert np.isclose(body.moment_of_inertia(), whole, rtol=1e-12)
+    assert np.isclose(body.moment_of_inertia(), whole, rtol=4e-15, atol=0)
     core = 8 * np.pi / 3 * moment(4, body.core_radius)
-    assert np.isclose(body.core_fraction, core / whole, rtol=1e-12)
+    assert np.isclose(body.core_fraction, core / whole, rtol=4e-15, atol=0)
 
 
 def test_moments_of_prem() -> None:
@@ -93,29 +93,31 @@ def test_kelvins_sphere(mu: float) -> None:
     stiffness = 1 + 9.5 * mu / (rho * gravity * radius)
     found = yielding(body)
     # A liquid core of a fiftieth of the radius and the finite stiffness leave 3e-4.
-    assert np.isclose(found.k, 1.5 / stiffness, rtol=1e-3)
-    assert np.isclose(found.h, 2.5 / stiffness, rtol=1e-3)
-    assert np.isclose(found.l, 0.75 / stiffness, rtol=2e-3)
+    assert np.isclose(found.k, 1.5 / stiffness, rtol=4e-4, atol=0)
+    assert np.isclose(found.h, 2.5 / stiffness, rtol=1e-3, atol=0)
+    assert np.isclose(found.l, 0.75 / stiffness, rtol=6e-4, atol=0)
 
 
 def test_without_rigidity_the_body_takes_clairauts_shape() -> None:
     soft = sphere((3.5e6, 11000.0, 0.0), (6.4e6, 4500.0, 1e5))
     found = yielding(soft)
-    assert np.isclose(found.k, equilibrium(soft).k, rtol=1e-5)
-    assert np.isclose(found.h, 1 + found.k, rtol=1e-5)
-    assert np.isclose(found.core_k, equilibrium(soft).core_k, rtol=1e-5)
+    assert np.isclose(found.k, equilibrium(soft).k, rtol=1e-5, atol=0)
+    assert np.isclose(found.h, 1 + found.k, rtol=1e-5, atol=0)
+    assert np.isclose(found.core_k, equilibrium(soft).core_k, rtol=1e-5, atol=0)
 
 
 def test_a_homogeneous_liquid_has_k_of_three_halves() -> None:
-    assert np.isclose(equilibrium(sphere((3e6, 5e3, 0.0), (6e6, 5e3, 1e9))).k, 1.5, rtol=1e-9)
+    assert np.isclose(
+        equilibrium(sphere((3e6, 5e3, 0.0), (6e6, 5e3, 1e9))).k, 1.5, rtol=2e-12, atol=0
+    )
 
 
 def test_core_and_surface_answer_alike() -> None:
     """Betti's reciprocity: core pressure moves the surface as the tide moves the core."""
     found = elastic(PREM)
-    assert np.isclose(found.k_pressure, found.core_k, rtol=1e-10)
+    assert np.isclose(found.k_pressure, found.core_k, rtol=5e-12, atol=0)
     found = yielding(PREM, -14 + 3j)
-    assert np.isclose(found.k_pressure, found.core_k, rtol=1e-10)
+    assert np.isclose(found.k_pressure, found.core_k, rtol=5e-12, atol=0)
 
 
 def test_compliances_beside_published_ones() -> None:
@@ -140,7 +142,7 @@ def test_interpolated_softening(real: float, imaginary: float) -> None:
         ("k", "core_k", "k_pressure", "core_k_pressure"), softening(PREM), strict=True
     ):
         expected = getattr(direct, name) / float(getattr(elastic(PREM), name))
-        assert abs(ratio(strain) - expected) < 1e-7, name  # measured: 2e-9
+        assert abs(ratio(strain) - expected) < 2e-8, name  # measured: 2e-9
 
 
 def test_a_softer_body_yields_more_and_lags() -> None:

@@ -12,7 +12,7 @@ from scipy.signal import lfilter
 
 import earthspin
 from earthspin import SceneError, UndefinedError
-from earthspin.constants import MAS
+from earthspin.constants import DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import observed
 from tests.conftest import load_pins
@@ -50,7 +50,17 @@ def test_burg_is_exact_on_sinusoids() -> None:
     t = np.arange(500)
     x = np.exp(0.3j * t) + 0.5 * np.exp(-1.1j * t)
     poles = np.roots(observed.burg(x, 2))
-    assert np.allclose(np.sort(np.angle(poles)), [-1.1, 0.3], atol=2e-3)
+    assert np.allclose(np.sort(np.angle(poles)), [-1.1, 0.3], rtol=0, atol=2e-3)
+
+
+@pytest.mark.parametrize("turns_per_year", [1, -1, 2, -2])
+def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
+    """Over sixty years nothing is left of a term that keeps step with the seasons."""
+    time = np.arange(0.0, 60 * 365.25, 10.0)
+    season = np.exp(2j * np.pi * turns_per_year * time * DAY / TROPICAL_YEAR.value)
+    left = observed.without_known_terms(time, 90 * season)
+    # measured: 1.3e-3 of 90 once a year, 2.5e-3 twice: ten seconds a year of difference
+    assert np.max(abs(left)) < 5e-3
 
 
 @pytest.mark.parametrize(
@@ -100,10 +110,10 @@ def test_envelope_of_steady_wobbles() -> None:
         + 5 * np.exp(-2j * np.pi * t / observed.YEAR)
     )
     seen = observed.envelope(t, p, 433.0)
-    assert np.allclose(abs(seen.chandler), 150, rtol=2e-5)
-    assert np.allclose(np.angle(seen.chandler), 0.7, atol=1e-5)
-    assert np.allclose(abs(seen.annual), 90, rtol=2e-5)
-    assert np.allclose(abs(seen.annual_retrograde), 5, rtol=1e-4)
+    assert np.allclose(abs(seen.chandler), 150, rtol=2e-5, atol=0)
+    assert np.allclose(np.angle(seen.chandler), 0.7, rtol=0, atol=1e-5)
+    assert np.allclose(abs(seen.annual), 90, rtol=2e-5, atol=0)
+    assert np.allclose(abs(seen.annual_retrograde), 5, rtol=1e-4, atol=0)
 
 
 def test_errors_of_the_amplitude_cover_it() -> None:
@@ -131,7 +141,7 @@ def test_likelihood_against_the_full_covariance() -> None:
         expected = 2 * likelihood.free * np.log(r[-1]) + 2 * np.log(r[:-1]).sum()
         expected += 2 * np.log(np.diag(lower).real).sum()
         found = likelihood(rate, log_decay, log_background)
-        assert found == pytest.approx(expected, rel=1e-11)
+        assert found == pytest.approx(expected, rel=8e-15, abs=0)
 
 
 def test_spectrum_tells_the_sense_of_rotation() -> None:
@@ -139,7 +149,7 @@ def test_spectrum_tells_the_sense_of_rotation() -> None:
     frequency, amplitude = observed.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
     at = np.argmax(amplitude)
     assert frequency[at] == pytest.approx(365.25 / 433, abs=0.01)
-    assert amplitude[at] == pytest.approx(100, rel=0.01)
+    assert amplitude[at] == pytest.approx(100, rel=0.01, abs=0)
     assert amplitude[frequency < -0.1].max() < 0.1
 
 
@@ -229,7 +239,7 @@ def test_excitation_there_and_back(pole: xr.Dataset) -> None:
     chi = earthspin.excitation(pole, period=432.5, quality_factor=101)
     back = earthspin.polar_motion_from(chi)
     for name in ("x", "y"):
-        assert np.max(abs(back[name].values - pole[name].values)) * 1e3 < 1e-10  # mas; 5e-12
+        assert np.max(abs(back[name].values - pole[name].values)) * 1e3 < 5e-11  # mas; 5e-12
     assert np.array_equal(back.time, pole.time)
     wrong = chi.copy()
     wrong.chi1.attrs["units"] = "rad"

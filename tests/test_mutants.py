@@ -1,0 +1,89 @@
+"""The planted errors themselves: each can be planted, every kernel has some, one is caught."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from tests.mutants.catalogue import ROOT, Mutant, load
+from tests.mutants.runner import Finding, failing_without_error, try_mutant
+from tests.mutants.tables import page, tally
+
+MUTANTS = load()
+#: Rooms of which every module is a kernel: all save those that only hold names.
+ROOMS = ("mass", "rotor", "top", "torque", "motion", "wobble", "compare", "sky")
+NO_KERNEL = {"__init__", "_checks"}
+DOORS = ("units", "dataset", "bodies", "storage", "constants")
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=[m.name for m in MUTANTS])
+def test_it_can_be_planted(mutant: Mutant) -> None:
+    assert mutant.old != mutant.new
+    planted = mutant.planted_in((ROOT / mutant.file).read_text(encoding="utf-8"))
+    compile(planted, mutant.file, "exec")
+    assert mutant.tests
+    for tests in mutant.tests:
+        file, _, name = tests.partition("::")
+        text = (ROOT / file).read_text(encoding="utf-8")
+        assert not name or f"def {name.partition('[')[0]}(" in text
+
+
+def test_names_tell_them_apart() -> None:
+    assert max(Counter(mutant.name for mutant in MUTANTS).values()) == 1
+
+
+def test_every_kernel_has_one() -> None:
+    kernels = {
+        str(path.relative_to(ROOT))
+        for room in ROOMS
+        for path in (ROOT / "earthspin" / room).glob("*.py")
+        if path.stem not in NO_KERNEL
+    } | {f"earthspin/{door}.py" for door in DOORS}
+    assert len(kernels) > 48
+    assert kernels <= {mutant.file for mutant in MUTANTS}
+    assert len(MUTANTS) >= 2 * 48
+
+
+def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> None:
+    mutant = next(m for m in MUTANTS if m.file == "earthspin/mass/inertia.py")
+    finding = try_mutant(mutant)
+    assert finding.caught
+    assert finding.witness == "tests/mass/test_relations.py::test_j2_and_back"
+    assert failing_without_error([finding.witness]) == set()
+
+
+def test_an_error_that_no_test_notices_is_a_survivor() -> None:
+    harmless = Mutant(
+        name="a comment",
+        kind="term",
+        file="earthspin/mass/inertia.py",
+        old="h / (1 - h)",
+        new="h / (1 - h)  # as it was",
+        tests=("tests/mass/test_relations.py",),
+    )
+    finding = try_mutant(harmless)
+    assert not finding.caught
+    assert not finding.trouble
+    assert "survived: a comment" in tally([finding], 1.0)
+    assert "SURVIVED" in page([finding], 1.0)
+
+
+def test_tests_that_never_run_do_not_count() -> None:
+    broken = Mutant(
+        name="a module that cannot be imported",
+        kind="term",
+        file="earthspin/mass/inertia.py",
+        old="Numeric = Any",
+        new="Numeric = Many",
+        tests=("tests/mass/test_relations.py",),
+    )
+    finding = try_mutant(broken)
+    assert not finding.caught
+    assert "pytest ended with" in finding.trouble
+
+
+def test_what_stands_twice_cannot_be_planted(tmp_path: Path) -> None:
+    mutant = Mutant("twice", "sign", "earthspin/mass/inertia.py", "a", "b", ("tests",))
+    with pytest.raises(ValueError, match="stands 2 times"):
+        mutant.planted_in("a a")
+    assert not Finding(mutant, "", 0.0).caught
