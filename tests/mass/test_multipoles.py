@@ -35,7 +35,13 @@ def _racah(n: int, m: int, r: np.ndarray) -> Any:
     return root * lpmv(m, n, np.cos(theta)) * np.exp(1j * m * phi)
 
 
-@given(st.tuples(*[st.integers(-1000, 1000).map(lambda k: k / 300)] * 3).filter(any))
+def _lpmv_knows(point: tuple[float, float, float]) -> bool:
+    """Whether the cosine that scipy takes still tells the angle: not next to the axis."""
+    across = np.hypot(point[0], point[1])
+    return any(point) and (across == 0 or across > 0.05 * abs(point[2]))
+
+
+@given(st.tuples(*[st.integers(-1000, 1000).map(lambda k: k / 300)] * 3).filter(_lpmv_knows))
 def test_solid_harmonics_are_what_they_are_said_to_be(point: tuple[float, float, float]) -> None:
     """Measured: 4.1e-15 r^n, much of it the error of lpmv."""
     r = np.array(point)
