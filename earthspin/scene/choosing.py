@@ -1,11 +1,9 @@
-r"""Accuracy on request: the cheapest settings whose measured error is small enough.
+"""Accuracy on request: the cheapest settings whose measured error is small enough.
 
 What each setting costs in error was measured once on the sky alone (`python -m data_tools
-error-models` writes `error_models.json`): the tidal tensor Q = GM r r^T/r5 does not depend on
-the body, and an error dQ turns the axis of any body by no more than 3 (H/Omega) s(dQ), where s
-is half the difference of the largest and the smallest eigenvalue. So one table serves bodies of
-any shape, spin and pole. Where the sky is not in the table (another perturber, another body),
-nothing is chosen and the finest settings stand.
+error-models` writes `error_models.json`); what it does to a body follows from `motion.sampling` and
+`torque.average`. Where the sky is not in the table (another perturber, another body), nothing is
+chosen and the finest settings stand.
 """
 
 from __future__ import annotations
@@ -16,12 +14,16 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.motion.axes import window_count
+from earthspin.motion.forces import Figure
+from earthspin.motion.sampling import turn_by_sampling
+from earthspin.torque.average import push_of_tensor
 
 FloatArray = NDArray[np.float64]
 
@@ -40,21 +42,35 @@ class Choice:
     words : str
         For people.
     settings : mapping
-        For the function that computes, by argument.
+        For the function that computes, by argument; nothing where it is to be left out.
     error : float
         Bound on the error of the method, SI: rad, or relative.
     evaluations : int
         How often the sky (or a term of the nutation) will be evaluated.
-    errors : mapping
-        By NAIF code of the perturber, where it is an average: of its push, and of its torque along
-        any axis, both per C - A, s-2.
     """
 
     words: str
     settings: Mapping[str, Any]
     error: float
     evaluations: int
-    errors: Mapping[int, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class AverageChoice(Choice):
+    """A window of an average, with what it may miss.
+
+    Attributes
+    ----------
+    push_errors, torque_errors : mapping of int to float
+        By NAIF code of the perturber: of its push, and of its torque along any axis, both per
+        C - A, s-2.
+    """
+
+    push_errors: Mapping[int, float]
+    torque_errors: Mapping[int, float]
+
+
+AnyChoice = TypeVar("AnyChoice", bound=Choice)
 
 
 @lru_cache
@@ -64,7 +80,7 @@ def models() -> dict[str, Any]:
     return found
 
 
-def cheapest(choices: Iterable[Choice], allowed: float) -> Choice | None:
+def cheapest(choices: Iterable[AnyChoice], allowed: float) -> AnyChoice | None:
     """Choose the cheapest within the error allowed; of equally cheap ones the most accurate."""
     good = [choice for choice in choices if choice.error <= allowed]
     return min(good, key=lambda choice: (choice.evaluations, choice.error), default=None)
@@ -73,34 +89,27 @@ def cheapest(choices: Iterable[Choice], allowed: float) -> Choice | None:
 # --- the pole: windows ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Turning:
-    """What of a body decides how far an error of the tidal tensor turns its axis.
+def window_choices(
+    code: int,
+    figure: Figure,
+    gm: Mapping[int, float],
+    span: tuple[float, float],
+    *,
+    geodesic: bool = False,
+) -> list[Choice]:
+    """Windows of the pole with the error of each.
 
-    Attributes
+    Parameters
     ----------
     code : int
-        NAIF.
-    h, triaxiality : float
-        (C - A)/C and (B - A)/C.
-    spin_rate : float
-        rad/s.
+        NAIF, of the body.
+    figure : Figure
     gm : mapping of int to float
         What pulls, by NAIF code, m3 s-2.
+    span : tuple of float
+        First and last time, s from the epoch.
     geodesic : bool
         Whether the frame turns, too.
-    """
-
-    code: int
-    h: float
-    triaxiality: float
-    spin_rate: float
-    gm: Mapping[int, float]
-    geodesic: bool
-
-
-def window_choices(body: Turning, first: float, last: float) -> list[Choice]:
-    """Windows of the pole with the error of each, from t = 0 to a span, s.
 
     Returns
     -------
@@ -108,32 +117,27 @@ def window_choices(body: Turning, first: float, last: float) -> list[Choice]:
         Empty if the sky of this body has not been measured.
     """
     table = models()["pole"]
-    rows = table["tensor"].get(str(body.code), {})
-    if not all(str(code) in rows for code in body.gm):
+    rows = table["tensor"].get(str(code), {})
+    if not all(str(puller) in rows for puller in gm):
         return []
-    reach = max(abs(first), abs(last))
+    reach = max(map(abs, span))
 
     def of_all(name: str) -> FloatArray:
         each = [
-            gm * _in_reach(rows[str(code)][name], table["reach"], reach)
-            for code, gm in body.gm.items()
+            mass * _in_reach(rows[str(puller)][name], table["reach"], reach)
+            for puller, mass in gm.items()
         ]
         return np.asarray(np.sum(each, axis=0))
 
-    integral, value, derivative = map(of_all, ("integral", "value", "derivative"))
-    kappa = (1 - body.h) / abs(body.spin_rate)
-    per_h = 3 * abs(body.h) / abs(body.spin_rate)
-    error = per_h * (integral + kappa * value + kappa**2 * derivative)
-    error = error + 3 * abs(body.triaxiality) / body.spin_rate**2 * value
-    if body.geodesic:
-        error = error + _in_reach(table["geodesic"][str(body.code)], table["reach"], reach)
+    error = turn_by_sampling(figure, *map(of_all, ("integral", "value", "derivative")))
+    if geodesic:
+        error = error + _in_reach(table["geodesic"][str(code)], table["reach"], reach)
     return [
         Choice(
             words=f"Gauss windows of {days} d with {nodes} nodes",
             settings={"window": days * DAY, "order": nodes},
             error=float(off),
-            evaluations=nodes * _windows(first, last, days * DAY),
-            errors={},
+            evaluations=nodes * window_count(0.0, span, days * DAY),
         )
         for (days, nodes), off in zip(table["settings"], error, strict=True)
     ]
@@ -147,11 +151,6 @@ def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
     years = reach / JULIAN_YEAR
     place = min(int(np.searchsorted(reaches, years)), len(reaches) - 1)
     return np.asarray(found[:, place] * max(1.0, years / reaches[-1]))
-
-
-def _windows(first: float, last: float, window: float) -> int:
-    forward, backward = max(0.0, last), max(0.0, -first)
-    return math.ceil(forward / window) + math.ceil(backward / window) or 1
 
 
 # --- averages over orbits: cycles and step -------------------------------------------------------
@@ -183,47 +182,51 @@ class Pushed:
     cycle: float
 
 
-def average_choices(body: Pushed, cycles: float) -> list[Choice]:
-    """Windows of an average with the relative error of the rate, up to so many cycles.
+def average_choices(body: Pushed, cycles: float) -> list[AverageChoice]:
+    """Windows of an average with the relative error of the rate.
 
-    With z along the orbit's normal the push of a mean tensor is
-
-        3 ((Qxx - Qzz) cos(eps) + Qxz cos(2 eps)/sin(eps)).
+    Parameters
+    ----------
+    body : Pushed
+    cycles : float
+        As many as there is room for.
 
     Returns
     -------
-    list of Choice
+    list of AverageChoice
         Empty if the sky has not been measured, or the rate vanishes.
     """
     table = models()["average"]
     rows = table["tensor"].get(str(body.code), {}).get(f"{body.cycle / DAY:.2f}", {})
-    cosine, sine = math.cos(body.obliquity), math.sin(body.obliquity)
-    if not all(str(code) in rows for code in body.gm) or sine == 0:
+    if not all(str(code) in rows for code in body.gm) or math.sin(body.obliquity) == 0:
         return []
     if np.linalg.norm(body.normal - table["normal"][str(body.code)]) > SAME_ORBIT:
         return []
-    push = {code: 3 * gm * rows[str(code)]["mean"] * cosine for code, gm in body.gm.items()}
-    swing = sum(body.slow_swing[code] * abs(push[code]) for code in body.gm)
-    total = abs(sum(push.values()))
+    push = {
+        code: gm * float(push_of_tensor(rows[str(code)]["mean"], 0.0, body.obliquity))
+        for code, gm in body.gm.items()
+    }
+    swing = sum(body.slow_swing[code] * push[code] for code in body.gm)
+    total = sum(push.values())
     if total == 0:
         return []
     in_plane, out_of_plane = (
-        {code: 3 * gm * 10.0 ** np.asarray(rows[str(code)][name]) for code, gm in body.gm.items()}
+        {code: gm * 10.0 ** np.asarray(rows[str(code)][name]) for code, gm in body.gm.items()}
         for name in ("in_plane", "out_of_plane")
     )
-    tilting = abs(math.cos(2 * body.obliquity)) / sine
     found = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
             off = {code: (in_plane[code][i, j], out_of_plane[code][i, j]) for code in body.gm}
-            errors = {code: (a * abs(cosine) + b * tilting, a + b) for code, (a, b) in off.items()}
+            pushes = {code: push_of_tensor(*pair, body.obliquity) for code, pair in off.items()}
             found.append(
-                Choice(
+                AverageChoice(
                     words=f"sin4 taper over {turns} cycles, a sample each {days} d",
                     settings={"cycles": turns, "step": days * DAY},
-                    error=(sum(push for push, _ in errors.values()) + swing) / total,
+                    error=(sum(pushes.values()) + swing) / total,
                     evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
-                    errors=errors,
+                    push_errors=pushes,
+                    torque_errors={code: 3 * sum(pair) for code, pair in off.items()},
                 )
             )
     return found
@@ -233,7 +236,14 @@ def average_choices(body: Pushed, cycles: float) -> list[Choice]:
 
 
 def nutation_choices(first: float, last: float, size: int) -> list[Choice]:
-    """Ways to the true equator with their errors, for so many epochs between two days.
+    """Ways to the true equator with their errors.
+
+    Parameters
+    ----------
+    first, last : float
+        Days from J2000.0 TDB.
+    size : int
+        How many epochs lie between them.
 
     Returns
     -------
@@ -254,7 +264,6 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice]:
                 settings={"model": row["model"], "spacing": row["step"]} if row["terms"] else {},
                 error=10.0 ** row["error"],
                 evaluations=row["terms"] * min(nodes, size),
-                errors={},
             )
         )
     return found

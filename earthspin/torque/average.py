@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import UndefinedError
 
 FloatArray = NDArray[np.float64]
+Numeric = Any
 #: Blackman-Harris: minimum four-term window, Harris 1978, Proc. IEEE 66, 51, table 1.
 _BLACKMAN_HARRIS = (0.35875, 0.48829, 0.14128, 0.01168)
 
@@ -103,8 +105,7 @@ class Window:
             Evenly spaced, s.
         values : ndarray, shape (n, ...)
         """
-        # not by BLAS, whose threads cost tenfold where the cores are taken; time last, so that
-        # numpy sums pairwise
+        # time last: numpy then sums pairwise, and the same on any number of threads
         in_time = np.ascontiguousarray(np.moveaxis(values, 0, -1))
         return np.asarray(np.sum(self.weights(times) * in_time, axis=-1))
 
@@ -156,7 +157,7 @@ def window_mean_and_error(
     times: FloatArray,
     values: FloatArray,
     slow_swing: FloatArray,
-    known: FloatArray | None = None,
+    measured_error: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Means of several pulls and of their total, and how far each may be from that of all time.
 
@@ -169,7 +170,7 @@ def window_mean_and_error(
     slow_swing : ndarray, shape (perturber,)
         How far each pull swings more slowly than any window, over the pull itself: what
         windows that agree may all miss.
-    known : ndarray, shape (perturber,), optional
+    measured_error : ndarray, shape (perturber,), optional
         Errors of the means as measured for this window and these steps; with them no other window
         is asked.
 
@@ -183,12 +184,12 @@ def window_mean_and_error(
     all_values = with_total(values)
     mean = window.mean(times, all_values)
     along = (-1, *(1,) * (values.ndim - 2))
-    if known is None:
+    if measured_error is None:
         others = [w.mean(times, all_values) for w in neighbours(window)]
         others.append(window.mean(times[::2], all_values[::2]))
         spread = np.max(np.abs(np.stack(others) - mean), axis=0)
     else:
-        spread = with_total(known.reshape(1, *along) + np.zeros_like(values[:1]))[0]
+        spread = with_total(np.broadcast_to(measured_error.reshape(along), values[:1].shape))[0]
     size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
     swing = slow_swing.reshape(along) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
@@ -262,3 +263,21 @@ def precessing_push(torque: FloatArray, axis: FloatArray, normal: FloatArray) ->
             "so a rate of precession is not defined"
         )
     return np.asarray(np.sum(torque * across, axis=-1) / sine_squared)
+
+
+def push_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
+    """Push of a mean tidal tensor, or what errors of it do to the push, s-2.
+
+    With z along the orbit's normal and x below the spin axis,
+
+        N . (k x n)/sin2(eps) = 3 ((Qxx - Qzz) cos(eps) + Qxz cos(2 eps)/sin(eps))
+
+    Parameters
+    ----------
+    in_plane, out_of_plane : float or ndarray
+        Qxx - Qzz and Qxz, s-2; or bounds on their errors, for a bound.
+    obliquity : float
+        eps, rad; not 0.
+    """
+    tilt = abs(math.cos(2 * obliquity)) / math.sin(obliquity)
+    return 3 * (in_plane * abs(math.cos(obliquity)) + out_of_plane * tilt)

@@ -155,3 +155,22 @@ def circular_orbit_push(gm: float, distance: float, obliquity: float) -> float:
         rad.
     """
     return 1.5 * gm / distance**3 * math.cos(obliquity)
+
+
+def left_for_method(asked: float, *relative_uncertainties: float) -> float:
+    """Largest relative error of averaging with which the whole stays within what is asked.
+
+    Parameters
+    ----------
+    asked : float
+        Relative half-width of 95 %.
+    *relative_uncertainties : float
+        One standard deviation of each number that the rate is proportional to.
+
+    Returns
+    -------
+    float
+        0 where the numbers alone take more.
+    """
+    taken = half_width(1.0, *relative_uncertainties)
+    return math.sqrt(max(asked**2 - taken**2, 0.0))

@@ -22,6 +22,7 @@ from earthspin.motion.axes import AXES, axis_path
 from earthspin.scene.choosing import models, nutation_choices
 from earthspin.scene.parts import PARTS
 from earthspin.scene.parts.axes_in_time import pole_times
+from earthspin.scene.parts.choices import averages_on_offer, windows_on_offer
 from earthspin.scene.parts.pulls import forces_of, start_of
 from earthspin.sky.equator import rotate
 from earthspin.sky.iau import Nutation
@@ -117,8 +118,7 @@ def pole_outcome(rng: Generator) -> Outcome:
         return float(np.linalg.norm(found - truth, axis=-1).max() / UAS)
 
     cost, cheapest = int(result.evaluations), int(result.evaluations)
-    choose = PARTS["chosen-windows"].run
-    for choice in _menu(lambda: choose(scene, {})):
+    for choice in sorted(windows_on_offer(scene, given), key=lambda c: c.evaluations):
         if choice.evaluations >= cheapest or choice.error > HOPELESS * asked * UAS:
             continue
         try:
@@ -129,25 +129,6 @@ def pole_outcome(rng: Generator) -> Outcome:
     found = np.stack([result[c].transpose("time", "axis").values for c in "XYZ"], axis=-1)
     claimed = float(result.error_estimated)
     return Outcome(str(result.method_chosen.values), asked, claimed, off(found), cost, cheapest)
-
-
-def _menu(choose: Callable[[], Any]) -> list[Any]:
-    """All choices that a part looked at, cheapest first."""
-    import earthspin.scene.choosing as choosing
-
-    seen: list[Any] = []
-    original = choosing.cheapest
-
-    def listening(choices: Any, allowed: float) -> Any:
-        seen.extend(choices)
-        return original(seen, allowed)
-
-    choosing.cheapest = listening
-    try:
-        choose()
-    finally:
-        choosing.cheapest = original
-    return sorted(seen, key=lambda choice: choice.evaluations)
 
 
 # --- the mean rate -------------------------------------------------------------------------------
@@ -185,8 +166,7 @@ def rate_outcome(rng: Generator) -> Outcome:
     given["mean-rates"] = PARTS["mean-rates"].run(scene, given)
     report = PARTS["rate-accuracy"].run(scene, given)
     cost = cheapest = int(report.evaluations)
-    choose = PARTS["chosen-average"].run
-    for choice in _menu(lambda: choose(scene, given)):
+    for choice in sorted(averages_on_offer(scene, given), key=lambda c: c.evaluations):
         if choice.evaluations < cheapest and off(**choice.settings) <= asked:
             cheapest = choice.evaluations
     rate = given["mean-rates"].precession_rate.values[-1]

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from earthspin.scene.choosing import AverageChoice
     from earthspin.scene.spec import Scene
     from earthspin.torque.average import Window
     from earthspin.torque.rates import Estimate
@@ -105,9 +106,7 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
     swing = np.array([p.slow_swing for p in scene.perturbers])
-    choice = given.get("chosen-average")
-    known = [choice.errors[p.naif[0]] for p in scene.perturbers] if choice else None
-    of_push, of_torque = (None, None) if known is None else np.array(known).T
+    of_push, of_torque = _measured_errors(scene, given.get("chosen-average"))
     push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
     vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers]
@@ -154,6 +153,19 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     return result
 
 
+def _measured_errors(
+    scene: Scene, choice: AverageChoice | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, None]:
+    """Errors of push and torque of each perturber as measured for a choice, s-2."""
+    import numpy as np
+
+    if choice is None:
+        return None, None
+    codes = [p.naif[0] for p in scene.perturbers]
+    of_push = [choice.push_errors[code] for code in codes]
+    return np.array(of_push), np.array([choice.torque_errors[code] for code in codes])
+
+
 def convergence(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Averaged rate of all perturbers against the length of the window, for each taper."""
     import numpy as np
@@ -195,7 +207,7 @@ _OVER_WINDOW = (("cell_methods", "time: mean (weighted by the taper)"),)
 
 TORQUE_SAMPLES = Part(
     name="torque-samples",
-    does="torque of each perturber, daily, through the window that converges fastest",
+    does="torque of each perturber through the window that converges fastest",
     function="earthspin.scene.parts.averaging:sample_torques",
     needs=("ephemeris",),
     uses=("chosen-average",),

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin.bodies import IAU_2006
 from earthspin.dataset import Variable
 from earthspin.scene.part import Part
-from earthspin.scene.parts.conditions import asked_angle
+from earthspin.scene.parts.conditions import asked_angle, refuse_angle
 from earthspin.scene.parts.torque_at_times import TIME, series_times
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray as xr
-    from numpy.typing import NDArray
 
     from earthspin.motion.axes import AxisPath
     from earthspin.scene.choosing import Choice
@@ -50,16 +48,36 @@ def pole_times(scene: Scene) -> TimeGrid | TimeList:
 
 
 def follow(scene: Scene, given: Mapping[str, Any]) -> AxisPath:
-    """Integrate from the epoch to the times of the scene."""
+    """Integrate from the epoch to the times of the scene, on the windows chosen if they will do."""
     from earthspin.errors import UndefinedError
 
-    choice = given.get("chosen-windows")
-    if choice is not None:
+    choice, asked = given.get("chosen-windows"), asked_angle(scene)
+    tried: list[AxisPath] = []
+    if choice is not None and asked is not None:
         try:
-            return _follow(scene, given, choice)
+            tried.append(_follow(scene, given, choice))
         except UndefinedError:
             pass  # windows that are too wide for the slow manifold of this spin
-    return _follow(scene, given, None)
+        else:
+            if _worst_error(scene, tried[0]) <= asked:
+                return tried[0]
+    tried.append(_follow(scene, given, None))
+    return min(tried, key=lambda path: _worst_error(scene, path))
+
+
+def _worst_error(scene: Scene, path: AxisPath) -> float:
+    """Largest error of a direction at the times of the scene, H included, rad."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.motion.axes import error_of_input
+
+    u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    if u_h == 0:
+        return path.error
+    now = pole_times(scene).days(0, pole_times(scene).size)
+    from_input = error_of_input(path, path.at(now * DAY)["figure"], u_h)
+    return float(np.hypot(path.error, from_input.max()))
 
 
 def _follow(scene: Scene, given: Mapping[str, Any], choice: Choice | None) -> AxisPath:
@@ -92,78 +110,51 @@ def _follow(scene: Scene, given: Mapping[str, Any], choice: Choice | None) -> Ax
     return path if choice is None else replace(path, interpolation_error=choice.error)
 
 
-@dataclass(frozen=True)
-class _Directions:
-    """Axes at the times of a scene, shape (time, axis, 3), and their errors, rad."""
-
-    vectors: NDArray[np.float64]
-    method: NDArray[np.float64]
-    given: NDArray[np.float64]
-    words: str
-    evaluations: int
-
-    @property
-    def error(self) -> NDArray[np.float64]:
-        import numpy as np
-
-        return np.asarray(np.hypot(self.method, self.given))
-
-
 def pole(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     """Directions of the three axes at the times of the scene."""
+    import numpy as np
+
+    from earthspin.constants import DAY
     from earthspin.dataset import build
-    from earthspin.motion.axes import AXES
+    from earthspin.motion.axes import AXES, error_of_input
     from earthspin.units import datetime64
 
-    now = pole_times(scene).days(0, pole_times(scene).size)
-    found = _directions(scene, given, given["axis-path"], now)
-    asked = asked_angle(scene)
-    if asked is not None and found.error.max() > asked and given.get("chosen-windows"):
-        usual = _directions(scene, given, _follow(scene, given, None), now)
-        found = min(found, usual, key=lambda directions: float(directions.error.max()))
-    _check_accuracy(asked, float(found.error.max()))
+    times, path = pole_times(scene), given["axis-path"]
+    now = times.days(0, times.size)
+    found = path.at(now * DAY)
+    u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    method = np.full(now.size, path.error)
+    from_input = error_of_input(path, found["figure"], u_h)
+    error = np.hypot(method, from_input)
+    refuse_angle(
+        asked_angle(scene),
+        float(error.max()),
+        "stay nearer to J2000.0 or give the body a better known H",
+    )
+    if "nonrigid" in (scene.effects or ()):
+        _shift_of(scene, given).apply(found, now)
+    vectors = np.stack([found[axis] for axis in AXES], axis=1)
     result = build(
         "pole",
         POLE.gives,
         {
-            "X": found.vectors[..., 0],
-            "Y": found.vectors[..., 1],
-            "Z": found.vectors[..., 2],
-            "direction_error": found.error,
-            "direction_error_method": found.method,
-            "direction_error_input": found.given,
+            "X": vectors[..., 0],
+            "Y": vectors[..., 1],
+            "Z": vectors[..., 2],
+            "direction_error": error,
+            "direction_error_method": method,
+            "direction_error_input": from_input,
         },
         coords={"time": ("time", datetime64(now), dict(TIME)), "axis": list(AXES)},
     )
     for name in ("X", "Y", "Z"):
         result[name].attrs["frame"] = "GCRS"
-    result["direction_error"].attrs |= {"method": found.words, "evaluations": found.evaluations}
+    window = np.median(np.diff(path.windows.edges)) / DAY
+    result["direction_error"].attrs |= {
+        "method": f"Gauss windows of {window:g} d with {path.windows.order} nodes",
+        "evaluations": path.evaluations,
+    }
     return result
-
-
-def _directions(
-    scene: Scene, given: Mapping[str, Any], path: AxisPath, now: NDArray[np.float64]
-) -> _Directions:
-    """Ask a path for the axes at days from J2000.0."""
-    import numpy as np
-
-    from earthspin.constants import DAY
-    from earthspin.motion.axes import AXES, error_of_input
-
-    found = path.at(now * DAY)
-    if "nonrigid" in (scene.effects or ()):
-        _shift_of(scene, given).apply(found, now)
-    vectors = np.stack([found[axis] for axis in AXES], axis=1)
-    u_h = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    edges = path.windows.edges
-    return _Directions(
-        vectors=vectors,
-        method=np.full(now.size, path.error),
-        given=error_of_input(path, vectors[:, -1], u_h),
-        words=f"Gauss windows of {np.median(np.diff(edges)) / DAY:g} d with "
-        f"{path.windows.order} nodes",
-        evaluations=path.evaluations,
-    )
 
 
 def pole_angles(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
@@ -200,20 +191,6 @@ def _shift_of(scene: Scene, given: Mapping[str, Any]) -> Any:
     return given["nonrigid-shift"]
 
 
-def _check_accuracy(asked: float | None, best: float) -> None:
-    """Refuse an angle that is not reached, rad."""
-    from earthspin.constants import ARCSEC
-    from earthspin.errors import AccuracyError
-
-    if asked is not None and best > asked:
-        raise AccuracyError(
-            asked * 1e3 / ARCSEC,
-            best * 1e3 / ARCSEC,
-            "mas",
-            "stay nearer to J2000.0 or give the body a better known H",
-        )
-
-
 def _no_angles(scene: Scene) -> str | None:
     """Angles need an orbit, and an axis that does not stand on it."""
     import math
@@ -239,7 +216,7 @@ AXIS_PATH = Part(
     function="earthspin.scene.parts.axes_in_time:follow",
     needs=("pulls",),
     uses=("chosen-windows",),
-    keys=("step", "times"),
+    keys=("step", "times", "accuracy"),
 )
 
 POLE = Part(

@@ -47,3 +47,17 @@ def asked_angle(scene: Scene) -> float | None:
     if scene.accuracy is None:
         return None
     return number(scene.accuracy, "rad", f"{scene.source}: accuracy", "1 mas")
+
+
+def refuse_angle(asked: float | None, best: float, remedy: str) -> None:
+    """Refuse an accuracy that is not reached; both in rad.
+
+    Raises
+    ------
+    AccuracyError
+    """
+    from earthspin.constants import MAS
+    from earthspin.errors import AccuracyError
+
+    if asked is not None and best > asked:
+        raise AccuracyError(asked / MAS, best / MAS, "mas", remedy)

@@ -32,7 +32,7 @@ def _why_not(scene: Scene) -> str | None:
 
 NUTATION = Part(
     name="nutation",
-    does="IAU 2000A nutation, one node a day, for the true equator",
+    does="IAU nutation from nodes, for the true equator",
     function="earthspin.scene.parts.nutation_nodes:nutation",
     needs=("times",),
     uses=("chosen-nutation",),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from earthspin.dataset import Variable, with_error
 from earthspin.errors import SceneError
 from earthspin.scene.part import Part
-from earthspin.scene.parts.conditions import asked_angle
+from earthspin.scene.parts.conditions import asked_angle, refuse_angle
 from earthspin.units import TimeGrid, TimeList, time_grid
 
 if TYPE_CHECKING:
@@ -79,7 +79,11 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
     turned = 0.0 if choice is None else choice.error
     bounds = {name: sky.ephemeris.error(sky.targets[name]) for name in names}
     kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
-    _check_accuracy(scene, max(angle for angle, _ in kernel_error.values()))
+    refuse_angle(
+        asked_angle(scene),
+        max(angle for angle, _ in kernel_error.values()),
+        "that is what the kernel is known to; ask for less",
+    )
 
     def stack(values: list[Any], *dims: str) -> xr.DataArray:
         return xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
@@ -124,21 +128,6 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
         "evaluations": now.size * len(names) + (choice.evaluations if choice else 0),
     }
     return result
-
-
-def _check_accuracy(scene: Scene, best: float) -> None:
-    """Refuse directions that the kernel does not know so well, rad."""
-    from earthspin.constants import ARCSEC
-    from earthspin.errors import AccuracyError
-
-    asked = asked_angle(scene)
-    if asked is not None and best > asked:
-        raise AccuracyError(
-            asked * 1e3 / ARCSEC,
-            best * 1e3 / ARCSEC,
-            "mas",
-            "that is what the kernel is known to; ask for less",
-        )
 
 
 def _norm(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
