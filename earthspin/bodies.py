@@ -19,7 +19,7 @@ from earthspin.errors import BodyError, SceneError, nearest
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
 
-#: More than the mass of all that is seen, and longer than its age: beyond, squares overflow.
+#: Bounds of sense: more than the mass of all that is seen, and longer than its age.
 _LARGEST_GM, _LONGEST_DAY = 1e60, 1e30
 
 #: Word for a pole of date and an ecliptic that follow the IAU 2006 models.

@@ -382,8 +382,8 @@ def test_pole_by_long_double_starts_as_stored() -> None:
     figure = true["figure"][early]
     off = (found - figure.hi) - figure.lo
     assert early.sum() > 5
-    # 2e-21 rad measured between steps of 3 and of 6 hours
-    assert np.max(np.abs(off)) < 2 * of_pole.REFERENCE_ERROR
+    # 5.5e-22 rad measured between steps of 3 and of 6 hours
+    assert np.max(np.abs(off)) < 5e-21
 
 
 def test_equator_in_long_double_is_that_of_erfa_and_skyfield() -> None:
@@ -424,7 +424,7 @@ def test_torus_mean_has_converged_and_the_sun_is_right() -> None:
     torque = torque_from_position(gm, 1.0, place, model_sky.AXIS)
     push = precessing_push(torque, model_sky.AXIS, model_sky.NORMAL)
     # the mean of cos(2 true anomaly)/r3 is nought on any ellipse
-    assert abs(np.mean(push) / sun - 1) < 1e-13
+    assert abs(np.mean(push) / sun - 1) < 2e-15  # 2.2e-16 measured
 
 
 def test_known_polar_motion_solves_its_equation() -> None:
@@ -435,7 +435,7 @@ def test_known_polar_motion_solves_its_equation() -> None:
     chi = here - (after - before) / (2 * step) / (1j * s)
     mean = of_excitation.true_mean(t - 1e-3, 2e-3)
     assert np.max(np.abs(chi - mean)) < 1e-3  # 2e-4 mas measured, of 25
-    assert abs(of_excitation.true_polar_motion(np.zeros(1))[0] - of_excitation.START) < 1e-12
+    assert of_excitation.true_polar_motion(np.zeros(1))[0] == of_excitation.START
 
 
 def test_exact_pair_on_steps_alone_is_exact(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -443,7 +443,8 @@ def test_exact_pair_on_steps_alone_is_exact(monkeypatch: pytest.MonkeyPatch) -> 
     for method in ladder_of("excitation", quick=True).methods:
         if method.ours:
             (found, true), _ = method.settings[0].run()
-            assert np.max(np.abs(found - true)) < 1e-11  # 1e-13 mas measured
+            # 1.5e-12 mas measured for the excitation, 2.2e-13 for polar motion
+            assert np.max(np.abs(found - true)) < (1e-11 if "mean" in method.name else 2e-12)
 
 
 def test_best_scatter_is_the_bound_of_the_docs() -> None:

@@ -126,6 +126,6 @@ def _at_rest() -> float:
     year = SIDEREAL_YEAR.value
     infinite = np.isposinf(period(np.zeros(2))) & np.isposinf(period_error(np.zeros(2), 1.0))
     same = float(np.max(np.abs(rate_ratio(np.zeros(3)) - 1)))
-    drift = abs(float(tropical_year(0.0, year)) / year - 1) > 2e-16
+    drift = abs(float(tropical_year(0.0, year)) / year - 1)
     slide = abs(float(general_precession(0.0, 0.0, 0.4)))
-    return float(np.sum(~infinite)) + same + float(drift) + slide
+    return float(np.sum(~infinite)) + same + drift + slide

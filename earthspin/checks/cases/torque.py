@@ -14,7 +14,7 @@ from scipy.special import eval_legendre
 from earthspin.bodies import MOON, SUN, Body
 from earthspin.calls import pole, precession, torque_series
 from earthspin.checks.case import Cases
-from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.constants import DAY, JULIAN_YEAR, G
 from earthspin.scene.parts.averaging import mean_rates, sample_torques
 from earthspin.scene.parts.kernel import open_sky
 from earthspin.scene.spec import Scene
@@ -281,7 +281,7 @@ def _three_forms() -> float:
     r = rng.normal(size=(500, 3)) * 10.0 ** rng.uniform(7, 13, (500, 1))
     worst = 0.0
     for mass in (1e-30, 1e40):
-        gm = 6.674e-11 * mass
+        gm = G.value * mass
         one = torque_from_position(gm, 1.0, r, NORTH)
         other = torque_from_declination(gm, 1.0, *spherical(r))
         tide = quadrupole_torque(tidal_tensor([(gm, r.T)]), np.broadcast_to(NORTH, r.shape).T).T

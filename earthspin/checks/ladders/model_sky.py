@@ -20,7 +20,8 @@ FloatArray = NDArray[np.float64]
 #: D, l', l, F at J2000.0 (deg) and their rates (deg per Julian century).
 ARGUMENTS = np.array([297.8501921, 357.5291092, 134.9633964, 93.2720950])
 RATES = np.array([445267.1114034, 35999.0502909, 477198.8675055, 483202.0175233])
-#: Of the Sun's orbit: longitude of the perigee (deg), eccentricity, semi-major axis (m).
+#: Of the Sun's orbit at J2000.0 (Meeus 1998, ch. 25): longitude of the perigee (deg), eccentricity,
+#: semi-major axis (m); and the obliquity (ch. 22). A model sky need not be more exact.
 PERIGEE, ECCENTRICITY, SEMI_MAJOR_AXIS = 282.93735, 0.016708634, 1.495978707e11
 OBLIQUITY = np.radians(23.4392911)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.ladders.sky import CODES, centre, kernel
 from earthspin.checks.work_precision import Ladder, Method, Setting
-from earthspin.constants import ARCSEC, J2000_JD, MAS
+from earthspin.constants import J2000_JD, MAS
 
 FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
@@ -30,7 +30,6 @@ FUKUSHIMA_WILLIAMS = (
 #: What IAU 2006 changes in the nutation of IAU 2000A: scale, and rate of J2 per century
 #: (Wallace & Capitaine 2006, Astron. Astrophys. 459, 981, eq. 5).
 SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
-TENTH_UAS = 1e-7 * ARCSEC
 
 
 def ladder(quick: bool) -> Ladder:
