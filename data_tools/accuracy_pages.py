@@ -22,7 +22,7 @@ def markdown(result: xr.Dataset) -> str:
         As `earthspin.accuracy` gives it.
     """
     table = accuracy_table(result)
-    rule = ["---" if n < 2 or n > 5 else "---:" for n in range(len(table.headers))]
+    rule = ["---" if n in table.words else "---:" for n in range(len(table.headers))]
     rows = [table.headers, tuple(rule), *table.rows]
     lines = [f"| {' | '.join(row)} |" for row in rows]
     return "\n".join([f"**{result.attrs['sentence']}**", "", *lines, "", table.note, ""])

@@ -52,7 +52,7 @@ NODES = {
     128: (2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16),
     256: (2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16),
 }
-REACH = (0.1, 1.0, 3.0, 10.0, 30.0, 100.0)  # Julian years from the epoch
+REACH = (0.1, 1.0, 3.0, 10.0, 20.0, 40.0, 65.0, 100.0)  # Julian years from the epoch
 REFERENCE = (2.0, 14)
 SAMPLES = 40_000
 
@@ -129,6 +129,7 @@ def window_errors(
     times = np.sort(scale * rng.choice([-1, 1], SAMPLES))
     best = Integral(rate, *REFERENCE).at(times)
     rows: dict[str, Any] = {"integral": [], "value": [], "derivative": []}
+    rows["mean"] = log_up(float(size(best[1]).mean()))
     for days, nodes in settings():
         found = Integral(rate, days, nodes).at(times)
         off = [size(a - b) for a, b in zip(found, best, strict=True)]
@@ -149,12 +150,11 @@ def tensor_rate(place: Positions) -> Callable[[Windows], FloatArray]:
 
 
 def geodesic_of_sun(place: Positions) -> Callable[[Windows], FloatArray]:
-    """Geodesic rate about the Sun at the nodes of windows, rad/s, shape (3, w, n)."""
+    """Geodesic rate about a Sun of unit GM at the nodes of windows, rad/s, shape (3, w, n)."""
 
     def rate(windows: Windows) -> FloatArray:
         at = place(windows.times)
-        gm = {"sun": BODIES["sun"].gm}
-        return geodesic_rate(gm, {"sun": at}, {"sun": windows.derivative(at)}, "sun")
+        return geodesic_rate({"sun": 1.0}, {"sun": at}, {"sun": windows.derivative(at)}, "sun")
 
     return rate
 
@@ -243,6 +243,7 @@ def average_errors(tensor: FloatArray, cycle: float, centres: NDArray[np.int64])
 def average_models(kernel: Ephemeris) -> dict[str, Any]:
     """Errors of tapered means, by body, cycle and perturber."""
     models: dict[str, Any] = {"cycles": CYCLES, "steps": STEPS, "normal": {}, "tensor": {}}
+    models["moving"] = [str(body.naif[0]) for body in SPINNING if body.pole == IAU_2006]
     moon, sun = BODIES["moon"], BODIES["sun"]
     tasks = ((EARTH, moon, (sun, moon)), (EARTH, sun, (sun,)), (MARS, sun, (sun,)))
     with progress("averages", sum(len(task[2]) for task in tasks)) as advance:

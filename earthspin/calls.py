@@ -333,7 +333,9 @@ def wobble_ladder(
     return run(Scene(compute="wobble", body=body, tables={"wobble": settings}))
 
 
-def free_rotor(moments: Any, omega: Any, times: Any) -> xr.Dataset:
+def free_rotor(
+    moments: Any, omega: Any, times: Any, *, accuracy: float | None = None
+) -> xr.Dataset:
     """Motion of a body without torque, in closed form (I.4 to I.6).
 
     Parameters
@@ -345,6 +347,8 @@ def free_rotor(moments: Any, omega: Any, times: Any) -> xr.Dataset:
         Angular velocity along the principal axes at t = 0, rad/s; k starts at once.
     times : array of shape (n,)
         s from the start.
+    accuracy : float, optional
+        Relative error that must be kept.
 
     Returns
     -------
@@ -361,16 +365,18 @@ def free_rotor(moments: Any, omega: Any, times: Any) -> xr.Dataset:
         not finite.
     """
     rotor = {"moments": moments, "omega": omega, "times": times}
-    return run(Scene(compute="free-rotor", tables={"rotor": rotor}))
+    return run(Scene(compute="free-rotor", tables={"rotor": rotor}, accuracy=accuracy))
 
 
-def heavy_top(times: Any, **top: Any) -> xr.Dataset:
+def heavy_top(times: Any, *, accuracy: float | None = None, **top: Any) -> xr.Dataset:
     """Motion of a heavy symmetric top, by elliptic functions (I.7).
 
     Parameters
     ----------
     times : array of shape (n,)
         s from the start.
+    accuracy : float, optional
+        Relative error that must be kept.
     **top
         `transverse_moment` I1 about the pivot, `axial_moment` I3 (kg m2), `weight_moment` m g r
         (N m), `theta` (rad), `spin` omega3 (rad/s), and, if not zero, `phi_rate`,
@@ -388,11 +394,15 @@ def heavy_top(times: Any, **top: Any) -> xr.Dataset:
     EarthspinError
         For a top that cannot be, or a start out of range.
     """
-    return run(Scene(compute="top", tables={"top": {**top, "times": times}}))
+    return run(Scene(compute="top", tables={"top": {**top, "times": times}}, accuracy=accuracy))
 
 
 def spheroid_field(
-    position: Any, *, body: Body | str = "earth", point_mass: Any = 1.0
+    position: Any,
+    *,
+    body: Body | str = "earth",
+    point_mass: Any = 1.0,
+    accuracy: float | None = None,
 ) -> xr.Dataset:
     """Exact field of a homogeneous spheroid with the mass and figure of a body (I.9).
 
@@ -405,6 +415,8 @@ def spheroid_field(
         or zero (sphere).
     point_mass : float
         Mass at each point, kg, whose torque on the body is given.
+    accuracy : float, optional
+        Relative error that must be kept.
 
     Returns
     -------
@@ -417,7 +429,7 @@ def spheroid_field(
         For a body without a figure, or positions that are not finite.
     """
     table = {"position": position, "point_mass": point_mass}
-    return run(Scene(compute="spheroid", body=body, tables={"spheroid": table}))
+    return run(Scene(compute="spheroid", body=body, tables={"spheroid": table}, accuracy=accuracy))
 
 
 def polar_motion(

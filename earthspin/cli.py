@@ -183,8 +183,12 @@ def _plan(given: argparse.Namespace) -> None:
 
     planned = plan(_scene(given))
     print(planned)
-    for words in chosen(planned):
-        print(f"\nchosen for an accuracy of {planned.scene.accuracy}: {words}")
+    if planned.scene.accuracy is not None:
+        words = ", ".join(chosen(planned)) or "no settings to choose"
+        print(
+            f"\nchosen for an accuracy of {planned.scene.accuracy}: {words}\n"
+            "(whether the body's numbers and the kernel allow it shows when it runs)"
+        )
 
 
 def _accuracy(given: argparse.Namespace) -> int:

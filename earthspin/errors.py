@@ -143,7 +143,7 @@ class AccuracyError(EarthspinError, ValueError):
         self.asked, self.best, self.unit = asked, best, unit
         super().__init__(
             f"accuracy of {asked:.3g} {unit} was asked for, the best there is here is "
-            f"{best:.3g} {unit}; {remedy}"
+            f"{_rounded_up(best)} {unit}; {remedy}"
         )
 
 
@@ -200,6 +200,12 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     close = difflib.get_close_matches(str(word), words, n=1, cutoff=0.5)
     hint = f"did you mean '{close[0]}'? " if close else ""
     return f"{hint}allowed: {', '.join(words)}"
+
+
+def _rounded_up(value: float) -> str:
+    """Three digits that are no less than the value, so that whoever asks for them gets them."""
+    digits = f"{value:.3g}"
+    return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
 
 def _sentence(subject: str, problem: str, remedy: str) -> str:

@@ -100,7 +100,7 @@ def chosen_cases(
     """
     cases = all_cases()
     if only is not None:
-        word = only.lower()
+        word = str(only).lower()
         if word in PARTS:
             cases = tuple(c for c in cases if c.part == word)
         else:

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -271,7 +271,7 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
     no_worse = (e[:, np.newaxis] <= e) & (t[:, np.newaxis] <= t)
     better = (e[:, np.newaxis] < e) | (t[:, np.newaxis] < t)
     beaten = np.any(no_worse & better, axis=0)
-    return np.asarray(~beaten.reshape(np.shape(error)))
+    return np.asarray((~beaten & np.isfinite(e) & np.isfinite(t)).reshape(np.shape(error)))
 
 
 # --- the result --------------------------------------------------------------------------------
@@ -323,7 +323,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
     SceneError
         If there is no such quantity.
     """
-    if quantity not in QUANTITIES:
+    if not isinstance(quantity, str) or quantity not in QUANTITIES:
         raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
     module = import_module(f"earthspin.checks.ladders.{QUANTITIES[quantity]}")
     made: Ladder = module.ladder(quick)
@@ -434,7 +434,7 @@ def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
 def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: str) -> str:
     subject, factor = task or ladder.subject, FROM_SI.get(ladder.unit, 1.0)
     rows = [
-        (point.error * factor, point.run_time, method.name, point.words)
+        _Row(point.error * factor, point.run_time, point.spread, method.name, point.words)
         for method, row in zip(ladder.methods, points, strict=True)
         for point in row
         if method.task == task and point.error <= ladder.useful
@@ -443,18 +443,34 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
         return f"For {subject}: none is of use."
     parts = [
         f"within {plain(level)}{shown_unit(ladder.unit)} use "
-        f"{name}{f' ({words})' if words else ''}, {duration(seconds)}"
-        for level, (_, seconds, name, words) in _steps(rows)
+        f"{row.method}{f' ({row.words})' if row.words else ''}, {duration(row.run_time)}"
+        for level, row in _steps(rows)
     ]
     return f"For {subject}: " + "; ".join(parts) + "."
 
 
-def _steps(rows: list[tuple[float, float, str, str]]) -> list[tuple[float, Any]]:
+class _Row(NamedTuple):
+    """A point as the sentence needs it, its error in the unit shown."""
+
+    error: float
+    run_time: float
+    spread: float
+    method: str
+    words: str
+
+
+def _cheapest(rows: list[_Row]) -> _Row:
+    """Cheapest row; of those that the clock cannot tell from it, the most accurate."""
+    best = min(rows, key=lambda row: row.run_time)
+    alike = [r for r in rows if r.run_time - best.run_time <= max(r.spread, best.spread)]
+    return min(alike, key=lambda row: row.error)
+
+
+def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
     """Cheapest row for each level of error, each once, at the finest level that it meets."""
-    found: dict[Any, float] = {}
-    for level in _levels(min(row[0] for row in rows), max(row[0] for row in rows)):
-        enough = [row for row in rows if row[0] <= level]
-        found[min(enough, key=lambda row: row[1])] = level
+    found: dict[_Row, float] = {}
+    for level in _levels(min(row.error for row in rows), max(row.error for row in rows)):
+        found[_cheapest([row for row in rows if row.error <= level])] = level
     steps = [(level, row) for row, level in found.items()]
     if len(steps) <= MOST_STEPS:
         return steps

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,13 +22,16 @@ from numpy.typing import NDArray
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.motion.axes import window_count
 from earthspin.motion.forces import Figure
-from earthspin.motion.sampling import turn_by_sampling
+from earthspin.motion.sampling import turn_by_mean, turn_by_sampling
 from earthspin.torque.average import push_of_tensor
 
 FloatArray = NDArray[np.float64]
 
 #: What was measured.
 DATA = Path(__file__).with_name("error_models.json")
+#: Days from J2000.0 within which the short series of nutation was measured, and what another phase
+#: of the nodes may add to an error.
+NUTATION_MEASURED, NUTATION_PHASE = 36525.0, 1.1
 #: Orbits whose normals are closer than this are the one that was measured.
 SAME_ORBIT = 1e-6
 
@@ -61,13 +64,13 @@ class AverageChoice(Choice):
 
     Attributes
     ----------
-    push_errors, torque_errors : mapping of int to float
-        By NAIF code of the perturber: of its push, and of its torque along any axis, both per
+    push_errors, torque_errors : mapping of str to float
+        By perturber: of its push, and of its torque along any axis, both per
         C - A, s-2.
     """
 
-    push_errors: Mapping[int, float]
-    torque_errors: Mapping[int, float]
+    push_errors: Mapping[str, float]
+    torque_errors: Mapping[str, float]
 
 
 AnyChoice = TypeVar("AnyChoice", bound=Choice)
@@ -95,7 +98,7 @@ def window_choices(
     gm: Mapping[int, float],
     span: tuple[float, float],
     *,
-    geodesic: bool = False,
+    geodesic: float = 0.0,
 ) -> list[Choice]:
     """Windows of the pole with the error of each.
 
@@ -108,17 +111,20 @@ def window_choices(
         What pulls, by NAIF code, m3 s-2.
     span : tuple of float
         First and last time, s from the epoch.
-    geodesic : bool
-        Whether the frame turns, too.
+    geodesic : float
+        GM of the mass whose geodesic precession turns the frame, m3 s-2; 0 if none does.
 
     Returns
     -------
     list of Choice
-        Empty if the sky of this body has not been measured.
+        Empty if the sky of this body has not been measured, or if its higher zonal coefficients,
+        which were not, exceed J2.
     """
     table = models()["pole"]
     rows = table["tensor"].get(str(code), {})
     if not all(str(puller) in rows for puller in gm):
+        return []
+    if any(abs(j) * figure.inverse_polar_moment > abs(figure.h) for j in figure.zonal.values()):
         return []
     reach = max(map(abs, span))
 
@@ -129,9 +135,12 @@ def window_choices(
         ]
         return np.asarray(np.sum(each, axis=0))
 
-    error = turn_by_sampling(figure, *map(of_all, ("integral", "value", "derivative")))
+    mean = sum(mass * 10.0 ** rows[str(puller)]["mean"] for puller, mass in gm.items())
+    integral, value, derivative = map(of_all, ("integral", "value", "derivative"))
+    turned = turn_by_mean(figure, mean, reach)
+    error = turn_by_sampling(figure, integral, value, derivative, turned)
     if geodesic:
-        error = error + _in_reach(table["geodesic"][str(code)], table["reach"], reach)
+        error = error + geodesic * _in_reach(table["geodesic"][str(code)], table["reach"], reach)
     return [
         Choice(
             words=f"Gauss windows of {days} d with {nodes} nodes",
@@ -168,8 +177,10 @@ class Pushed:
         rad.
     normal : ndarray, shape (3,)
         Of the orbit, ICRF.
-    gm, slow_swing : mapping of int to float
-        Of what pulls, by NAIF code: m3 s-2, and relative.
+    moving : bool
+        Whether its equinox is the moving one of date.
+    pulls : mapping of str to Pull
+        What pulls, by name.
     cycle : float
         The slowest, s.
     """
@@ -177,9 +188,17 @@ class Pushed:
     code: int
     obliquity: float
     normal: FloatArray
-    gm: Mapping[int, float]
-    slow_swing: Mapping[int, float]
+    moving: bool
+    pulls: Mapping[str, Pull]
     cycle: float
+
+
+class Pull(NamedTuple):
+    """A perturber: NAIF code, GM (m3 s-2), and its slow swing, relative."""
+
+    code: int
+    gm: float
+    slow_swing: float
 
 
 def average_choices(body: Pushed, cycles: float) -> list[AverageChoice]:
@@ -198,27 +217,32 @@ def average_choices(body: Pushed, cycles: float) -> list[AverageChoice]:
     """
     table = models()["average"]
     rows = table["tensor"].get(str(body.code), {}).get(f"{body.cycle / DAY:.2f}", {})
-    if not all(str(code) in rows for code in body.gm) or math.sin(body.obliquity) == 0:
+    if not all(str(pull.code) in rows for pull in body.pulls.values()):
+        return []
+    if math.sin(body.obliquity) == 0 or body.moving != (str(body.code) in table["moving"]):
         return []
     if np.linalg.norm(body.normal - table["normal"][str(body.code)]) > SAME_ORBIT:
         return []
     push = {
-        code: gm * float(push_of_tensor(rows[str(code)]["mean"], 0.0, body.obliquity))
-        for code, gm in body.gm.items()
+        name: pull.gm * push_of_tensor(rows[str(pull.code)]["mean"], 0.0, body.obliquity)
+        for name, pull in body.pulls.items()
     }
-    swing = sum(body.slow_swing[code] * push[code] for code in body.gm)
+    swing = sum(pull.slow_swing * push[name] for name, pull in body.pulls.items())
     total = sum(push.values())
     if total == 0:
         return []
     in_plane, out_of_plane = (
-        {code: gm * 10.0 ** np.asarray(rows[str(code)][name]) for code, gm in body.gm.items()}
-        for name in ("in_plane", "out_of_plane")
+        {
+            name: pull.gm * 10.0 ** np.asarray(rows[str(pull.code)][plane])
+            for name, pull in body.pulls.items()
+        }
+        for plane in ("in_plane", "out_of_plane")
     )
     found = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
-            off = {code: (in_plane[code][i, j], out_of_plane[code][i, j]) for code in body.gm}
-            pushes = {code: push_of_tensor(*pair, body.obliquity) for code, pair in off.items()}
+            off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in body.pulls}
+            pushes = {name: push_of_tensor(*pair, body.obliquity) for name, pair in off.items()}
             found.append(
                 AverageChoice(
                     words=f"sin4 taper over {turns} cycles, a sample each {days} d",
@@ -226,7 +250,7 @@ def average_choices(body: Pushed, cycles: float) -> list[AverageChoice]:
                     error=(sum(pushes.values()) + swing) / total,
                     evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
                     push_errors=pushes,
-                    torque_errors={code: 3 * sum(pair) for code, pair in off.items()},
+                    torque_errors={name: 3 * sum(pair) for name, pair in off.items()},
                 )
             )
     return found
@@ -251,7 +275,10 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice]:
         The first one leaves nutation out.
     """
     found = []
+    measured = max(abs(first), abs(last)) <= NUTATION_MEASURED
     for row in models()["nutation"]:
+        if row["model"] == "2000B" and not measured:
+            continue  # a series for our time
         nodes = math.ceil((last - first) / row["step"]) + 9 if row["step"] else 0
         words = (
             f"IAU {row['model']} nutation, a node each {row['step']:g} d"
@@ -262,7 +289,7 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice]:
             Choice(
                 words=words,
                 settings={"model": row["model"], "spacing": row["step"]} if row["terms"] else {},
-                error=10.0 ** row["error"],
+                error=NUTATION_PHASE * 10.0 ** row["error"],
                 evaluations=row["terms"] * min(nodes, size),
             )
         )

@@ -106,6 +106,8 @@ def run_blocks(scene: Scene) -> Iterator[xr.Dataset]:
 def chosen(planned: Plan) -> list[str]:
     """What a plan chooses for the accuracy that its scene asks for, in words.
 
+    Whether the numbers of the body and the kernel allow it shows when it runs.
+
     Parameters
     ----------
     planned : Plan
@@ -117,7 +119,9 @@ def chosen(planned: Plan) -> list[str]:
         needed |= {name, *_below(PARTS[name])}
     few = Plan(planned.scene, tuple(p for p in planned.parts if p.name in needed), {})
     given, _ = _run_parts(few, Session())
-    return [given[name].words if given[name] else "the finest settings" for name in names]
+    choices = (given[name] for name in names)
+    first = (next(iter(c), None) if isinstance(c, list) else c for c in choices)
+    return [choice.words if choice is not None else "the finest settings" for choice in first]
 
 
 def series_length(scene: Scene) -> int:

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from dataclasses import replace as _replace
 from importlib import resources
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -78,7 +79,7 @@ class Scene:
     body: Any = "earth"  # a Body once checked
     perturbers: Any = ("sun", "moon")  # a tuple of Body once checked
     effects: Sequence[str] | None = None
-    equator: str = "mean"
+    equator: Any = "mean"  # a word once checked
     ephemeris: Any = "de421"
     span: tuple[Any, Any] | None = None
     step: Any = None
@@ -99,6 +100,8 @@ class Scene:
             accuracy=self._accuracy(),
             tables=self._tables(),
         )
+        if self.equator is True:  # TOML, and a shell that takes the quotes away
+            self._set(equator="true")
         if self.equator not in EQUATORS:
             raise self._error("equator", self.equator, nearest(self.equator, EQUATORS))
         if self.span is not None:
@@ -142,6 +145,9 @@ class Scene:
             raise self._error("perturbers", given, "name one body or more, like ['sun', 'moon']")
         found = tuple(self._one_body("perturbers", p) for p in given)
         names = [p.name for p in found]
+        for one in found:
+            if hasattr(one.gm, "dims"):
+                raise self._error("perturbers", one.name, "the mass of what pulls is one number")
         for name in names:
             if names.count(name) > 1:
                 raise self._error("perturbers", names, f"'{name}' is named twice")
@@ -183,14 +189,18 @@ class Scene:
             return None
         if kind is None:
             raise self._error("accuracy", value, f"compute = '{self.compute}' takes none")
-        plain = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if plain != (kind == "relative"):
-            words = (
-                "a relative error, like 1e-6" if kind == "relative" else "an angle, like '1 mas'"
-            )
-            raise self._error("accuracy", value, f"give {words}")
+        plain = isinstance(value, Real) and not isinstance(value, bool)
         where = f"{self.source}: accuracy"
-        size = value if plain else units.number(value, "rad", where, "1 mas")
+        if kind == "relative":
+            if isinstance(value, (str, bool)):
+                raise self._error(
+                    "accuracy", value, "give a relative error, a number without quotes, like 1e-6"
+                )
+            size = value = float(value) if plain else units.number(value, "", where, "1e-6")
+        elif plain or isinstance(value, bool):
+            raise self._error("accuracy", value, "give an angle, like '1 mas'")
+        else:
+            size = units.number(value, "rad", where, "1 mas")
         if not 0 < size < math.inf:
             raise self._error("accuracy", value, "an accuracy is greater than zero")
         return value

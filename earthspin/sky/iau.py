@@ -215,12 +215,15 @@ class Nutation:
         spacing: float = NUTATION_NODE_STEP,
     ) -> None:
         series = NUTATION_MODELS[model].series
+        self.model, self.spacing = model, spacing
 
         def exact(days: FloatArray) -> FloatArray:
             return np.stack(series(J2000_JD, days), axis=-1)
 
         margin = _MARGIN * spacing
         count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
+        #: How many terms of the series are added up for it.
+        self.evaluations = NUTATION_MODELS[model].terms * min(count, size or count)
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
         if size is None or size > count:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +12,7 @@ import xarray as xr
 
 from earthspin.constants import DAY, P_A_RATE, TROPICAL_YEAR
 from earthspin.scene.parts import PARTS
+from earthspin.scene.parts.choices import CHOOSING
 
 
 @dataclass(frozen=True)
@@ -22,12 +23,15 @@ class Table:
     ----------
     title : str
     headers : tuple of str
-        The first column is text, the others are set to the right.
     rows : sequence of tuple of str
     note : str
         A sentence or two below it.
     parts : tuple of str
         The parts that made its numbers.
+    words : collection of int
+        The columns that hold text; the others are set to the right.
+    figure : str
+        A picture below it on a page, as SVG.
     """
 
     title: str
@@ -35,6 +39,8 @@ class Table:
     rows: Sequence[tuple[str, ...]]
     note: str = ""
     parts: tuple[str, ...] = field(default=())
+    words: Collection[int] = (0,)
+    figure: str = ""
 
 
 def tables_for(result: xr.Dataset) -> list[Table]:
@@ -48,6 +54,7 @@ def tables_for(result: xr.Dataset) -> list[Table]:
     from earthspin.views import pole_tables, wobble_tables
 
     makers: dict[str, Callable[[xr.Dataset], Table]] = {
+        "error_asked": accuracy_kept,
         "precession_rate": rates,
         "general_precession": sky_and_calendar,
         "period_by_model": models,
@@ -72,6 +79,25 @@ def tables_for(result: xr.Dataset) -> list[Table]:
     }
     tables = [make(_first_of_draws(result)) for name, make in makers.items() if name in result]
     return [table for table in tables if table.rows]
+
+
+def accuracy_kept(result: xr.Dataset) -> Table:
+    """What was asked for, what is claimed, and the settings that it took."""
+    unit = result.error_asked.attrs["units"]
+    shown = "" if unit == "1" else f", {unit}"
+    return Table(
+        "Accuracy",
+        ("chosen", f"asked{shown}", f"claimed{shown}", "evaluations"),
+        [
+            (
+                str(result.method_chosen.values),
+                f"{float(result.error_asked):.3g}",
+                f"{float(result.error_estimated):.3g}",
+                f"{int(result.evaluations):,}",
+            )
+        ],
+        parts=CHOOSING,
+    )
 
 
 def with_error(value: Any, error: Any, unit: str = "") -> str:

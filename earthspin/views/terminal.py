@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from rich import box
@@ -27,20 +26,13 @@ class Terminal(Console):
         """Whoever read our output has gone: say so instead of leaving with status 1."""
         raise BrokenPipeError
 
-    def print_table(self, table: Table, words: Collection[int] = (0,)) -> None:
-        """Print a table and its note.
-
-        Parameters
-        ----------
-        table : Table
-        words : collection of int
-            The columns that hold words rather than numbers.
-        """
+    def print_table(self, table: Table) -> None:
+        """Print a table and its note."""
         shown = RichTable(
             title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
         )
         for number, header in enumerate(table.headers):
-            shown.add_column(header, justify="left" if number in words else "right")
+            shown.add_column(header, justify="left" if number in table.words else "right")
         for row in table.rows:
             shown.add_row(*row)
         self.print(shown)

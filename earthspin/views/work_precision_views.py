@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -46,7 +47,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
         ("method", "setting", f"error{',' if unit else ''}{unit}", "run time", "±", "calls", ""),
         rows,
         _note(result),
-        (),
+        words=(0, 1, 6),
     )
 
 
@@ -103,7 +104,7 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
     console = Terminal(WIDTH + 10)
     for result in results:
         table = accuracy_table(result)
-        console.print_table(table, words={0, 1, *range(6, len(table.headers))})
+        console.print_table(table)
         console.print(f"\n{result.attrs['sentence']}\n", markup=False)
 
 
@@ -250,7 +251,7 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
 
 
 def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
-    """Page of all quantities: sentence, table, figure.
+    """Page of all quantities: table, sentence, figure.
 
     Parameters
     ----------
@@ -263,11 +264,11 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
     str
         HTML, self-contained.
     """
-    from earthspin.views.drawing import Drawing
     from earthspin.views.page import _render
 
-    tables: list[tuple[Table, Any]] = [
-        (accuracy_table(result), result.attrs["sentence"]) for result in results
+    tables: list[tuple[Table, str]] = [
+        (replace(accuracy_table(result), figure=svg), result.attrs["sentence"])
+        for result, svg in zip(results, drawn, strict=True)
     ]
     return _render(
         title="Error against run time",
@@ -277,10 +278,7 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
         "beats in both.",
         footer=f"{results[0].attrs['source']}.",
         tables=tables,
-        drawings=[
-            Drawing(_figure_title(result), f"{result.attrs['sentence']}", svg)
-            for result, svg in zip(results, drawn, strict=True)
-        ],
+        drawings=[],
         solids=[],
         parts=[],
     )

@@ -74,6 +74,26 @@ def random_span(rng: Generator, longest: float) -> tuple[str, str]:
     return tuple(str(epoch + np.timedelta64(int(d * 86400), "s")) for d in (first, first + length))  # type: ignore[return-value]
 
 
+def true_axes(scene: Scene, window: float, order: int) -> np.ndarray:
+    """Axes of a scene on windows of one's own, shape (time, axis, 3)."""
+    given: dict[str, Any] = {"ephemeris": PARTS["ephemeris"].run(scene, {})}
+    pulls = PARTS["pulls"].run(scene, given)
+    times = pole_times(scene)
+    first, last = times.span()
+    axis, epoch = start_of(scene, pulls)
+    path = axis_path(
+        forces_of(scene, pulls, scene.effects or ()),
+        axis,
+        epoch,
+        (first * DAY, last * DAY),
+        limits=pulls.limits,
+        window=window,
+        order=order,
+    )
+    found = path.at(times.days(0, times.size) * DAY)
+    return np.stack([found[name] for name in AXES], axis=1)
+
+
 def pole_outcome(rng: Generator) -> Outcome:
     """Ask for a path of the pole; nine decades of accuracy."""
     body = random_body(rng)
@@ -93,26 +113,7 @@ def pole_outcome(rng: Generator) -> Outcome:
     result = earthspin.run(scene)
     given: dict[str, Any] = {"ephemeris": PARTS["ephemeris"].run(scene, {})}
     given["pulls"] = PARTS["pulls"].run(scene, given)
-    times = pole_times(scene)
-    days = times.days(0, times.size)
-    first, last = times.span()
-    forces = forces_of(scene, given["pulls"], scene.effects or ())
-    axis, epoch = start_of(scene, given["pulls"])
-
-    def axes_on(window: float, order: int) -> np.ndarray:
-        path = axis_path(
-            forces,
-            axis,
-            epoch,
-            (first * DAY, last * DAY),
-            limits=given["pulls"].limits,
-            window=window,
-            order=order,
-        )
-        found = path.at(days * DAY)
-        return np.stack([found[name] for name in AXES], axis=1)
-
-    truth = axes_on(4 * DAY, 16)
+    truth = true_axes(scene, 4 * DAY, 16)
 
     def off(found: np.ndarray) -> float:
         return float(np.linalg.norm(found - truth, axis=-1).max() / UAS)
@@ -122,7 +123,7 @@ def pole_outcome(rng: Generator) -> Outcome:
         if choice.evaluations >= cheapest or choice.error > HOPELESS * asked * UAS:
             continue
         try:
-            if off(axes_on(**choice.settings)) <= asked:
+            if off(true_axes(scene, **choice.settings)) <= asked:
                 cheapest = choice.evaluations
         except UndefinedError:
             continue

@@ -1,6 +1,7 @@
 """Accuracy on request: kept, affordable, and refused only where it cannot be had."""
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 import earthspin
 from earthspin import AccuracyError, Scene, load_scene
-from earthspin.constants import ARCSEC, JULIAN_YEAR
+from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.motion.forces import Figure
 from earthspin.scene.choosing import (
     DATA,
@@ -19,7 +20,8 @@ from earthspin.scene.choosing import (
 )
 from earthspin.scene.planning import plan
 from earthspin.scene.running import chosen
-from tests.scene.accuracy import KINDS, outcomes, summary
+from earthspin.sky.iau import ecliptic_pole
+from tests.scene.accuracy import KINDS, UAS, outcomes, summary, true_axes
 
 #: Scenes of each kind, 360 in all.
 SCENES = 120
@@ -32,7 +34,7 @@ def test_random_scenes_get_what_they_ask_for_at_a_fair_price(kind: str) -> None:
     assert told["refused"] == 0, [o for o in found if o.cheapest is None]
     for outcome in found:
         assert outcome.claimed <= outcome.asked * (1 + 1e-9), outcome
-    # Measured over 120 scenes a kind: all within; at most 0.89 of what was asked.
+    # Measured over 120 scenes a kind: all within; at most 0.87 of what was asked.
     assert told["within"] >= 0.99
     assert told["worst"] <= 3
     assert told["median cost"] <= 2
@@ -148,7 +150,7 @@ def test_a_closed_form_keeps_what_it_states_and_refuses_less(scene: str) -> None
     floor = float(earthspin.run(load_scene(scene, {"accuracy": 1e-3})).error_estimated)
     assert 1e-14 < floor < 1e-11
     just = earthspin.run(load_scene(scene, {"accuracy": floor}))
-    assert float(just.error_asked) == floor
+    assert float(just.error_asked) == pytest.approx(floor, rel=1e-13, abs=0)
     assert int(just.evaluations) > 1
     with pytest.raises(AccuracyError) as refused:
         earthspin.run(load_scene(scene, {"accuracy": 0.9 * floor}))
@@ -182,5 +184,86 @@ def test_nutation_at_few_epochs_costs_no_more_than_those_epochs() -> None:
 
 
 def test_the_data_file_is_small_and_says_where_it_comes_from() -> None:
-    assert DATA.stat().st_size < 100_000
+    assert DATA.stat().st_size < 130_000
     assert "data_tools error-models" in json.loads(DATA.read_text())["made by"]
+
+
+# --- scenes that once broke the promise ----------------------------------------------------------
+
+
+def _kept(scene: Scene) -> None:
+    """Hold a scene's pole against windows of 4 d with 16 nodes."""
+    asked = float(str(scene.accuracy).split()[0])
+    result = earthspin.run(scene)
+    found = np.stack([result[c].transpose("time", "axis").values for c in "XYZ"], axis=-1)
+    off = np.linalg.norm(found - true_axes(scene, 4 * DAY, 16), axis=-1).max() / UAS
+    assert off <= float(result.error_estimated) <= asked
+
+
+def _light(h: float, **changes: Any) -> earthspin.Body:
+    return earthspin.EARTH.replace(j2=0.33 * h, dynamical_flattening=h, **changes)
+
+
+def test_two_perturbers_that_a_kernel_knows_as_one() -> None:
+    heavy = replace(earthspin.MOON, name="heavy", gm=1000 * earthspin.MOON.gm)
+    settings: dict[str, Any] = {"body": _light(3e-3), "effects": ["second-order"]}
+    _kept(_pole("1e6 uarcsec", perturbers=[heavy, "moon"], **settings))
+
+
+@pytest.mark.parametrize("asked", [2.0, 20.0])
+def test_a_triaxial_body_that_spins_slowly(asked: float) -> None:
+    body = _light(1e-4, spin_period=1.9 * 86400, triaxiality=3.3e-3)
+    _kept(
+        _pole(
+            f"{asked} uarcsec",
+            body=body,
+            effects=["triaxiality", "second-order"],
+            span=("1999-01-01", "2001-01-01"),
+        )
+    )
+
+
+def test_zonal_coefficients_beyond_j2() -> None:
+    body = replace(_light(1e-9), j3=earthspin.EARTH.j3, j4=earthspin.EARTH.j4)
+    _kept(_pole("300 uarcsec", body=body, effects=["j3", "j4", "second-order"]))
+
+
+def test_geodesic_precession_about_a_heavy_sun() -> None:
+    sun = replace(earthspin.SUN, gm=1000 * earthspin.SUN.gm)
+    settings: dict[str, Any] = {"perturbers": [sun], "effects": ["geodesic", "second-order"]}
+    _kept(_pole("10 uarcsec", body=_light(1e-6), **settings))
+
+
+def test_the_frame_of_a_fixed_pole_does_not_follow_the_equinox() -> None:
+    normal = ecliptic_pole()
+    orbit = float(np.arctan2(normal[1], normal[0])) % (2 * np.pi), float(np.arcsin(normal[2]))
+    body = earthspin.EARTH.replace(pole=(0.3, 1.2), orbit_pole=orbit)
+    scene = Scene(compute="precession", body=body, perturbers=["moon"], accuracy=1e-3)
+    assert chosen(plan(scene)) == ["the finest settings"]
+
+
+def test_the_short_series_of_nutation_is_for_our_time() -> None:
+    far = {choice.settings.get("model") for choice in nutation_choices(230_000.0, 231_000.0, 999)}
+    assert far == {None, "2000A"}
+
+
+@pytest.mark.parametrize("year", [2001, 2004, 2007, 2016])
+def test_the_best_that_a_refusal_names_can_be_had(year: int) -> None:
+    with pytest.raises(AccuracyError) as refused:
+        earthspin.pole("1990-01-01", f"{year}-01-01", "30 d", accuracy="0.001 uarcsec")
+    best = str(refused.value).split("best there is here is ")[1].split(";")[0]
+    result = earthspin.pole("1990-01-01", f"{year}-01-01", "30 d", accuracy=best)
+    assert float(result.error_estimated) / 1e3 <= float(best.split()[0])
+
+
+def test_a_rate_of_nothing_has_no_relative_error() -> None:
+    body = earthspin.EARTH.replace(j2=0.0, dynamical_flattening=0.0)
+    with pytest.raises(earthspin.UndefinedError, match="no relative error"):
+        earthspin.precession(body=body, accuracy=1e-3)
+
+
+def test_calls_of_closed_forms_take_an_accuracy() -> None:
+    rotor = earthspin.free_rotor([1, 2, 3], [0.1, 1, 0.1], [0, 1], accuracy=1e-9)
+    top = earthspin.heavy_top([0.0, 1.0], accuracy=1e-9)
+    field = earthspin.spheroid_field([[7e6, 0, 0]], accuracy=1e-9)
+    assert [float(ds.error_asked) for ds in (rotor, top, field)] == [1e-9] * 3

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from earthspin.dataset import Schema, Variable
 from earthspin.scene.part import Part
-from earthspin.scene.parts.conditions import asked_angle, without_accuracy
+from earthspin.scene.parts.conditions import asked_angle, refuse_unkept, without_accuracy
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,12 +69,8 @@ def _closed_form(
     """Report of a method without settings, or a refusal."""
     import xarray as xr
 
-    from earthspin.errors import AccuracyError
-
-    if bound > scene.accuracy:
-        raise AccuracyError(
-            scene.accuracy, bound, "(relative)", "no float of 64 bits carries more; ask for less"
-        )
+    remedy = "no float of 64 bits carries more; ask for less"
+    refuse_unkept(scene.accuracy, bound, "(relative)", remedy)
     error = xr.DataArray(bound, attrs={"method": words, "evaluations": evaluations})
     return _report(part, error, float(scene.accuracy))
 
@@ -82,7 +78,7 @@ def _closed_form(
 def _report(part: Part, error: xr.DataArray, asked: float | None) -> xr.Dataset:
     from earthspin.dataset import build, si
 
-    return build(
+    result = build(
         part.name,
         part.gives,
         {
@@ -92,6 +88,9 @@ def _report(part: Part, error: xr.DataArray, asked: float | None) -> xr.Dataset:
             "evaluations": error.attrs["evaluations"],
         },
     )
+    # as it was asked for: 1 arcsec is 1e6 uas, not a rounding less
+    result["error_asked"].values[...] = float(f"{float(result.error_asked):.14g}")
+    return result
 
 
 def _gives(unit: str, of: str) -> Schema:

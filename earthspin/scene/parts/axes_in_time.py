@@ -51,18 +51,19 @@ def follow(scene: Scene, given: Mapping[str, Any]) -> AxisPath:
     """Integrate from the epoch to the times of the scene, on the windows chosen if they will do."""
     from earthspin.errors import UndefinedError
 
-    choice, asked = given.get("chosen-windows"), asked_angle(scene)
     tried: list[AxisPath] = []
-    if choice is not None and asked is not None:
+    for choice in (*given.get("chosen-windows", ()), None):
         try:
-            tried.append(_follow(scene, given, choice))
+            path = _follow(scene, given, choice)
         except UndefinedError:
-            pass  # windows that are too wide for the slow manifold of this spin
-        else:
-            if _worst_error(scene, tried[0]) <= asked:
-                return tried[0]
-    tried.append(_follow(scene, given, None))
-    return min(tried, key=lambda path: _worst_error(scene, path))
+            if choice is None and not tried:
+                raise
+            continue  # windows that are too wide for the slow manifold of this spin
+        if choice is None or _worst_error(scene, path) <= (asked_angle(scene) or 0.0):
+            tried.append(path)
+            break
+        tried.append(path)
+    return min(tried, key=lambda path: _worst_error(scene, path)) if tried[1:] else tried[0]
 
 
 def _worst_error(scene: Scene, path: AxisPath) -> float:

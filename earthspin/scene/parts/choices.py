@@ -29,17 +29,24 @@ def windows_on_offer(scene: Scene, given: Mapping[str, Any]) -> list[Choice]:
     _, epoch = start_of(scene, given["pulls"])
     first, last = (day * DAY - epoch for day in pole_times(scene).span())
     bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in scene.perturbers}
+    masses: dict[int, float] = {}
+    for name, gm in forces.gm.items():
+        code = bodies[name].naif[0]
+        masses[code] = masses.get(code, 0.0) + gm
     return window_choices(
         scene.body.naif[0],
         forces.figure,
-        {bodies[name].naif[0]: gm for name, gm in forces.gm.items()},
+        masses,
         (first, last),
-        geodesic=forces.primary is not None,
+        geodesic=0.0 if forces.primary is None else forces.gm[forces.primary],
     )
 
 
-def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> Choice | None:
-    """Cheapest windows of the pole, or the most accurate; None where the sky was not measured."""
+def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> list[Choice]:
+    """Windows of the pole to try: the cheapest that will do, then the most accurate.
+
+    None where the sky was not measured.
+    """
     from earthspin.scene.choosing import cheapest
 
     menu = windows_on_offer(scene, given)
@@ -47,13 +54,16 @@ def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> Choice | None:
     exact = scene.body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
     # what H takes of the request is known when the path is; half and half until then
     share = MARGIN if exact else MARGIN / math.sqrt(2)
-    return cheapest(menu, asked * share) or min(menu, key=lambda c: c.error, default=None)
+    best = [min(menu, key=lambda choice: choice.error)] if menu else []
+    choice = cheapest(menu, asked * share)
+    return best if choice is None else [choice, *best]
 
 
 def averages_on_offer(scene: Scene, given: Mapping[str, Any]) -> list[AverageChoice]:
     """Windows of an average over orbits; none where the sky was not measured."""
+    from earthspin.bodies import IAU_2006
     from earthspin.constants import DAY
-    from earthspin.scene.choosing import Pushed, average_choices
+    from earthspin.scene.choosing import Pull, Pushed, average_choices
     from earthspin.sky.equator import angle, orbit_normal, pole_at
     from earthspin.torque.average import best_window
 
@@ -64,8 +74,8 @@ def averages_on_offer(scene: Scene, given: Mapping[str, Any]) -> list[AverageCho
         code=body.naif[0],
         obliquity=angle(pole_at(body.needed("pole"), 0.0), normal),
         normal=normal,
-        gm={p.naif[0]: float(p.gm) for p in scene.perturbers},
-        slow_swing={p.naif[0]: p.slow_swing for p in scene.perturbers},
+        moving=body.pole == IAU_2006,
+        pulls={p.name: Pull(p.naif[0], float(p.gm), p.slow_swing) for p in scene.perturbers},
         cycle=cycle,
     )
     widest = best_window(sky.span[0] * DAY, sky.span[1] * DAY, cycle)
@@ -73,7 +83,7 @@ def averages_on_offer(scene: Scene, given: Mapping[str, Any]) -> list[AverageCho
 
 
 def chosen_average(scene: Scene, given: Mapping[str, Any]) -> AverageChoice | None:
-    """Cheapest window of an average over orbits, or None where none keeps what is asked."""
+    """Cheapest window of an average over orbits, or None where the sky was not measured."""
     from earthspin.scene.choosing import cheapest
     from earthspin.torque.rates import left_for_method
 
@@ -81,7 +91,11 @@ def chosen_average(scene: Scene, given: Mapping[str, Any]) -> AverageChoice | No
     # the strongest pull may be all of the rate: its GM stands for all
     u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in scene.perturbers)
     allowed = MARGIN * left_for_method(scene.accuracy, u_h, u_gm)
-    return cheapest(averages_on_offer(scene, given), allowed)
+    menu = averages_on_offer(scene, given)
+    widest = max((choice.settings["cycles"] for choice in menu), default=0)
+    # where none will do, the widest window at the closest step
+    finest = next((choice for choice in menu if choice.settings["cycles"] == widest), None)
+    return cheapest(menu, allowed) or finest
 
 
 def chosen_nutation(scene: Scene, given: Mapping[str, Any]) -> Choice | None:

@@ -50,14 +50,26 @@ def asked_angle(scene: Scene) -> float | None:
 
 
 def refuse_angle(asked: float | None, best: float, remedy: str) -> None:
-    """Refuse an accuracy that is not reached; both in rad.
+    """Refuse an angle that is not kept; both in rad.
 
     Raises
     ------
     AccuracyError
     """
     from earthspin.constants import MAS
+
+    if asked is not None:
+        refuse_unkept(asked / MAS, best / MAS, "mas", remedy)
+
+
+def refuse_unkept(asked: float, best: float, unit: str, remedy: str) -> None:
+    """Refuse an accuracy that is not kept, but for what a change of units rounds away.
+
+    Raises
+    ------
+    AccuracyError
+    """
     from earthspin.errors import AccuracyError
 
-    if asked is not None and best > asked:
-        raise AccuracyError(asked / MAS, best / MAS, "mas", remedy)
+    if not best <= asked * (1 + 1e-12):
+        raise AccuracyError(asked, best, unit, remedy)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -84,7 +85,7 @@ def forces_of(scene: Scene, pulls: Pulls, effects: Sequence[str], keep: bool = F
     per_c = inverse_polar_moment(j2, h)
     figure = Figure(
         h=h,
-        spin_rate=float(body.spin_rate),
+        spin_rate=2 * math.pi / _number(body, "spin_period"),
         inverse_polar_moment=per_c,
         radius=_number(body, "radius"),
         zonal={n: value for n, value in zonal.items() if value},

@@ -124,10 +124,20 @@ def torque_block(scene: Scene, given: Mapping[str, Any], first: int, last: int) 
         frame=f"{scene.equator} equator and equinox of date",
     )
     result["direction_error"].attrs |= {
-        "method": choice.words if choice else f"{scene.equator} equator, to the last digit",
-        "evaluations": now.size * len(names) + (choice.evaluations if choice else 0),
+        "method": _equator_words(scene, given),
+        "evaluations": given["times"].size * len(names)
+        + getattr(given.get("nutation"), "evaluations", 0),
     }
     return result
+
+
+def _equator_words(scene: Scene, given: Mapping[str, Any]) -> str:
+    """How the equator was found, for people."""
+    nutation = given.get("nutation")
+    if nutation is not None:
+        return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
+    choice = given.get("chosen-nutation")
+    return "mean equator" if choice is None else str(choice.words)
 
 
 def _norm(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
