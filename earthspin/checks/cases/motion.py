@@ -503,7 +503,7 @@ def _beyond_kernel() -> None:
 
 @CASES.hold(
     "geodesic precession on a body without a bulge to speak of",
-    because="nothing but the frame turns, forward, at a four-hundredth of the rate that torques make",
+    because="nothing but the frame turns, forward, at 1/2600 of the rate that torques make",
     against="its published rate along the ecliptic, 30 years, over itself",
     bound=9e-4,
 )
