@@ -77,3 +77,17 @@ def attitude_error(found: FloatArray, true: Values) -> float:
     """
     same = np.where(np.sum(found * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
     return float(2 * np.max(np.linalg.norm(true.error_of(same * found), axis=1)))
+
+
+def rotation_error(found: tuple[FloatArray, FloatArray], omega: Values, attitude: Values) -> float:
+    """Larger of the errors of angular velocity, relative to its size, and of attitude, rad.
+
+    Parameters
+    ----------
+    found : pair of ndarray, shapes (n, 3) and (n, 4)
+        Angular velocity along the body's axes (rad/s), and unit quaternions.
+    omega, attitude : Values
+        The same, as stored.
+    """
+    off = np.linalg.norm(omega.error_of(found[0]), axis=1) / np.linalg.norm(omega.hi, axis=1)
+    return max(float(np.max(off)), attitude_error(found[1], attitude))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.stored import Values, attitude_error, load
+from earthspin.checks.stored import load, rotation_error
 from earthspin.checks.work_precision import Ladder, Method, Setting, plain
 
 FloatArray = NDArray[np.float64]
@@ -48,14 +48,8 @@ def ladder(quick: bool) -> Ladder:
         reference_error=ROUNDING,
         methods=_methods(t, quick),
         useful=0.1,
-        error=lambda found: _error(found, omega, attitude),
+        error=lambda found: rotation_error(found, omega, attitude),
     )
-
-
-def _error(found: Any, omega: Values, attitude: Values) -> float:
-    size = np.linalg.norm(omega.hi, axis=1)
-    off = np.linalg.norm(omega.error_of(found[0]), axis=1) / size
-    return max(float(np.max(off)), attitude_error(found[1], attitude))
 
 
 def _methods(t: FloatArray, quick: bool) -> list[Method]:

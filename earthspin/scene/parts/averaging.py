@@ -109,7 +109,7 @@ def mean_rates(scene: Scene, given: Mapping[str, Any]) -> xr.Dataset:
     swing = np.array([p.slow_swing for p in scene.perturbers])
     of_push, of_torque = _measured_errors(scene, given.get("chosen-average"))
     push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
-    if np.ptp(times) and times[1] - times[0] == SAMPLING:
+    if of_push is not None and times[1] - times[0] == SAMPLING:
         # daily samples: what the neighbours say counts as well, where it is less
         _, by_neighbours = window_mean_and_error(window, times, samples.push, swing)
         push_error = np.minimum(push_error, by_neighbours)

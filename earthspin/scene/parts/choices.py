@@ -45,7 +45,7 @@ def windows_on_offer(scene: Scene, given: Mapping[str, Any]) -> list[Choice]:
 def chosen_windows(scene: Scene, given: Mapping[str, Any]) -> list[Choice]:
     """Windows of the pole to try: the cheapest that will do, then the most accurate.
 
-    None where the sky was not measured.
+    Empty where the sky was not measured.
     """
     from earthspin.scene.choosing import cheapest
 
