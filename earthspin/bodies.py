@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from dataclasses import replace as _replace
-from typing import Any
+from typing import Any, ClassVar
 
 from earthspin import constants as c
-from earthspin.errors import BodyError, SceneError, nearest
+from earthspin.errors import BodyError, EarthspinError, Where, nearest
 
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
@@ -22,8 +22,22 @@ Numeric = Any
 #: Bounds of sense: more than the mass of all that is seen, and longer than its age.
 _LARGEST_GM, _LONGEST_DAY = 1e60, 1e30
 
+#: What a table starts from that names every number of its body.
+NOTHING = "nothing"
+
 #: Word for a pole of date and an ecliptic that follow the IAU 2006 models.
 IAU_2006 = "iau2006"
+
+
+_REQUIRED: Any = object()
+
+
+def _given(unit: str, example: str, default: Any = _REQUIRED) -> Any:
+    """Declare a numeric field with its unit."""
+    metadata = {"unit": unit, "example": example}
+    if default is _REQUIRED:
+        return field(metadata=metadata)
+    return field(default=default, metadata=metadata)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -86,39 +100,44 @@ class Body:
     """
 
     name: str
-    gm: Numeric
+    gm: Numeric = _given("m3/s2", "3.986e14 m3/s2")
     naif: tuple[int, ...] = ()
-    radius: Numeric | None = None
-    j2: Numeric | None = None
-    dynamical_flattening: Numeric | None = None
-    triaxiality: Numeric = 0.0
-    j3: Numeric = 0.0
-    j4: Numeric = 0.0
-    j2_rate: Numeric = 0.0
-    meridian: float = 0.0
-    flattening: Numeric | None = None
-    spin_period: Numeric | None = None
+    radius: Numeric | None = _given("m", "6378 km", None)
+    j2: Numeric | None = _given("", "1.08e-3", None)
+    dynamical_flattening: Numeric | None = _given("", "3.27e-3", None)
+    triaxiality: Numeric = _given("", "7.26e-6", 0.0)
+    j3: Numeric = _given("", "-2.53e-6", 0.0)
+    j4: Numeric = _given("", "-1.62e-6", 0.0)
+    j2_rate: Numeric = _given("1/s", "-9.5e-19 1/s", 0.0)
+    meridian: float = _given("rad", "10 deg", 0.0)
+    flattening: Numeric | None = _given("", "3.35e-3", None)
+    spin_period: Numeric | None = _given("s", "23.93 h", None)
     pole: str | tuple[float, float] | None = None
     orbit_pole: tuple[float, float] | None = None
-    orbital_period: float | None = None
-    cycle: float = c.JUPITER_ORBITAL_PERIOD.value
-    slow_swing: float = 2e-7  # measured: `python -m data_tools windows`
+    orbital_period: float | None = _given("s", "365.25 d", None)
+    cycle: float = _given("s", "4333 d", c.JUPITER_ORBITAL_PERIOD.value)
+    slow_swing: float = _given("", "2e-7", 2e-7)  # measured: `python -m data_tools windows`
     interior: str | None = None
     observed_wobble: c.Constant | None = None
     relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
     reference: str = ""
 
+    words: ClassVar[str] = "the name of a body, or a table of its numbers"
+
     def __post_init__(self) -> None:
-        for name in _NUMBERS:
+        for name in UNITS:
             value = getattr(self, name)
             if value is None and name not in ("gm", "cycle"):
                 continue
-            if not isinstance(value, (int, float)) and not hasattr(value, "dims"):
+            if isinstance(value, bool) or not (
+                isinstance(value, (int, float)) or hasattr(value, "dims")
+            ):
                 raise BodyError(
                     self.name, name, value, "give a number, or a DataArray with named dimensions"
                 )
             if not all_of(_is_finite(value)):
                 raise BodyError(self.name, name, value, "it must be a finite number")
+        self._check_labels()
         self._check_directions()
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
         self._require("gm", lambda gm: gm <= _LARGEST_GM, f"give at most {_LARGEST_GM:g} m3 s-2")
@@ -155,6 +174,22 @@ class Body:
                     f"it has the sign of dynamical_flattening = {self.dynamical_flattening!r}",
                 )
 
+    def _check_labels(self) -> None:
+        """Labelled arrays that share a dimension have the same length and labels along it."""
+        along: dict[str, tuple[str, Any]] = {}
+        for name in UNITS:
+            array = getattr(self, name)
+            for dim in getattr(array, "dims", ()):
+                other, known = along.setdefault(dim, (name, array))
+                same = known.sizes[dim] == array.sizes[dim] and (
+                    not (dim in known.coords and dim in array.coords)
+                    or all_of(known.coords[dim].values == array.coords[dim].values)
+                )
+                if not same:
+                    raise BodyError(
+                        self.name, name, f"labels along '{dim}'", f"they differ from those of {other}"
+                    )
+
     def _check_directions(self) -> None:
         """A pole is the known word, or a right ascension and a declination."""
         for name in ("pole", "orbit_pole"):
@@ -164,7 +199,7 @@ class Body:
             allowed = (
                 f"write '{IAU_2006}' or right ascension and declination, -90 to 90 deg, in rad"
             )
-            if isinstance(value, str) or len(value) != 2:
+            if not isinstance(value, tuple) or len(value) != 2:
                 raise BodyError(self.name, name, value, allowed)
             ra, dec = value
             if not (math.isfinite(ra) and abs(dec) <= math.pi / 2):
@@ -174,6 +209,55 @@ class Body:
         value = getattr(self, name)
         if value is not None and not all_of(holds(value)):
             raise BodyError(self.name, name, value, allowed)
+
+    # --- from and to a scene -----------------------------------------------------------------
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> Body:
+        """Read a body: itself, a name, or a table that starts from one and changes numbers.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            If a name or key is unknown, a unit is wrong, or the body is impossible.
+        """
+        if isinstance(given, Body):
+            return given
+        if not isinstance(given, Mapping):
+            return body(given, where)
+        table = dict(given)
+        start = table.pop("from", EARTH.name)
+        changes = {key: _read_field(key, value, where.at(key)) for key, value in table.items()}
+        try:
+            if start == NOTHING:
+                return cls(**changes)
+            return body(start, where.at("from")).replace(**changes)
+        except (EarthspinError, TypeError) as error:
+            if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
+                raise
+            raise where.error(dict(table), str(error)) from None
+
+    def write(self) -> Any:
+        """Give the table of every number."""
+        given = {one.name: getattr(self, one.name) for one in fields(self)}
+        table = {n: _write_field(n, value) for n, value in given.items() if value is not None}
+        return {"from": NOTHING} | table
+
+    @property
+    def changes(self) -> str:
+        """What sets it apart from the named body that it started from; empty if nothing."""
+        start = BODIES.get(self.name)
+        if start is None or start is self:
+            return ""
+        words = []
+        for name in (*UNITS, "pole", "orbit_pole", "interior"):
+            value, before = getattr(self, name), getattr(start, name)
+            if hasattr(value, "dims"):
+                words.append(f"{name} along {', '.join(map(str, value.dims))}")
+            elif value != before:
+                unit = UNITS.get(name, ("", ""))[0]
+                words.append(f"{name} = {value}{unit and ' '}{unit}")
+        return "; ".join(words)
 
     # --- what follows from the fields --------------------------------------------------------
 
@@ -209,6 +293,24 @@ class Body:
         if value is None:
             raise BodyError(self.name, name, None, f"this question needs it; set {name}")
         return value
+
+    def number(self, name: str) -> float:
+        """Return a field as one float.
+
+        Raises
+        ------
+        BodyError
+            If the field is not set, or is an array of many bodies.
+        """
+        value = self.needed(name)
+        if hasattr(value, "dims") and value.size != 1:
+            raise BodyError(self.name, name, "an array", "this question takes one body at a time")
+        return float(value)
+
+    @property
+    def labelled(self) -> bool:
+        """Whether it stands for many bodies: some field is a labelled array."""
+        return any(hasattr(getattr(self, name), "dims") for name in UNITS)
 
     def replace(self, **changes: Any) -> Body:
         """Return a body with some fields changed, the rest kept consistent.
@@ -246,7 +348,17 @@ class Body:
             raise BodyError(self.name, word, changes[word], nearest(word, words))
         # A changed number is the user's own: what was known about the old one no longer holds.
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
+        if self._is_another(changes):
+            changes = {"observed_wobble": None} | changes
         return _replace(self, **({"relative_uncertainty": known} | changes))
+
+    def _is_another(self, changes: Mapping[str, Any]) -> bool:
+        """Whether a change makes it a body whose wobble nobody has observed."""
+        for name in _OF_THE_WOBBLE & set(changes):
+            old, new = getattr(self, name), changes[name]
+            if not (old and new is not None and all_of(abs(new / old - 1) <= SAME_BODY)):
+                return True
+        return False
 
     def _figure_from_moments(self, changes: dict[str, Any]) -> dict[str, Any]:
         moments = changes.pop("moments")
@@ -271,36 +383,76 @@ class Body:
         }
 
 
-_NUMBERS = (
-    "gm",
-    "radius",
-    "j2",
-    "dynamical_flattening",
-    "triaxiality",
-    "j3",
-    "j4",
-    "j2_rate",
-    "meridian",
-    "flattening",
-    "spin_period",
-    "orbital_period",
-    "cycle",
-)
+#: Unit and an example of every numeric field, in which it is kept and read.
+UNITS: dict[str, tuple[str, str]] = {
+    f.name: (f.metadata["unit"], f.metadata["example"])
+    for f in fields(Body)
+    if "unit" in f.metadata
+}
 
-#: What a scene's body table may set, beside `from`.
-BODY_KEYS = (
-    "mass",
-    "radius",
-    "moments",
-    "j2",
-    "dynamical_flattening",
-    "flattening",
-    "triaxiality",
-    "spin_period",
-    "pole",
-    "orbit_pole",
-    "interior",
-)
+#: Numbers that the free wobble follows from, and how far a body may be from the one observed.
+_OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
+SAME_BODY = 0.01
+
+
+def _read_field(key: str, value: Any, where: Where) -> Any:
+    """Read one key of a body's table."""
+    from earthspin.units import quantity, unpack
+
+    if key == "moments":
+        if not isinstance(value, (list, tuple)) or len(value) != 3:
+            raise where.error(value, "give three moments")
+        return [quantity(v, "kg m2", where, "8.03e37 kg m2") for v in value]
+    if key in ("pole", "orbit_pole") and not isinstance(value, str):
+        if not isinstance(value, (list, tuple)) or len(value) != 2:
+            raise where.error(value, "give right ascension and declination")
+        return tuple(quantity(v, "rad", where, "317.7 deg") for v in value)
+    if key == "observed_wobble" and isinstance(value, Mapping):
+        return c.Constant(**{"uncertainty": None} | dict(value))
+    if key == "naif" and isinstance(value, (list, tuple)):
+        return tuple(value)
+    units = UNITS | {"mass": ("kg", "5.97e24 kg")}
+    if key in units:
+        if isinstance(value, Mapping):
+            return _labelled(value, unpack(value, where), where)
+        return quantity(value, *units[key][:1], where, units[key][1])
+    words = ("from", "moments", "mass", *(f.name for f in fields(Body)))
+    if key not in words:
+        raise where.error(value, nearest(key, words))
+    return value
+
+
+def _labelled(table: Mapping[str, Any], values: Any, where: Where) -> Any:
+    """A labelled array as `_write_field` wrote it."""
+    import xarray as xr
+
+    from earthspin.units import unpack
+
+    labels = {
+        name: unpack(of, where) if isinstance(of, Mapping) else of
+        for name, of in table.get("labels", {}).items()
+    }
+    return xr.DataArray(values, labels, table["dims"])
+
+
+def _write_field(name: str, value: Any) -> Any:
+    """One number, direction or array as a table holds it."""
+    if hasattr(value, "dims"):
+        from earthspin.units import pack
+
+        labels = {
+            str(dim): pack(of.values) if of.dtype.kind == "f" else of.values.tolist()
+            for dim, of in value.coords.items()
+            if dim in value.dims and of.dtype.kind in "fiuU"
+        }
+        return pack(value.values) | {"dims": list(map(str, value.dims)), "labels": labels}
+    if name in UNITS and UNITS[name][0]:
+        return f"{float(value)!r} {UNITS[name][0]}"
+    if name in ("pole", "orbit_pole") and not isinstance(value, str):
+        return [f"{float(angle)!r} rad" for angle in value]
+    if isinstance(value, c.Constant):
+        return {k: v for k, v in asdict(value).items() if v is not None}
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _is_finite(value: Numeric) -> Numeric:
@@ -411,14 +563,14 @@ BODIES: dict[str, Body] = {b.name: b for b in (EARTH, MARS, SUN, MOON, *_PLANETS
 PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
 
 
-def body(name: str, *, key: str = "body", source: str = "scene") -> Body:
+def body(name: object, where: Where | None = None) -> Body:
     """Look a body up by name.
 
     Parameters
     ----------
     name : str
         One of `BODIES`, in any case.
-    key, source : str
+    where : Where, optional
         What asked, for the message.
 
     Raises
@@ -428,5 +580,5 @@ def body(name: str, *, key: str = "body", source: str = "scene") -> Body:
     """
     found = BODIES.get(name.lower()) if isinstance(name, str) else None
     if found is None:
-        raise SceneError(key, name, nearest(name, BODIES), source=source)
+        raise (where or Where("body")).error(name, nearest(name, BODIES))
     return found

@@ -8,7 +8,12 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
+
+
+#: What was given is repeated in a message up to this many characters.
+LONGEST_ECHO = 100
 
 
 class EarthspinError(Exception):
@@ -25,7 +30,7 @@ class SceneError(EarthspinError, ValueError):
     Attributes
     ----------
     source : str
-        The file, or ``"scene"`` when it was built in Python.
+        The file or command; empty for what was given in Python.
     key : str
         The offending key.
     given : object
@@ -33,11 +38,39 @@ class SceneError(EarthspinError, ValueError):
     """
 
     def __init__(
-        self, key: str, given: Any, problem: str, *, source: str = "scene", remedy: str = ""
+        self, key: str, given: Any, problem: str, *, source: str = "", remedy: str = ""
     ) -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
         self.remedy = remedy
-        super().__init__(_sentence(f"{source}: {key} = {given!r}", problem, remedy))
+        where = f"{source}: {key}" if source else key
+        super().__init__(_sentence(f"{where} = {_shown(given)}", problem, remedy))
+
+
+@dataclass(frozen=True)
+class Where:
+    """What is being read, for messages.
+
+    Attributes
+    ----------
+    key : str
+        As the reader would write it, ``"body.j2"``.
+    source : str
+        The file or call; empty if there is nothing to name.
+    """
+
+    key: str
+    source: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.key}" if self.source else self.key
+
+    def error(self, given: object, problem: str) -> SceneError:
+        """Make the error that says what was given here and what is wrong with it."""
+        return SceneError(self.key, given, problem, source=self.source)
+
+    def at(self, inner: str) -> Where:
+        """Place of something inside."""
+        return Where(f"{self.key}.{inner}", self.source)
 
 
 class BodyError(EarthspinError, ValueError):
@@ -72,7 +105,7 @@ class UnitsError(EarthspinError, ValueError):
     def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
         self.what, self.given, self.wanted = what, given, wanted
         super().__init__(
-            f"{what} = {given!r} is not a value in units of {wanted}; write it like {example!r}"
+            f"{what} = {_shown(given)} is not a value in units of {wanted}; write it like {example!r}"
         )
 
 
@@ -206,6 +239,12 @@ def _rounded_up(value: float) -> str:
     """Three digits that are no less than the value, so that whoever asks for them gets them."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
+
+
+def _shown(given: object) -> str:
+    """What was given, on one line and not too long."""
+    text = " ".join(repr(given).split())
+    return text if len(text) <= LONGEST_ECHO else f"{text[:LONGEST_ECHO]}..."
 
 
 def _sentence(subject: str, problem: str, remedy: str) -> str:

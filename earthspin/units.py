@@ -1,57 +1,137 @@
-"""The border: quantities, times and strings become SI floats and days of TDB.
+"""The border: values with units, words and lists, read once and written back exactly.
 
-Inside, a time is a count of days from J2000.0 TDB: a float64 keeps it to a third of a
-microsecond over a century, where one Julian date keeps 40 microseconds. Regular grids are
-counted in whole microseconds and are exact.
+A kind knows how one sort of value is read (`read`, which checks dimension, shape, length and
+finiteness) and written (`write`, whose text or numbers `read` turns into the same bits). Inside
+there are SI floats, radians and arrays.
 """
 
 from __future__ import annotations
 
+import base64
 import datetime as dt
+import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, get_origin
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import SceneError, UnitsError
-
-J2000 = np.datetime64("2000-01-01T12:00:00", "us")
-MICROSECONDS_PER_DAY = 86_400_000_000
-LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
-_ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?")
+from earthspin.errors import UnitsError, Where, nearest
 
 FloatArray = NDArray[np.float64]
+#: What a scene file can hold: text, numbers, truth, lists and tables of them.
+Plain = Any
+T = TypeVar("T")
+
+#: Lists longer than this are written as bytes; shorter ones as numbers that people can read.
+LONGEST_LIST = 32
+
+_DEGREE, _ARCSEC = math.pi / 180, math.pi / 180 * (1 / 3600)
+#: Units that are read without loading a library, with what they measure and their size in SI.
+#: Every other unit is read by astropy; a test holds these to it, bit for bit.
+COMMON: dict[str, tuple[str, float]] = {
+    "s": ("s", 1.0), "min": ("s", 60.0), "h": ("s", 3600.0), "d": ("s", 86400.0),
+    "yr": ("s", 31557600.0), "m": ("m", 1.0), "km": ("m", 1000.0), "kg": ("kg", 1.0),
+    "kg m2": ("kg m2", 1.0), "N m": ("N m", 1.0), "rad": ("rad", 1.0), "deg": ("rad", _DEGREE),
+    "rad/s": ("rad/s", 1.0), "m3/s2": ("m3/s2", 1.0), "1/s": ("1/s", 1.0),
+    "arcsec": ("rad", _ARCSEC), "mas": ("rad", _ARCSEC * 0.001),
+}  # fmt: skip
+_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s+(\S.*?)\s*")
 
 
-def quantity(value: Any, unit: str, what: str, example: str) -> Any:
-    """Convert a value with a unit to a float in `unit`.
+class Kind(Protocol[T]):
+    """How one sort of value is read and written."""
+
+    @property
+    def words(self) -> str:
+        """What may be given, for people."""
+
+    def read(self, given: object, where: Where) -> T:
+        """Check and convert what was given."""
+
+    def write(self, value: T) -> Plain:
+        """Give it as a scene file holds it; `read` turns that into the same bits."""
+
+
+# --- values with units -------------------------------------------------------------------------
+
+
+def quantity(value: Any, unit: str, what: object, example: str) -> Any:
+    """Convert a value with a unit to floats in `unit`.
 
     Parameters
     ----------
-    value : str, Quantity, number or array
-        ``"6 h"``, a Quantity, or a plain number that is in `unit` already.
+    value : str, Quantity, timedelta, number, array, DataArray, or list of them
+        ``"6 h"``, a Quantity, a DataArray that says its units, or plain numbers, which are in
+        `unit` already.
     unit : str
         The unit wanted, as astropy writes it.
-    what, example : str
-        What is being read, and how it should look, for the message.
+    what : Where or str
+        What is being read.
+    example : str
+        How it should look, for the message.
 
     Returns
     -------
-    float or array
-        The value in `unit`; labelled arrays pass through.
+    float, ndarray or DataArray
+        Lists become arrays; a labelled array keeps its labels.
 
     Raises
     ------
     UnitsError
-        If a string has no unit or one of another kind.
+        If the unit is missing, unknown or of another kind, or it is no number at all.
+    SceneError
+        If a number is masked, missing or not finite.
     """
-    if isinstance(value, bool):
-        raise UnitsError(what, value, unit, example)
-    is_quantity = hasattr(value, "to_value")  # a Quantity is an ndarray too
-    if not is_quantity and (isinstance(value, (int, float, np.ndarray)) or hasattr(value, "dims")):
-        return value
+    converted = _convert(value, unit, what, example)
+    plain = getattr(converted, "values", converted)
+    if not np.all(np.isfinite(plain)):
+        raise _where(what).error(value, "give finite numbers")
+    return converted
+
+
+def _convert(value: Any, unit: str, what: object, example: str) -> Any:
+    wrong = UnitsError(str(what), value, unit or "a pure number", example)
+    if isinstance(value, (bool, np.bool_)):
+        raise wrong
+    if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
+        return _as_float(value, wrong)
+    if isinstance(value, str):
+        found = _NUMBER_AND_UNIT.fullmatch(value)
+        measures, size = COMMON.get(found[2], ("", 1.0)) if found else ("", 1.0)
+        if found and measures == unit:
+            return float(found[1]) * size
+        return _by_astropy(value, unit, wrong)
+    if isinstance(value, (dt.timedelta, np.timedelta64)):
+        return _seconds(value, unit, wrong)
+    if np.any(getattr(value, "mask", False)):
+        raise _where(what).error("a masked value", "give numbers that are all known")
+    if hasattr(value, "to_value"):
+        return _by_astropy(value, unit, wrong)
+    if hasattr(value, "dims"):
+        return _labelled(value, unit, what, example)
+    if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
+        return _stack([_convert(inner, unit, what, example) for inner in value], wrong)
+    return _plain_array(value, unit, wrong)
+
+
+def _has_unit(value: object) -> bool:
+    """Whether an element of a list is more than a plain number."""
+    nested = isinstance(value, (list, tuple)) and any(map(_has_unit, value))
+    return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
+
+
+def _as_float(value: float, wrong: UnitsError) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise wrong from None
+
+
+def _by_astropy(value: Any, unit: str, wrong: UnitsError) -> Any:
     import astropy.units as u
 
     try:
@@ -60,223 +140,324 @@ def quantity(value: Any, unit: str, what: str, example: str) -> Any:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
         converted = read.to_value(u.Unit(unit))
-    except (TypeError, ValueError, u.UnitConversionError):
-        raise UnitsError(what, value, unit or "a pure number", example) from None
-    return float(converted) if np.ndim(converted) == 0 else converted
+    except (TypeError, ValueError, OverflowError, u.UnitConversionError):
+        raise wrong from None
+    return float(converted) if np.ndim(converted) == 0 else np.asarray(converted, dtype=float)
 
 
-def number(value: Any, unit: str, what: str, example: str) -> float:
-    """Convert one value with a unit to a float in `unit`, as `quantity` does.
-
-    Raises
-    ------
-    UnitsError
-        If it is not one value.
-    """
-    converted = quantity(value, unit, what, example)
-    if np.ndim(converted) != 0:
-        raise UnitsError(what, value, unit or "a pure number", example)
-    return float(converted)
-
-
-def seconds(value: Any, what: str = "duration") -> float:
-    """Convert a duration (``"6 h"``, Quantity, timedelta, seconds) to seconds.
-
-    Raises
-    ------
-    UnitsError
-        If it is not a duration.
-    """
-    if isinstance(value, dt.timedelta):
-        return value.total_seconds()
+def _seconds(value: dt.timedelta | np.timedelta64, unit: str, wrong: UnitsError) -> float:
     if isinstance(value, np.timedelta64):
-        return float(value / np.timedelta64(1, "us")) * 1e-6
-    return number(value, "s", what, "6 h")
-
-
-def microseconds(value: Any, key: str = "date", source: str = "scene") -> int:
-    """Convert one date to whole microseconds from J2000.0 TDB.
-
-    Parameters
-    ----------
-    value : str, date, datetime, datetime64 or Time
-        Plain dates mean TDB. A Time is converted to TDB from its own scale.
-    key, source : str
-        What is being read, for the message.
-
-    Raises
-    ------
-    SceneError
-        If it is no date.
-    """
-    if isinstance(value, str):
-        if not _ISO_DATE.fullmatch(value.strip()):
-            raise SceneError(key, value, "write a date like '2000-01-01T12:00'", source=source)
-        value = value.strip()
-    elif isinstance(value, dt.datetime) and value.tzinfo is not None:
-        raise SceneError(key, value, "dates mean TDB; leave the time zone out", source=source)
-    elif _is_astropy_time(value):
-        return round(float(days_from_time(value)) * MICROSECONDS_PER_DAY)
-    elif not isinstance(value, (dt.date, np.datetime64)):
-        raise SceneError(key, value, "write a date like '2000-01-01T12:00'", source=source)
-    try:
-        stamp = np.datetime64(value, "us")
-        year = int(np.datetime64(value, "Y").astype(np.int64)) + 1970
-    except ValueError:
-        raise SceneError(key, value, "there is no such date", source=source) from None
-    if not np.isnat(stamp) and not 1 <= year <= 9999:
-        raise SceneError(key, value, "years run from 1 to 9999", source=source)
-    if np.isnat(stamp):
-        raise SceneError(key, value, "NaT is no date", source=source)
-    return int((stamp - J2000) / np.timedelta64(1, "us"))
-
-
-def span_days(span: tuple[Any, Any], source: str = "scene") -> FloatArray:
-    """First and last day of a span, from J2000.0 TDB, shape (2,)."""
-    return np.array([microseconds(date, "span", source) for date in span]) / MICROSECONDS_PER_DAY
-
-
-def days(times: Any) -> FloatArray:
-    """Convert a list of times to days from J2000.0 TDB.
-
-    Parameters
-    ----------
-    times : Time, DataArray, array of datetime64, or sequence of dates
-
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Raises
-    ------
-    SceneError
-        If one of them is no date, or there are none.
-    """
-    if _is_astropy_time(times):
-        found = np.atleast_1d(days_from_time(times))
+        if np.isnat(value):
+            raise wrong
+        seconds = float(value / np.timedelta64(1, "us")) * 1e-6
     else:
-        values = np.atleast_1d(np.asarray(getattr(times, "values", times)))
-        if values.dtype.kind == "M":
-            if np.isnat(values).any():
-                raise SceneError("times", "NaT", "NaT is no date")
-            for extreme in (values.min(), values.max()):
-                microseconds(extreme, "times")
-            counts = (values.astype("datetime64[us]") - J2000).astype(np.int64)
-        else:
-            counts = np.array([microseconds(t, "times") for t in values.ravel().tolist()])
-        whole, rest = np.divmod(counts.reshape(values.shape), MICROSECONDS_PER_DAY)
-        found = whole + rest / MICROSECONDS_PER_DAY
-    if found.ndim != 1 or found.size == 0:
-        raise SceneError("times", f"shape {found.shape}", "give one or more times in one list")
-    return np.asarray(found, dtype=np.float64)
+        seconds = value.total_seconds()
+    return seconds if unit == "s" else float(_by_astropy(f"{seconds!r} s", unit, wrong))
 
 
-def days_from_time(time: Any) -> Any:
-    """Days from J2000.0 TDB of an astropy Time, keeping both parts of it."""
-    if np.any(time.mask):
-        raise SceneError("times", "a masked time", "give times that are all known")
-    tdb = time.tdb
-    return (tdb.jd1 - 2451545.0) + tdb.jd2
+def _labelled(value: Any, unit: str, what: object, example: str) -> Any:
+    """A labelled array; one that says its units is converted."""
+    own = value.attrs.get("units")
+    if own is not None:
+        import astropy.units as u
+
+        try:
+            factor = float((1.0 * u.Unit(own)).to_value(u.Unit(unit)))
+        except (TypeError, ValueError, u.UnitConversionError):
+            raise UnitsError(str(what), own, unit or "a pure number", example) from None
+        return value.copy(data=_plain_array(value.values, unit, None) * factor)
+    plain = _plain_array(value.values, unit, UnitsError(str(what), value, unit, example))
+    return value if plain is value.values else value.copy(data=plain)
 
 
-def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
-    """Days from J2000.0 TDB as ``datetime64[us]``, the time coordinate of every dataset."""
-    counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
-    return J2000 + counts.astype("timedelta64[us]")
+def _plain_array(value: Any, unit: str, wrong: UnitsError | None) -> Any:
+    """Numbers that are in the unit already."""
+    try:
+        array = np.asarray(value)
+    except (ValueError, OverflowError):
+        raise wrong or UnitsError("value", value, unit, "1.0") from None
+    if array.dtype.kind == "m" and unit == "s" and not np.isnat(array).any():
+        return array / np.timedelta64(1, "us") * 1e-6
+    if array.dtype.kind not in "fiu":
+        raise wrong or UnitsError("value", value, unit, "1.0")
+    return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
+
+
+def _stack(values: list[Any], wrong: UnitsError) -> FloatArray:
+    try:
+        return np.stack([np.asarray(value, dtype=np.float64) for value in values])
+    except ValueError:
+        raise wrong from None
+
+
+def _where(what: object) -> Where:
+    return what if isinstance(what, Where) else Where(str(what))
+
+
+# --- kinds -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class TimeGrid:
-    """Evenly spaced times, exact to the microsecond, made only as they are needed.
+class Number:
+    """One finite number, an SI float inside.
 
     Attributes
     ----------
-    start : int
-        First time, microseconds from J2000.0 TDB.
-    step : int
-        Spacing, microseconds.
-    size : int
-        Number of times; the last one does not pass the end of the span.
+    unit : str
+        In which it is kept; empty for pure numbers.
+    example : str
+    low, high : float
+        Smallest and largest allowed.
+    above : float
+        It must be greater than this.
+    text : bool
+        Whether text is taken; a pure number may want none.
+    plain : bool
+        Whether a number without a unit is taken, as one in `unit`.
     """
 
-    start: int
-    step: int
-    size: int
-
-    def span(self) -> tuple[float, float]:
-        """Earliest and latest, days from J2000.0 TDB."""
-        return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
-
-    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times from `first` up to `last`."""
-        index = np.arange(first, self.size if last is None else last, dtype=np.int64)
-        whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
-        return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
-
-
-@dataclass(frozen=True, eq=False)
-class TimeList:
-    """Times as they were listed, in any order.
-
-    Attributes
-    ----------
-    listed : ndarray, shape (n,)
-        Days from J2000.0 TDB.
-    """
-
-    listed: FloatArray
+    unit: str
+    example: str
+    low: float = -math.inf
+    high: float = math.inf
+    above: float = -math.inf
+    text: bool = True
+    plain: bool = True
 
     @property
-    def size(self) -> int:
-        """How many there are."""
-        return int(self.listed.size)
+    def words(self) -> str:
+        """What may be given."""
+        return f'"{self.example}"' if self.unit else self.example
 
-    def span(self) -> tuple[float, float]:
-        """Earliest and latest, days from J2000.0 TDB."""
-        return float(self.listed.min()), float(self.listed.max())
+    def read(self, given: object, where: Where) -> float:
+        """Check and convert."""
+        real = isinstance(given, (int, float)) and not hasattr(given, "to_value")
+        if (isinstance(given, str) and not self.text) or (real and not self.plain):
+            hint = f"give it with its unit, like '{self.example}'" if self.unit else (
+                f"give a number without quotes, like {self.example}"
+            )
+            raise where.error(given, hint)
+        value = quantity(given, self.unit, where, self.example)
+        if np.ndim(value) != 0:
+            raise where.error(given, f"give one number, like {self.words}")
+        if not (self.low <= value <= self.high and value > self.above):
+            raise where.error(given, self._range())
+        return float(value)
 
-    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times from `first` up to `last`."""
-        return self.listed[first:last]
+    def _range(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        if self.above > -math.inf:
+            return f"it is greater than {self.above:g}{unit}"
+        if self.high < math.inf:
+            return f"it lies between {self.low:g} and {self.high:g}{unit}"
+        return f"it is at least {self.low:g}{unit}"
+
+    def write(self, value: float) -> Plain:
+        """Give the number with its unit."""
+        return f"{float(value)!r} {self.unit}" if self.unit else float(value)
 
 
-def time_grid(start: Any, stop: Any, step: Any, source: str = "scene") -> TimeGrid:
-    """Times from `start` to `stop` inclusive, `step` apart.
+@dataclass(frozen=True)
+class Numbers:
+    """An array of finite numbers, SI floats inside.
 
-    Parameters
+    Attributes
     ----------
-    start, stop : date
-        As `microseconds` takes them.
-    step : duration
-        As `seconds` takes it; at least a microsecond.
-    source : str
-        The file, for messages.
+    unit, example : str
+    shape : tuple
+        Length along each dimension, None where it is free; a leading dimension of which there
+        is just one may be left out, and is then put in front.
+    optional_row : bool
+        Whether a leading dimension that was left out stays away.
+    """
+
+    unit: str
+    example: str
+    shape: tuple[int | None, ...]
+    optional_row: bool = False
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        size = " x ".join("n" if n is None else str(n) for n in self.shape)
+        return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
+
+    def read(self, given: object, where: Where) -> FloatArray:
+        """Check and convert; the array is the question's own and cannot be written to."""
+        if isinstance(given, Mapping):
+            given = unpack(given, where)
+        converted = quantity(given, self.unit, where, self.example)
+        values = np.array(getattr(converted, "values", converted), dtype=np.float64)
+        if values.ndim == len(self.shape) - 1 and not self.optional_row:
+            values = values[np.newaxis]
+        wanted = self.shape[len(self.shape) - values.ndim :] if self.optional_row else self.shape
+        fits = len(wanted) == values.ndim and all(
+            size in (None, n) and n > 0 for size, n in zip(wanted, values.shape, strict=True)
+        )
+        if not fits or values.ndim == 0:
+            raise where.error(f"shape {values.shape}", f"give {self.words}")
+        values.flags.writeable = False
+        return values
+
+    def write(self, value: FloatArray) -> Plain:
+        """Give a list of numbers, or bytes if it is long."""
+        if value.size > LONGEST_LIST:
+            return pack(value) | {"unit": self.unit}
+        return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
+
+
+def _with_unit(values: Any, unit: str) -> Any:
+    if isinstance(values, list):
+        return [_with_unit(value, unit) for value in values]
+    return f"{values!r} {unit}"
+
+
+def pack(values: FloatArray) -> dict[str, Plain]:
+    """Write an array as a table of its shape and bytes."""
+    data = np.ascontiguousarray(values, dtype="<f8").tobytes()
+    return {"shape": list(values.shape), "float64": base64.b64encode(data).decode("ascii")}
+
+
+def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
+    """Read an array that `pack` wrote.
 
     Raises
     ------
     SceneError
-        If the span ends before it starts, or the step is not greater than zero.
+        If it is not one.
     """
-    first, last = microseconds(start, "span", source), microseconds(stop, "span", source)
-    if last < first:
-        raise SceneError(
-            "span",
-            [str(start), str(stop)],
-            "it ends before it starts; put the earlier date first",
-            source=source,
-        )
-    length = seconds(step, f"{source}: step")
-    if not 1e-6 <= length < LONGEST_STEP:
-        raise SceneError(
-            "step",
-            step,
-            "a step is greater than zero: a microsecond or more, less than 10000 years",
-            source=source,
-        )
-    spacing = round(length * 1e6)
-    return TimeGrid(first, spacing, (last - first) // spacing + 1)
+    try:
+        values = np.frombuffer(base64.b64decode(table["float64"], validate=True), dtype="<f8")
+        return values.reshape(table["shape"]).astype(np.float64)
+    except (KeyError, TypeError, ValueError):
+        raise where.error("a table", "give a list of numbers") from None
 
 
-def _is_astropy_time(value: Any) -> bool:
-    """Recognise an astropy Time without importing astropy for those who use none."""
-    return type(value).__module__.startswith("astropy.time") and hasattr(value, "tdb")
+@dataclass(frozen=True)
+class Whole:
+    """A whole number."""
+
+    low: int = 1
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        return f"a whole number, {self.low} or more"
+
+    def read(self, given: object, where: Where) -> int:
+        """Check."""
+        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or given < self.low:
+            raise where.error(given, f"give {self.words}")
+        return int(given)
+
+    def write(self, value: int) -> Plain:
+        """Give the number."""
+        return value
+
+
+@dataclass(frozen=True)
+class Word:
+    """One of a few words.
+
+    Attributes
+    ----------
+    allowed : tuple of str
+    """
+
+    allowed: tuple[str, ...]
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        return " or ".join(f'"{word}"' for word in self.allowed)
+
+    def read(self, given: object, where: Where) -> str:
+        """Check."""
+        if given is True:  # TOML, and a shell that takes the quotes away
+            given = "true"
+        if not isinstance(given, str) or given not in self.allowed:
+            raise where.error(given, nearest(given, self.allowed))
+        return given
+
+    def write(self, value: str) -> Plain:
+        """Give the word."""
+        return value
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text."""
+
+    words = "a line of text"
+
+    def read(self, given: object, where: Where) -> str:
+        """Check."""
+        if not isinstance(given, str):
+            raise where.error(given, f"it is {self.words}")
+        return given
+
+    def write(self, value: str) -> Plain:
+        """Give the text."""
+        return value
+
+
+@dataclass(frozen=True)
+class Several:
+    """A list of one kind; one alone need not be put in a list.
+
+    Attributes
+    ----------
+    of : Kind
+    """
+
+    of: Kind[Any]
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        return f"a list of {self.of.words}"
+
+    def read(self, given: object, where: Where) -> tuple[Any, ...]:
+        """Check each."""
+        if isinstance(given, (set, frozenset, np.ndarray)):
+            given = list(given)
+        if not isinstance(given, (list, tuple)):
+            given = (given,)
+        return tuple(self.of.read(one, where) for one in given)
+
+    def write(self, value: tuple[Any, ...]) -> Plain:
+        """Give the list."""
+        return [self.of.write(one) for one in value]
+
+
+def kind_of(annotation: Any) -> Kind[Any]:
+    """Kind of a value by its type, None aside.
+
+    Parameters
+    ----------
+    annotation
+        A type that reads itself, an Annotated with a kind, Literal words, or a tuple of them.
+    """
+    if get_origin(annotation) is Annotated:
+        return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))  # type: ignore[no-any-return]
+    if get_origin(annotation) in (Union, UnionType):
+        (inner,) = (one for one in get_args(annotation) if one is not NoneType)
+        return kind_of(inner)
+    if get_origin(annotation) is Literal:
+        return Word(get_args(annotation))
+    if get_origin(annotation) is tuple:
+        return Several(kind_of(get_args(annotation)[0]))
+    if hasattr(annotation, "read"):
+        return annotation  # type: ignore[no-any-return]
+    plain: dict[Any, Kind[Any]] = {str: Text(), int: Whole()}
+    return plain[annotation]
+
+
+#: A length of time, s.
+Duration = Annotated[float, Number("s", "6 h")]
+#: A length of time in days, for the equations of the wobble, which count in them.
+Days = Annotated[float, Number("d", "433 d", above=0.0)]
+#: The largest relative error allowed.
+Relative = Annotated[float, Number("", "1e-6", above=0.0, text=False)]
+#: The largest angle allowed, rad.
+AngleError = Annotated[float, Number("rad", "1 mas", above=0.0, plain=False)]

@@ -13,7 +13,7 @@ import weakref
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -82,9 +82,9 @@ class Ephemeris:
 
     @cached_property
     def sha256(self) -> str:
-        """Hash of the kernel file."""
-        with self.path.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        """Hash of the kernel file; made once for each file, size and time of change."""
+        state = self.path.stat()
+        return _sha256(self.path, state.st_size, state.st_mtime_ns)
 
     @property
     def targets(self) -> set[int]:
@@ -227,6 +227,12 @@ class Ephemeris:
                 (_date(np.min(days)), _date(np.max(days))),
                 (_date(start), _date(end)),
             )
+
+
+@lru_cache
+def _sha256(path: Path, size: int, changed: int) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:

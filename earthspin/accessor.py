@@ -1,0 +1,104 @@
+"""`ds.earthspin`: what an answer knows of itself, registered with the first answer.
+
+``import earthspin.accessor`` registers it by hand.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import xarray as xr
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from earthspin.engine.plan import Plan
+    from earthspin.engine.question import Question
+
+#: Ends of the names of errors, which stand beside their values.
+_ERROR = "_error"
+
+
+@xr.register_dataset_accessor("earthspin")
+class Answer:
+    """What an answer of earthspin knows of itself.
+
+    Attributes
+    ----------
+    scene : Question
+        The question that made it, complete with every number.
+    plan : Plan
+        What ran for it and what was left out and why; with seconds if it ran in this process.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    @property
+    def scene(self) -> Question:
+        """The question that made it, complete."""
+        from earthspin.scenes import load_scene
+
+        return load_scene(self._dataset)
+
+    @property
+    def plan(self) -> Plan:
+        """What ran for it, and what was left out and why."""
+        from dataclasses import replace
+
+        from earthspin.engine.plan import plan
+        from earthspin.engine.run import SCENE, seconds_of
+
+        seconds = seconds_of(self._dataset.attrs.get(SCENE, ""))
+        return replace(plan(self.scene), seconds=dict(seconds))
+
+    def to_frame(self) -> pd.DataFrame:
+        """Give a tidy table of pandas: a row for each label, a column for each number.
+
+        Vectors along `component`, `quaternion` and `axis` spread into columns; each error stands
+        beside its value; numbers without labels of their own repeat.
+
+        Returns
+        -------
+        DataFrame
+        """
+        spread = _spread(self._dataset)
+        names: list[str] = []
+        for name in map(str, spread.data_vars):
+            beside = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
+            names += [n for n in (name, *beside) if n not in names]
+        frame = spread.to_dataframe() if spread.sizes else _one_row(spread)
+        index = list(frame.index.names) if spread.sizes else []
+        return frame.reset_index()[[*map(str, index), *names]]
+
+    def plot(self) -> Any:
+        """Draw the figures that belong to the question.
+
+        Returns
+        -------
+        list of Figure
+        """
+        from earthspin.views.drawings import figures_of
+
+        return figures_of(self._dataset)
+
+
+def _spread(dataset: xr.Dataset) -> xr.Dataset:
+    """Vectors as one variable for each component."""
+    columns: dict[str, xr.DataArray] = {}
+    for name, array in dataset.data_vars.items():
+        along = [dim for dim in array.dims if dim in ("component", "quaternion", "axis")]
+        if not along:
+            columns[str(name)] = array
+            continue
+        (dim,) = along
+        for label in array[dim].values:
+            columns[f"{name}_{label}"] = array.sel({dim: label}, drop=True)
+    return xr.Dataset(columns)
+
+
+def _one_row(dataset: xr.Dataset) -> pd.DataFrame:
+    """A table of one row, for an answer without labels."""
+    import pandas as pd
+
+    return pd.DataFrame([{str(n): of.values.item() for n, of in dataset.data_vars.items()}])

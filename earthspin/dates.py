@@ -1,0 +1,309 @@
+"""Dates and times: text, datetimes and times of astropy become days of TDB.
+
+Inside, a time is a count of days from J2000.0 TDB: a float64 keeps it to a third of a microsecond
+over a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
+microseconds and are exact. Plain dates mean TDB; whatever says that it is another scale (a time
+zone, a Time in UTC) is converted.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import re
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import SceneError, Where
+from earthspin.units import FloatArray, Number, Plain, pack, unpack
+
+J2000 = np.datetime64("2000-01-01T12:00:00", "us")
+MICROSECONDS_PER_DAY = 86_400_000_000
+LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
+_ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
+
+
+def microseconds(value: object, where: Where) -> int:
+    """Convert one date to whole microseconds from J2000.0 TDB.
+
+    Parameters
+    ----------
+    value : str, date, datetime, datetime64 or Time
+        Plain dates mean TDB. A Time is converted from its own scale; a date with a time zone is
+        UTC, and is converted, too.
+    where : Where
+        What is being read.
+
+    Raises
+    ------
+    SceneError
+        If it is no date.
+    """
+    if isinstance(value, str):
+        value = value.strip()
+        if not _ISO_DATE.fullmatch(value):
+            raise where.error(value, "write a date like '2000-01-01T12:00'")
+        if value[10:].endswith("Z") or re.search(r"[-+]\d\d:?\d\d$", value[10:]):
+            try:
+                value = dt.datetime.fromisoformat(value)
+            except ValueError:
+                raise where.error(value, "there is no such date") from None
+    if isinstance(value, dt.datetime) and value.tzinfo is not None:
+        return _from_utc(value.astimezone(dt.UTC).replace(tzinfo=None), where)
+    if is_time(value):
+        return round(float(_days_from_time(value, where)) * MICROSECONDS_PER_DAY)
+    if not isinstance(value, (str, dt.date, np.datetime64)):
+        raise where.error(value, "write a date like '2000-01-01T12:00'")
+    try:
+        stamp = np.datetime64(value, "us")
+        year = int(np.datetime64(value, "Y").astype(np.int64)) + 1970
+    except ValueError:
+        raise where.error(value, "there is no such date") from None
+    if np.isnat(stamp):
+        raise where.error("NaT", "NaT is no date")
+    if not 1 <= year <= 9999:
+        raise where.error(value, "years run from 1 to 9999")
+    return int((stamp - J2000) / np.timedelta64(1, "us"))
+
+
+def _from_utc(value: Any, where: Where) -> Any:
+    """Microseconds from J2000.0 TDB of UTC, one datetime or an array of datetime64."""
+    from astropy.time import Time
+    from astropy.utils.exceptions import AstropyWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            found = _days_from_time(Time(value, scale="utc"), where)
+        except (Warning, AstropyWarning, ValueError):
+            _refuse_utc(value, where)
+    counts = np.rint(found * MICROSECONDS_PER_DAY).astype(np.int64)
+    return int(counts) if np.ndim(counts) == 0 else counts
+
+
+def _refuse_utc(value: object, where: Where) -> NoReturn:
+    """Outside 1960 and the next few years there is no UTC to convert from."""
+    raise where.error(
+        str(value).splitlines()[0], "UTC is not known there; give TDB, without a time zone"
+    ) from None
+
+
+def days(times: object, where: Where) -> FloatArray:
+    """Convert a list of times to days from J2000.0 TDB.
+
+    Parameters
+    ----------
+    times : Time, DataArray, pandas index, array of datetime64, or sequence of dates
+    where : Where
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Raises
+    ------
+    SceneError
+        If one of them is no date, or there are none.
+    """
+    if is_time(times):
+        found = np.atleast_1d(_days_from_time(times, where))
+    else:
+        counts = _counts(times, where)
+        whole, rest = np.divmod(counts, MICROSECONDS_PER_DAY)
+        found = whole + rest / MICROSECONDS_PER_DAY
+    if found.ndim != 1 or found.size == 0:
+        raise where.error(f"shape {found.shape}", "give one or more times in one list")
+    return np.asarray(found, dtype=np.float64)
+
+
+def _counts(times: Any, where: Where) -> NDArray[np.int64]:
+    """Whole microseconds from J2000.0 TDB of a list that is no Time."""
+    if np.any(getattr(times, "mask", False)):
+        raise where.error("a masked time", "give times that are all known")
+    zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
+    if zone is not None:  # an index or series of pandas that says its zone
+        utc = times.dt if hasattr(times, "dt") else times
+        times = np.asarray(utc.tz_convert("UTC").tz_localize(None), dtype="datetime64[us]")
+        _check_years(times, where)
+        return np.atleast_1d(_from_utc(times, where))
+    try:
+        values = np.atleast_1d(np.asarray(getattr(times, "values", times)))
+    except ValueError:
+        raise where.error("uneven lists", "give one or more times in one list") from None
+    if values.dtype.kind != "M":
+        listed = [microseconds(t, where) for t in values.ravel().tolist()]
+        return np.array(listed, dtype=np.int64).reshape(values.shape)
+    _check_years(values, where)
+    return (values.astype("datetime64[us]") - J2000).astype(np.int64)
+
+
+def _check_years(values: NDArray[np.datetime64], where: Where) -> None:
+    if np.isnat(values).any():
+        raise where.error("NaT", "NaT is no date")
+    for extreme in (values.min(), values.max()) if values.size else ():
+        microseconds(extreme, where)
+
+
+def _days_from_time(time: Any, where: Where) -> Any:
+    """Days from J2000.0 TDB of an astropy Time, keeping both parts of it."""
+    if np.any(time.mask):
+        raise where.error("a masked time", "give times that are all known")
+    tdb = time.tdb
+    return (tdb.jd1 - 2451545.0) + tdb.jd2
+
+
+def is_time(value: object) -> bool:
+    """Recognise an astropy Time without importing astropy for those who use none."""
+    return type(value).__module__.startswith("astropy.time") and hasattr(value, "tdb")
+
+
+def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
+    """Days from J2000.0 TDB as ``datetime64[us]``, the time coordinate of every dataset."""
+    counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
+    return J2000 + counts.astype("timedelta64[us]")
+
+
+@dataclass(frozen=True)
+class Span:
+    """A stretch of time between two dates.
+
+    Attributes
+    ----------
+    first, last : int
+        Microseconds from J2000.0 TDB.
+    """
+
+    first: int
+    last: int
+
+    words = "two dates"
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> Span:
+        """Read two dates; the earlier comes first."""
+        if isinstance(given, Span):
+            return given
+        if not isinstance(given, (list, tuple)) or len(given) != 2:
+            raise where.error(given, "give two dates, like ['2000-01-01', '2001-01-01']")
+        first, last = (microseconds(date, where) for date in given)
+        if last < first:
+            raise where.error(
+                [str(date) for date in given], "it ends before it starts; put the earlier first"
+            )
+        return cls(first, last)
+
+    def write(self) -> Plain:
+        """Give the two dates, to the microsecond."""
+        return [str(J2000 + np.timedelta64(count, "us")) for count in (self.first, self.last)]
+
+    @property
+    def days(self) -> tuple[float, float]:
+        """First and last day from J2000.0 TDB."""
+        return self.first / MICROSECONDS_PER_DAY, self.last / MICROSECONDS_PER_DAY
+
+
+@dataclass(frozen=True)
+class TimeGrid:
+    """Evenly spaced times, exact to the microsecond, made only as they are needed.
+
+    Attributes
+    ----------
+    start : int
+        First time, microseconds from J2000.0 TDB.
+    step : int
+        Spacing, microseconds.
+    size : int
+        Number of times; the last one does not pass the end of the span.
+    """
+
+    start: int
+    step: int
+    size: int
+
+    @classmethod
+    def over(cls, span: Span, step: float) -> TimeGrid:
+        """Times from the start of a span to its end inclusive, `step` seconds apart."""
+        spacing = round(step * 1e6)
+        return cls(span.first, spacing, (span.last - span.first) // spacing + 1)
+
+    def span(self) -> tuple[float, float]:
+        """Earliest and latest, days from J2000.0 TDB."""
+        return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
+
+    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
+        """Days from J2000.0 TDB of the times from `first` up to `last`."""
+        index = np.arange(first, self.size if last is None else last, dtype=np.int64)
+        whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
+        return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
+
+
+@dataclass(frozen=True, eq=False)
+class TimeList:
+    """Times as they were listed, in any order.
+
+    Attributes
+    ----------
+    listed : ndarray, shape (n,)
+        Days from J2000.0 TDB.
+    """
+
+    listed: FloatArray
+
+    words = "a list of times"
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> TimeList:
+        """Read times in any form that `days` takes."""
+        if isinstance(given, TimeList):
+            return given
+        if isinstance(given, Mapping):
+            return cls(unpack(given, where))
+        return cls(days(given, where).copy())
+
+    def write(self) -> Plain:
+        """Give the days from J2000.0 TDB as bytes."""
+        return pack(self.listed)
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return int(self.listed.size)
+
+    def span(self) -> tuple[float, float]:
+        """Earliest and latest, days from J2000.0 TDB."""
+        return float(self.listed.min()), float(self.listed.max())
+
+    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
+        """Days from J2000.0 TDB of the times from `first` up to `last`."""
+        return self.listed[first:last]
+
+
+@dataclass(frozen=True)
+class Spacing(Number):
+    """Kind of a step between times: a microsecond or more, less than 10,000 years."""
+
+    unit: str = "s"
+    example: str = "6 h"
+
+    def read(self, given: object, where: Where) -> float:
+        """Check and convert."""
+        try:
+            value = super().read(given, where)
+        except SceneError as error:
+            if "finite" not in str(error):
+                raise
+            value = float("nan")
+        if not 1e-6 <= value < LONGEST_STEP:
+            raise where.error(
+                given,
+                "a step is greater than zero: a microsecond or more, less than 10000 years",
+            )
+        return value
+
+
+#: A step between times, s.
+Step = Annotated[float, Spacing()]

@@ -1,0 +1,157 @@
+"""Public calls, and the plain script of a question, made from its class."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from earthspin.engine.plan import plan
+from earthspin.engine.question import Key, Question, keys_of
+from earthspin.engine.run import run
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: A call of a series takes its span as two arguments.
+ENDS = ("start", "stop")
+
+
+def ask(question: type[Question]) -> Callable[..., xr.Dataset]:
+    """Make the public call of a question: its keys are the arguments.
+
+    Parameters
+    ----------
+    question : type
+    """
+    signature = signature_of(question)
+
+    def call(*args: Any, **kwargs: Any) -> xr.Dataset:
+        try:
+            given = dict(signature.bind(*args, **kwargs).arguments)
+        except TypeError as error:
+            raise TypeError(f"{question.call}() {error}") from None
+        return run(question(**_with_span(question, given)))
+
+    call.__name__ = call.__qualname__ = question.call
+    call.__doc__ = docstring_of(question)
+    call.__module__ = question.__module__
+    call.__signature__ = signature  # type: ignore[attr-defined]
+    return call
+
+
+def _with_span(question: type[Question], given: dict[str, Any]) -> dict[str, Any]:
+    """Put start and stop together; either all of start, stop and step, or none."""
+    if "start" not in question.positional:
+        return given
+    start, stop = (given.pop(end, None) for end in ENDS)
+    ends = {"start": start, "stop": stop, "step": given.get("step")}
+    missing = [name for name, value in ends.items() if value is None]
+    if given.get("times") is None and 0 < len(missing) < len(ends):
+        from earthspin.errors import SceneError
+
+        raise SceneError(missing[0], None, "give start, stop and step, or times")
+    if start is None and stop is None:
+        return given
+    return given | {"span": (start, stop)}
+
+
+def arguments_of(question: type[Question]) -> dict[str, Key | None]:
+    """Arguments of the call in order; the two ends of a span have no key of their own."""
+    keys = {name: one for name, one in keys_of(question).items() if name != "title"}
+    ends = "start" in question.positional
+    rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
+    return {name: keys.get(name) for name in (*question.positional, *rest)}
+
+
+def signature_of(question: type[Question]) -> inspect.Signature:
+    """Signature of the public call."""
+    parameters = []
+    for name, one in arguments_of(question).items():
+        place = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        if name not in question.positional:
+            place = inspect.Parameter.KEYWORD_ONLY
+        default: Any = None
+        if one is not None and not ("start" in question.positional and name == "step"):
+            default = inspect.Parameter.empty if one.required else _as_written(one.shown)
+        parameters.append(inspect.Parameter(name, place, default=default))
+    return inspect.Signature(parameters)
+
+
+def _as_written(value: Any) -> Any:
+    """A default as one would type it: bodies by their names."""
+    if isinstance(value, tuple):
+        return tuple(_as_written(one) for one in value)
+    return getattr(value, "name", value)
+
+
+def docstring_of(question: type[Question]) -> str:
+    """Docstring of the public call: that of the class, with a sentence for each argument."""
+    head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
+    lines = [head, "", "Parameters", "----------"]
+    span = keys_of(question).get("span")
+    for name, one in arguments_of(question).items():
+        source = span if one is None else one
+        assert source is not None
+        if one is None:
+            lines += [f"{name} : date", f"    {_END[name]}"]
+            continue
+        optional = "" if one.required else ", optional"
+        default = f" Default: {one.default_words}." if one.default_words else ""
+        lines.append(f"{name} : {one.kind.words}{optional}")
+        sentence = f"{one.doc[:1].upper()}{one.doc[1:]}.{default}"
+        lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
+    return "\n".join([*lines, rest.rstrip(), ""])
+
+
+_END = {
+    "start": "First time; plain dates mean TDB, others are converted.",
+    "stop": "Last time, which is included if the step meets it.",
+}
+
+
+# --- the graph as a script -----------------------------------------------------------------------
+
+
+def script_of(question: type[Question]) -> str:
+    """Write the graph of a question as a plain script: every part, in order, by name and type.
+
+    Parameters
+    ----------
+    question : type
+
+    Returns
+    -------
+    str
+        Python; a type checker sees through it what it cannot see through names.
+    """
+    from graphlib import TopologicalSorter
+
+    parts, keys = question.graph.parts, keys_of(question)
+    needs = {n: [i for i in (*p.needs, *p.uses) if i in parts] for n, p in parts.items()}
+    order = list(TopologicalSorter(needs).static_order())
+    modules = sorted({parts[name].__module__ for name in order} | {question.__module__})
+    lines = [f'"""{question.__name__}: what each part takes, and in which order they run."""', ""]
+    lines += [f"import {module}" for module in modules]
+    lines += ["", "", f"def {question.word.replace('-', '_')}("]
+    lines += [f"    question: {question.__module__}.{question.__name__},", ") -> None:"]
+    lines.append(f'    """{_head(question)}"""')
+    used = {i for name in order for i in (*parts[name].needs, *parts[name].uses)}
+    lines += [f"    {name} = question.{name}" for name in keys if name in used]
+    for name in order:
+        one = parts[name]
+        inputs = [i for i in (*one.needs, *one.uses) if i in parts or i in keys]
+        arguments = ", ".join(f"{i}={i}" for i in inputs)
+        lines.append(f"    {name} = {one.__module__}.{name}({arguments})")
+    ends: Mapping[str, tuple[str, ...]] = {"answer": question.graph.answer}
+    for section, names in (ends | question.graph.sections).items():
+        lines.append(f"    _{section} = {', '.join(names)}")
+    return "\n".join([*lines, ""])
+
+
+def _head(question: type[Question]) -> str:
+    return inspect.cleandoc(question.__doc__ or "").split("\n")[0]
+
+
+__all__ = ["ask", "docstring_of", "plan", "script_of", "signature_of"]

@@ -1,0 +1,162 @@
+"""Datasets: what each variable is called, measured in, and laid out along.
+
+A part declares a schema and gives values in SI; they become labelled arrays here, in the
+units of the schema and with the attributes that the CF conventions ask for. Plain floats
+only: a Quantity would lose its unit on disk.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
+from earthspin.errors import UndefinedError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CONVENTIONS = "CF-1.11"
+
+#: Factor from SI to each unit that results are shown in; units not listed are SI themselves.
+FROM_SI: dict[str, float] = {
+    "arcsec/yr": 1 / ARCSEC_PER_YEAR,
+    "arcsec": 1 / ARCSEC,
+    "mas": 1 / MAS,
+    "deg": 180 / math.pi,
+    "uas": 1e6 / ARCSEC,
+    "d": 1 / DAY,
+    "yr": 1 / JULIAN_YEAR,
+}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """What a variable of a result is.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Its dimensions; a body with labelled arrays adds theirs.
+    units : str
+        As astropy.units parses it; "1" for pure numbers, "" for words and dates.
+    long_name : str
+        In plain words.
+    attrs : tuple of pairs
+        Further attributes, such as cell_methods or references.
+    """
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    attrs: tuple[tuple[str, str], ...] = ()
+
+
+Schema = Mapping[str, Variable]
+
+
+class SchemaError(Exception):
+    """A part gave something else than it declares: a defect of the program, not of the input."""
+
+
+def build(
+    schema: Schema,
+    values: Mapping[str, Any],
+    coords: Mapping[str, Any] | None = None,
+    frame: str | None = None,
+) -> xr.Dataset:
+    """Label the values that a part gave.
+
+    Parameters
+    ----------
+    schema : Schema
+        What it declares.
+    values : mapping
+        Arrays or labelled arrays by variable name, in SI units; plain arrays are laid along
+        the declared dimensions.
+    coords : mapping, optional
+        Labels by dimension.
+    frame : str, optional
+        Axes of the variables that have the dimension `component`.
+
+    Raises
+    ------
+    SchemaError
+        If the variables are not the declared ones, or lack a declared dimension.
+    UndefinedError
+        If a number is missing.
+    """
+    import numpy as np
+    import xarray as xr
+
+    if set(values) != set(schema):
+        raise SchemaError(f"a part gave {sorted(values)}, declares {sorted(schema)}")
+    arrays: dict[str, xr.DataArray | xr.Variable] = {}
+    for name, declared in schema.items():
+        value = values[name]
+        labelled = isinstance(value, xr.DataArray)
+        array = value.variable if labelled else xr.Variable(declared.dims, value)
+        if not set(declared.dims) <= set(array.dims):
+            raise SchemaError(f"{name} has {array.dims}, declares {declared.dims}")
+        data = array.transpose(*declared.dims, ...)
+        size = np.asarray(data.values * FROM_SI.get(declared.units, 1.0)) if (
+            declared.units in FROM_SI
+        ) else data.values
+        if size.dtype.kind == "f" and bool(np.isnan(size).any()):
+            raise UndefinedError(
+                f"{declared.long_name} has no value here; check the body's numbers"
+            )
+        attributes = _attributes(name, declared, schema)
+        if frame and "component" in data.dims:
+            attributes["frame"] = frame
+        made = xr.Variable(data.dims, size, attributes)
+        arrays[name] = xr.DataArray(made, coords=value.coords) if labelled else made
+    return xr.Dataset(arrays, coords=dict(coords or {}))
+
+
+def si(array: xr.DataArray) -> xr.DataArray:
+    """Values of a variable of a result, back in SI units."""
+    return array / FROM_SI.get(array.attrs.get("units", ""), 1)
+
+
+def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]:
+    attributes = {"long_name": variable.long_name}
+    if variable.units:
+        attributes["units"] = variable.units
+    companions = [other for other in schema if other.startswith(f"{name}_error")]
+    if companions:
+        attributes["ancillary_variables"] = " ".join(companions)
+    return attributes | dict(variable.attrs)
+
+
+def with_error(
+    name: str, variable: Variable, *, split: bool = False, dims: tuple[str, ...] | None = None
+) -> dict[str, Variable]:
+    """Declare a variable together with its 95 % half-width.
+
+    Parameters
+    ----------
+    name : str
+    variable : Variable
+    split : bool
+        Also declare the shares of the method and of the inputs.
+    dims : tuple of str, optional
+        Dimensions of the error, where it is one bound for a whole axis.
+    """
+    along = variable.dims if dims is None else dims
+    declared = {
+        name: variable,
+        f"{name}_error": Variable(
+            along, variable.units, f"95 % half-width of the {variable.long_name}"
+        ),
+    }
+    if split:
+        for share, words in (("method", "averaging and sampling"), ("input", "given numbers")):
+            declared[f"{name}_error_{share}"] = Variable(
+                along,
+                variable.units,
+                f"95 % half-width of the {variable.long_name} from {words}",
+            )
+    return declared

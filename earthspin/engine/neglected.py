@@ -1,0 +1,60 @@
+"""What a model leaves out, named with its size; it never hides in an error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from earthspin.engine.labels import FROM_SI, Variable, build
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Neglected:
+    """Sizes of what is left out.
+
+    Attributes
+    ----------
+    sizes : mapping of str to float
+        By effect, SI.
+    unit : str
+        In which they are shown.
+    what : str
+        What the sizes are of, in plain words.
+    source : str
+        Where they come from.
+    """
+
+    sizes: Mapping[str, float] = field(default_factory=dict)
+    unit: str = "1"
+    what: str = "nothing is left out that has a known size"
+    source: str = ""
+
+    @property
+    def largest(self) -> str:
+        """Name of the largest effect with its size, for the answer's attributes."""
+        if not self.sizes:
+            return f"none of known size: {self.what}"
+        name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
+        shown = self.sizes[name] * FROM_SI.get(self.unit, 1.0)
+        return f"{name}: {shown:.3g} {self.unit} ({self.what})"
+
+    def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
+        """Give `neglected_effect` along `effect`, the largest first.
+
+        Parameters
+        ----------
+        effects : sequence of str
+            Labels that the answer has along `effect`; what is not left out then has size 0.
+        """
+        by_size = sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
+        names = list(effects) or by_size
+        import numpy as np
+
+        source = (("references", self.source),) if self.source else ()
+        schema = {"neglected_effect": Variable(("effect",), self.unit, self.what, source)}
+        sizes = [float(self.sizes.get(name, 0.0)) for name in names]
+        return build(schema, {"neglected_effect": sizes}, coords={"effect": ("effect", np.array(names, dtype=str))})

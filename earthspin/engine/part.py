@@ -1,0 +1,143 @@
+"""A part: a typed function that computes one thing.
+
+What it needs follows from its signature: each parameter is a key of the question or the result of
+another part, by name; one whose default is None is used if it is there.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar, overload
+
+if TYPE_CHECKING:
+    from earthspin.engine.labels import Schema
+
+P = ParamSpec("P")
+R = TypeVar("R", covariant=True)
+
+#: Says why a part is left out, from keys of the question; None keeps it.
+Reason = Callable[..., str | None]
+
+#: The parameter by which a part asks for one stretch of a long series.
+BLOCK = "block"
+
+
+@dataclass(frozen=True)
+class Block:
+    """A stretch of a long series, from the epoch numbered `first` up to `last`."""
+
+    first: int
+    last: int
+
+
+class Part(Generic[P, R]):
+    """One thing to compute; call it as the function that it is.
+
+    Attributes
+    ----------
+    name : str
+        Of the function, by which other parts ask for its result.
+    does : str
+        What it does: the first line of the docstring.
+    needs, uses : tuple of str
+        Keys and parts without which it does not run, and those that it takes if they are there.
+    gives : Schema
+        The variables that it adds to an answer or section; empty for an intermediate part.
+    unless : tuple of callable
+        Each takes keys of the question by name and gives a reason for leaving the part out.
+    chooses : bool
+        Whether it chooses settings for an accuracy that was asked for.
+    """
+
+    def __init__(
+        self, function: Callable[P, R], gives: Schema, unless: tuple[Reason, ...], chooses: bool
+    ) -> None:
+        self.function, self.gives, self.unless, self.chooses = function, gives, unless, chooses
+        self.name = function.__name__
+        self.does = _first_sentence(function)
+        self.__doc__, self.__module__ = function.__doc__, function.__module__
+        self.__name__ = self.__qualname__ = function.__name__
+        self.__wrapped__ = function
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        """Compute."""
+        return self.function(*args, **kwargs)
+
+    def __repr__(self) -> str:
+        return f"<part {self.title}: {self.does}>"
+
+    @property
+    def title(self) -> str:
+        """Its name in plans."""
+        return self.name.replace("_", "-")
+
+    @cached_property
+    def needs(self) -> tuple[str, ...]:
+        """Parameters without a default."""
+        return _parameters(self.function, inspect.Parameter.empty)
+
+    @cached_property
+    def uses(self) -> tuple[str, ...]:
+        """Parameters that may be None."""
+        return _parameters(self.function, None)
+
+    def reason(self, keys: dict[str, Any]) -> str | None:
+        """Why it is left out of the answer to a question with these keys; None if it is not."""
+        for says in self.unless:
+            wanted = _parameters(says, inspect.Parameter.empty)
+            why = says(**{name: keys[name] for name in wanted})
+            if why is not None:
+                return why
+        return None
+
+
+@overload
+def part(function: Callable[P, R], /) -> Part[P, R]: ...
+@overload
+def part(
+    *, gives: Schema = ..., unless: Reason | tuple[Reason, ...] = ..., chooses: bool = ...
+) -> Callable[[Callable[P, R]], Part[P, R]]: ...
+def part(
+    function: Callable[P, R] | None = None,
+    /,
+    *,
+    gives: Schema | None = None,
+    unless: Reason | tuple[Reason, ...] = (),
+    chooses: bool = False,
+) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
+    """Make a part of a typed function.
+
+    Parameters
+    ----------
+    function : callable
+        Its parameters name keys of the question and other parts.
+    gives : Schema, optional
+        The variables of the Dataset that it returns.
+    unless : callable or tuple of them
+        Reasons for leaving it out, by keys of the question.
+    chooses : bool
+        Whether it chooses settings for an accuracy.
+    """
+    reasons = unless if isinstance(unless, tuple) else (unless,)
+
+    def made(function: Callable[P, R]) -> Part[P, R]:
+        return Part(function, gives or {}, reasons, chooses)
+
+    return made if function is None else made(function)
+
+
+def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
+    return tuple(
+        name
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.default is default
+    )
+
+
+def _first_sentence(function: Callable[..., Any]) -> str:
+    """First line of a docstring, as it stands in a list."""
+    line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
+    return line[:1].lower() + line[1:] if line[1:2].islower() else line

@@ -1,0 +1,180 @@
+"""From a question back to the parts that it needs, in order, and what is left out and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from graphlib import TopologicalSorter
+from typing import Any
+
+from earthspin.engine.part import Part
+from earthspin.engine.question import NEGLECTED, Question
+from earthspin.errors import SceneError, nearest
+
+ALL = "all"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One part of a plan: its name, whether it runs, what it does or why it does not, seconds."""
+
+    part: str
+    status: str
+    reason: str
+    seconds: float | None = None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What will run for a question, and what will not.
+
+    Attributes
+    ----------
+    question : Question
+    parts : tuple of Part
+        In the order in which they run.
+    sections : tuple of str
+        Those that will be given beside the answer.
+    left_out : dict of str to str
+        Reason by title, for the other parts of the question and its sections.
+    seconds : mapping of str to float
+        By name of the part, once it has run.
+    """
+
+    question: Question
+    parts: tuple[Part[..., Any], ...]
+    sections: tuple[str, ...]
+    left_out: dict[str, str]
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def rows(self) -> list[Row]:
+        """The plan as a table: what runs first, then what is left out."""
+        ran = bool(self.seconds)
+        rows = [
+            Row(one.title, "ran" if ran else "runs", one.does, self.seconds.get(one.name))
+            for one in self.parts
+        ]
+        return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
+
+    def to_frame(self) -> Any:
+        """Give the table as a DataFrame of pandas."""
+        import pandas as pd
+
+        return pd.DataFrame([vars(row) for row in self.rows])
+
+    def __str__(self) -> str:
+        question = self.question
+        width = max(len(row.part) for row in self.rows)
+        lines = [f"{question.title}: compute = {question.word}", ""]
+        shown = ""
+        for row in self.rows:
+            heading = "left out" if row.status == "left out" else f"{row.status}, in this order"
+            if heading != shown:
+                lines += [""] * bool(shown) + [heading]
+                shown = heading
+            cost = "" if row.seconds is None else f"  [{row.seconds * 1e3:.1f} ms]"
+            lines.append(f"  {row.part:<{width}}  {row.reason}{cost}")
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        cells = "".join(
+            f"<tr><td>{escape(r.part)}</td><td>{r.status}</td><td>{escape(r.reason)}</td>"
+            f"<td>{'' if r.seconds is None else f'{r.seconds * 1e3:.1f} ms'}</td></tr>"
+            for r in self.rows
+        )
+        return f"<table><caption>{escape(self.question.title)}</caption>{cells}</table>"
+
+
+NOT_ASKED = "its section is not asked for"
+
+
+def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
+    """Work out which parts a question needs.
+
+    Parameters
+    ----------
+    question : Question
+    sections : str or iterable of str
+        Sections that are wanted beside the answer, by name; ``"all"`` takes all that apply.
+
+    Raises
+    ------
+    SceneError
+        If the answer cannot be given or a section that is named does not apply, with the reason.
+    """
+    graph, keys = question.graph, question.keys()
+    _refuse_taken_dimensions(question)
+    chosen: dict[str, tuple[str, ...]] = {}
+    reasons: dict[str, str] = {}
+
+    def choose(name: str) -> bool:
+        """Choose a part and all that it stands on, or note why it is left out."""
+        if name in chosen or name in reasons:
+            return name in chosen
+        one = graph.parts[name]
+        why = one.reason(keys)
+        for other in one.needs if why is None else ():
+            if other in graph.parts and not choose(other):
+                title = graph.parts[other].title
+                why = f"it needs {title}, which is left out: {reasons[other]}"
+                break
+        if why is not None:
+            reasons[name] = why
+            return False
+        used = (other for other in one.uses if other in graph.parts and choose(other))
+        chosen[name] = (*(other for other in one.needs if other in graph.parts), *used)
+        return True
+
+    given = [name for name in graph.answer if choose(name)]
+    if graph.answer[0] not in given:
+        why = reasons[graph.answer[0]]
+        raise question.error("compute", question.word, f"nothing to do: {why}")
+    for name in graph.sections[NEGLECTED]:
+        choose(name)
+    wanted = _wanted(question, sections)
+    kept = []
+    for section in wanted:
+        if any([choose(name) for name in graph.sections[section]]):
+            kept.append(section)
+        elif sections != ALL:
+            why = reasons[graph.sections[section][0]]
+            raise SceneError("sections", section, f"it does not apply: {why}")
+    order = tuple(graph.parts[name] for name in TopologicalSorter(chosen).static_order())
+    left_out = {
+        one.title: reasons.get(name) or one.reason(keys) or NOT_ASKED
+        for name, one in graph.parts.items()
+        if name not in chosen
+    }
+    return Plan(question, order, tuple(kept), left_out)
+
+
+def _wanted(question: Question, sections: str | Iterable[str]) -> list[str]:
+    """Names of sections, each once, in the order of the question."""
+    every = question.graph.sections
+    if sections == ALL:
+        return list(every)
+    named = {sections} if isinstance(sections, str) else set(sections)
+    for name in named:
+        if name not in every:
+            raise SceneError("sections", name, nearest(name, [*every, ALL]))
+    return [name for name in every if name in named]
+
+
+def _refuse_taken_dimensions(question: Question) -> None:
+    """Refuse labelled arrays of a body along a dimension that results have already."""
+    every = question.graph.parts.values()
+    taken = {dim for one in every for declared in one.gives.values() for dim in declared.dims}
+    for name, value in question.keys().items():
+        for inner, of in getattr(value, "__dict__", {}).items():
+            clash = taken & set(getattr(of, "dims", ()))
+            if clash:
+                raise question.error(
+                    f"{name}.{inner}",
+                    sorted(clash)[0],
+                    "results have this dimension already; give the array another",
+                )

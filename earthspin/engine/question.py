@@ -1,0 +1,347 @@
+"""A question is a class: its fields are what can be asked, each with a type that reads itself.
+
+From the fields follow the keys of a scene file, what ``--set`` takes, the signature and docstring
+of the public call, completion in the shell, and the page of keys.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from functools import cached_property, lru_cache
+from typing import Any, ClassVar, Self, dataclass_transform, get_type_hints
+
+from earthspin.engine.part import BLOCK, Part
+from earthspin.errors import SceneError, Where, nearest
+from earthspin.units import Kind, kind_of
+
+#: Name of the part of every question that says what its model leaves out.
+NEGLECTED = "neglected"
+
+
+def key(default: Any = MISSING, *, doc: str) -> Any:
+    """Declare what can be asked at the head of a scene.
+
+    Parameters
+    ----------
+    default
+        As one would write it; without one the key must be given.
+    doc : str
+        One sentence.
+    """
+    return field(default=default, metadata={"doc": doc, "setting": False})
+
+
+def setting(default: Any = MISSING, *, doc: str) -> Any:
+    """Declare what can be asked in the question's own table of a scene."""
+    return field(default=default, metadata={"doc": doc, "setting": True})
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key of a question.
+
+    Attributes
+    ----------
+    name : str
+    kind : Kind
+    doc : str
+    shown : object
+        Its default as one would write it; MISSING if it must be given.
+    setting : bool
+        Whether it stands in the question's own table.
+    """
+
+    name: str
+    kind: Kind[Any]
+    doc: str
+    shown: Any
+    setting: bool
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return self.shown is MISSING
+
+    @cached_property
+    def default(self) -> Any:
+        """Its default, read."""
+        return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
+
+    @property
+    def default_words(self) -> str:
+        """Its default for people; empty where there is none."""
+        return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
+
+
+def plain_words(value: Any) -> str:
+    """Write a value on one line: bodies by their names."""
+    if isinstance(value, (tuple, list)):
+        return ", ".join(plain_words(one) for one in value)
+    return str(getattr(value, "name", value))
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, setting))
+class Question:
+    """What can be asked.
+
+    Attributes
+    ----------
+    word : str
+        What stands after ``compute =`` in a scene.
+    call : str
+        Name of the public function.
+    table : str
+        Name of its own table of settings in a scene; empty if it has none.
+    positional : tuple of str
+        Arguments of the call that need no name.
+    exclusive : tuple of tuple of str
+        Groups of keys of which one group alone may be given, such as times against span and step.
+    """
+
+    word: ClassVar[str]
+    call: ClassVar[str]
+    table: ClassVar[str]
+    positional: ClassVar[tuple[str, ...]]
+    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    graph: ClassVar[Graph]
+
+    title: str = key("", doc="words for headings")
+
+    def __init_subclass__(
+        cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
+    ) -> None:
+        """Name a question; a class without a word holds keys that several questions share."""
+        cls.word, cls.call, cls.table, cls.positional = word, call, table, positional
+        dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
+
+    def __init__(self, **given: Any) -> None:
+        self._fill(given, source="", in_scene=False)
+
+    def _fill(self, given: Mapping[str, Any], source: str, in_scene: bool) -> None:
+        """Read each key once, refuse those that there are not, and check them together."""
+        keys = keys_of(type(self))
+        for name, value in given.items():
+            if name not in keys:
+                raise SceneError(name, value, unknown_key(type(self), name), source=source)
+        chosen = {name: value for name, value in given.items() if value is not None}
+        object.__setattr__(self, "given", frozenset(chosen))
+        object.__setattr__(self, "source", source)
+        for name, one in keys.items():
+            shown = f"{self.table}.{name}" if one.setting and in_scene else name
+            where = Where(shown, source)
+            if name in chosen:
+                value = one.kind.read(chosen[name], where)
+            elif one.required:
+                raise where.error(None, f"give it: {one.doc}, like {one.kind.words}")
+            else:
+                value = one.default
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "title", self.title or self.word)
+        self._check_exclusive()
+        self.check()
+
+    def _check_exclusive(self) -> None:
+        groups = [group for group in self.exclusive if self.given & set(group)]
+        if len(groups) > 1:
+            ways = ", or ".join(" and ".join(group) for group in self.exclusive)
+            raise self.error(groups[0][0], "...", f"give either {ways}")
+
+    def check(self) -> None:
+        """Check keys against each other; a question says how."""
+
+    def where(self, name: str) -> Where:
+        """Name a key for messages."""
+        return Where(name, self.source)
+
+    def error(self, name: str, given: object, problem: str) -> SceneError:
+        """Make the error that says what is wrong with a key."""
+        return self.where(name).error(given, problem)
+
+    given: ClassVar[frozenset[str]]
+    source: ClassVar[str]
+
+    # --- as a scene ------------------------------------------------------------------------------
+
+    @classmethod
+    def from_table(cls, table: Mapping[str, Any], source: str = "", title: str = "") -> Self:
+        """Read a question from the keys of a scene, `compute` aside.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            If a key is unknown, missing or wrong.
+        """
+        keys, flat = keys_of(cls), {"title": title} if title else {}
+        for name, value in table.items():
+            if cls.table and name == cls.table:
+                if not isinstance(value, Mapping):
+                    raise SceneError(name, value, f"it is a table: [{name}]", source=source)
+                own = {n for n, one in keys.items() if one.setting}
+                for inner, of in value.items():
+                    if inner not in own:
+                        raise SceneError(f"{name}.{inner}", of, nearest(inner, own), source=source)
+                flat |= value
+            elif name in keys and keys[name].setting:
+                raise SceneError(name, value, f"it belongs in the table [{cls.table}]", source=source)
+            else:
+                flat[name] = value
+        made = cls.__new__(cls)
+        made._fill(flat, source, in_scene=True)
+        return made
+
+    def to_table(self) -> dict[str, Any]:
+        """Give the complete scene as a table: every key with every number, as TOML holds it."""
+        table: dict[str, Any] = {"compute": self.word}
+        own: dict[str, Any] = {}
+        idle = self._idle()
+        for name, one in keys_of(type(self)).items():
+            value = getattr(self, name)
+            if value is not None and name not in idle:
+                (own if one.setting else table)[name] = one.kind.write(value)
+        return table | ({self.table: own} if own else {})
+
+    def _idle(self) -> set[str]:
+        """Keys that another group of keys has taken the place of."""
+        used = next((group for group in self.exclusive if self.given & set(group)), None)
+        if used is None:
+            return set()
+        return {name for group in self.exclusive for name in group} - set(used)
+
+    def keys(self) -> dict[str, Any]:
+        """Value of every key by its name."""
+        return {name: getattr(self, name) for name in keys_of(type(self))}
+
+    def replace(self, **changes: Any) -> Self:
+        """Return the question with some keys changed, checked again."""
+        kept = {name: getattr(self, name) for name in self.given if name not in changes}
+        made = type(self).__new__(type(self))
+        made._fill(kept | {"title": self.title} | changes, self.source, in_scene=False)
+        return made
+
+    def __repr__(self) -> str:
+        shown = [
+            f"{name}={plain_words(getattr(self, name))!r}"
+            for name in keys_of(type(self))
+            if name in self.given
+        ]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
+
+
+@lru_cache
+def keys_of(question: type[Question]) -> dict[str, Key]:
+    """Keys of a question by name, in the order in which its class has them."""
+    hints = get_type_hints(question, include_extras=True)
+    return {
+        one.name: Key(
+            name=one.name,
+            kind=kind_of(hints[one.name]),
+            doc=one.metadata["doc"],
+            shown=one.default,
+            setting=one.metadata["setting"],
+        )
+        for one in fields(question)  # type: ignore[arg-type]
+    }
+
+
+def unknown_key(question: type[Question], name: str) -> str:
+    """Say that a question does not have a key, and which it has."""
+    return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
+
+
+# --- what a question is made of ------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Graph:
+    """The parts of a question.
+
+    Attributes
+    ----------
+    parts : dict of str to Part
+        All of them by name.
+    answer : tuple of str
+        Those whose variables make up the answer.
+    sections : dict of str to tuple of str
+        Those whose variables make up each section.
+    """
+
+    parts: dict[str, Part[..., Any]]
+    answer: tuple[str, ...]
+    sections: dict[str, tuple[str, ...]]
+
+
+Parts = Part[..., Any] | tuple[Part[..., Any], ...]
+
+
+def made_of(
+    question: type[Question],
+    *,
+    answer: Parts,
+    sections: Mapping[str, Parts],
+    parts: Iterable[Part[..., Any]] = (),
+) -> None:
+    """Say which parts answer a question, and check that they fit together.
+
+    Parameters
+    ----------
+    question : type
+    answer : Part or tuple of Part
+        What a call gives; the first must run.
+    sections : mapping of str to Part or tuple of Part
+        What else the question can tell, by name; among them `neglected`.
+    parts : iterable of Part
+        The others.
+
+    Raises
+    ------
+    TypeError
+        If a parameter of a part is neither a key nor a part, a name stands for both, or the
+        question does not say what it neglects.
+    """
+    ends = _several(answer)
+    told = {name: _several(of) for name, of in sections.items()}
+    every = [*parts, *ends, *(one for of in told.values() for one in of)]
+    named = {one.name: one for one in every}
+    names, keys = set(named), set(keys_of(question))
+    if len({id(one) for one in every}) != len(named) or names & keys:
+        raise TypeError(f"{question.__name__}: a name stands for two things")
+    for one in every:
+        for parameter in (*one.needs, *one.uses):
+            if parameter not in names | keys | {BLOCK}:
+                raise TypeError(f"{question.__name__}: {one.name} asks for '{parameter}'")
+    if NEGLECTED not in told:
+        raise TypeError(f"{question.__name__} does not say what it neglects")
+    question.graph = Graph(
+        named,
+        tuple(one.name for one in ends),
+        {name: tuple(one.name for one in of) for name, of in told.items()},
+    )
+
+
+def _several(parts: Parts) -> tuple[Part[..., Any], ...]:
+    return parts if isinstance(parts, tuple) else (parts,)
+
+
+# --- words for people ----------------------------------------------------------------------------
+
+
+def describe_keys(question: type[Question]) -> str:
+    """List the keys of a question: what may be given, the default, and a sentence."""
+    lines = []
+    for in_table in (False, True):
+        chosen = [one for one in keys_of(question).values() if one.setting is in_table]
+        if chosen and in_table:
+            lines += ["", f"[{question.table}]"]
+        for one in chosen:
+            default = f" (default: {one.default_words})" if one.default_words else ""
+            default = " (must be given)" if one.required else default
+            lines.append(f"{one.name} = {one.kind.words}")
+            lines += textwrap.wrap(
+                f"{one.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
+            )
+    return "\n".join(lines)

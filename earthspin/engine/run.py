@@ -1,0 +1,245 @@
+"""Run the parts of a question in order, each timed, and lay out what they gave."""
+
+from __future__ import annotations
+
+import time
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from earthspin._version import __version__
+from earthspin.engine.labels import CONVENTIONS
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import BLOCK, Block
+from earthspin.engine.plan import Plan, plan
+from earthspin.engine.question import NEGLECTED, Question
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Attribute of an answer that holds its question, complete, as the text of a scene file.
+SCENE = "scene"
+#: How many of the last runs are remembered by what they cost.
+REMEMBERED = 64
+
+_SECONDS: OrderedDict[str, dict[str, float]] = OrderedDict()
+
+
+@dataclass(frozen=True)
+class Ran:
+    """A plan that has run, and what its parts gave by name."""
+
+    plan: Plan
+    given: dict[str, Any]
+
+
+def run(question: Question) -> xr.Dataset:
+    """Answer a question.
+
+    Parameters
+    ----------
+    question : Question
+
+    Returns
+    -------
+    Dataset
+        The answer alone, its complete question among the attributes.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+    """
+    return _answer(_run_parts(plan(question)))
+
+
+def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.DataTree:
+    """Answer a question with sections beside the answer, and the plan with its seconds.
+
+    Parameters
+    ----------
+    question : Question
+    sections : str or iterable of str
+        Names, or ``"all"``.
+
+    Returns
+    -------
+    DataTree
+        The answer at the root, a node for each section, and the node ``plan``.
+    """
+    import xarray as xr
+
+    ran = _run_parts(plan(question, sections))
+    answer = _answer(ran)
+    nodes = {"/": answer}
+    for name in ran.plan.sections:
+        nodes[name] = _section(ran, name, answer)
+    return xr.DataTree.from_dict(nodes | {"plan": _plan_data(ran.plan)})
+
+
+def run_blocks(question: Question, blocks: Iterable[Block]) -> Iterator[xr.Dataset]:
+    """Answer a question stretch by stretch; parts that take no block run once.
+
+    Parameters
+    ----------
+    question : Question
+    blocks : iterable of Block
+
+    Yields
+    ------
+    Dataset
+        The answer for each stretch.
+    """
+    planned = plan(question)
+    moving: set[str] = set()
+    for one in planned.parts:
+        if BLOCK in one.uses or moving & {*one.needs, *one.uses}:
+            moving.add(one.name)
+    still = replace(planned, parts=tuple(p for p in planned.parts if p.name not in moving))
+    before = _run_parts(still).given
+    for block in blocks:
+        yield _answer(_run_parts(planned, before | {BLOCK: block}))
+
+
+def run_choosing(question: Question) -> list[Any]:
+    """What the parts choose that choose settings for an accuracy; no other part runs.
+
+    Parameters
+    ----------
+    question : Question
+    """
+    planned = plan(question)
+    needed = {one.name for one in planned.parts if one.chooses}
+    for one in reversed(planned.parts):
+        if one.name in needed:
+            needed |= {*one.needs, *one.uses}
+    few = replace(planned, parts=tuple(one for one in planned.parts if one.name in needed))
+    given = _run_parts(few).given
+    return [given[one.name] for one in few.parts if one.chooses]
+
+
+def seconds_of(scene: str) -> Mapping[str, float]:
+    """Seconds of each part when this scene last ran in this process; empty if it did not."""
+    return _SECONDS.get(scene, {})
+
+
+def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
+    """Run what has not been given yet."""
+    values = planned.question.keys() | dict(given or {})
+    seconds: dict[str, float] = {}
+    for one in planned.parts:
+        if one.name in values:
+            continue
+        inputs = {name: values[name] for name in one.needs}
+        inputs |= {name: values[name] for name in one.uses if name in values}
+        begun = time.perf_counter()
+        values[one.name] = one(**inputs)
+        seconds[one.name] = time.perf_counter() - begun
+    return Ran(replace(planned, seconds=seconds), values)
+
+
+# --- laying out ----------------------------------------------------------------------------------
+
+
+def _answer(ran: Ran) -> xr.Dataset:
+    """The parts of the answer as one Dataset, with its attributes."""
+    import earthspin.accessor  # noqa: F401 - registers ds.earthspin
+
+    graph = ran.plan.question.graph
+    result = _together([ran.given[name] for name in graph.answer if name in ran.given])
+    result.attrs = _attributes(ran)
+    scene = result.attrs[SCENE]
+    _SECONDS[scene] = dict(ran.plan.seconds)
+    _SECONDS.move_to_end(scene)
+    if len(_SECONDS) > REMEMBERED:
+        _SECONDS.popitem(last=False)
+    return result
+
+
+def _section(ran: Ran, name: str, answer: xr.Dataset) -> xr.Dataset:
+    """The parts of a section as one Dataset; effects that the answer names keep their labels."""
+    parts = [ran.given[one] for one in ran.plan.question.graph.sections[name] if one in ran.given]
+    labels = answer["effect"].values.tolist() if "effect" in answer.coords else ()
+    return _together([p.dataset(labels) if isinstance(p, Neglected) else p for p in parts])
+
+
+def _together(pieces: list[xr.Dataset]) -> xr.Dataset:
+    first, *others = pieces
+    for other in others:
+        first = first.merge(other, join="exact", combine_attrs="override")
+    return first.copy()
+
+
+def _plan_data(planned: Plan) -> xr.Dataset:
+    """The plan as data, with the seconds."""
+    import xarray as xr
+
+    rows = planned.rows
+    columns = {
+        "status": ([row.status for row in rows], {"long_name": "whether the part ran"}),
+        "reason": (
+            [row.reason for row in rows],
+            {"long_name": "what the part does, or why it was left out"},
+        ),
+        "run_time": (
+            [row.seconds or 0.0 for row in rows],
+            {"units": "s", "long_name": "run time of the part"},
+        ),
+    }
+    return xr.Dataset(
+        {name: ("part", values, attrs) for name, (values, attrs) in columns.items()},
+        {"part": ("part", [row.part for row in rows], {"long_name": "part of the plan"})},
+    )
+
+
+def _attributes(ran: Ran) -> dict[str, str]:
+    """Global attributes: text alone, the same from run to run."""
+    question = ran.plan.question
+    attributes = {
+        "Conventions": CONVENTIONS,
+        "title": question.title,
+        "source": f"earthspin {__version__}",
+        "history": f"earthspin {__version__}: compute = {question.word}",
+        "references": "",
+        "earthspin_version": __version__,
+        "numpy_version": version("numpy"),
+        "compute": question.word,
+    }
+    references: list[str] = []
+    for name, value in question.keys().items():
+        several = value if isinstance(value, tuple) else (value,)
+        if several and all(hasattr(one, "reference") for one in several):
+            references += [one.reference for one in several if one.reference]
+            attributes[name] = " ".join(one.name for one in several)
+            changes = "; ".join(one.changes for one in several if one.changes)
+            if changes:
+                attributes[f"{name}_changes"] = changes
+        elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
+            attributes[name] = " ".join(value)
+    attributes["references"] = "; ".join(dict.fromkeys(references))
+    for value in ran.given.values():
+        attributes |= getattr(value, "provenance", {})
+    neglected = [ran.given.get(name) for name in question.graph.sections[NEGLECTED]]
+    attributes[NEGLECTED] = next(
+        (one.largest for one in neglected if one is not None),
+        f"size not known: {ran.plan.left_out.get(NEGLECTED, '')}",
+    )
+    attributes[SCENE] = scene_text(question)
+    return attributes
+
+
+def scene_text(question: Question) -> str:
+    """Write a question with every number as the text of a scene file."""
+    import tomli_w
+
+    return tomli_w.dumps(question.to_table())
+
+
+@lru_cache
+def version(package: str) -> str:
+    """Version of an installed package, looked up once."""
+    from importlib import metadata
+
+    return metadata.version(package)

@@ -1,0 +1,138 @@
+"""Settings for the accuracy that was asked for: the cheapest that keep it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from earthspin.bodies import IAU_2006, Body
+from earthspin.choosing.promises import MARGIN
+from earthspin.engine.part import part
+from earthspin.parts.reasons import no_accuracy, no_iau_model
+
+if TYPE_CHECKING:
+    from earthspin.choosing.averages import Averaging
+    from earthspin.choosing.choice import Choice
+    from earthspin.choosing.nutation import NutationNodes
+    from earthspin.choosing.windows import PoleWindows
+    from earthspin.dates import TimeGrid, TimeList
+    from earthspin.parts.pulls import Pulls
+    from earthspin.parts.sky import Sky, Stretch
+
+
+def windows_on_offer(
+    body: Body,
+    perturbers: tuple[Body, ...],
+    effects: tuple[str, ...],
+    pulls: Pulls,
+    epochs: TimeGrid | TimeList,
+) -> list[Choice[PoleWindows]]:
+    """Windows of the pole; none where the sky was not measured."""
+    from earthspin.bodies import BODIES, PLANETS
+    from earthspin.choosing.windows import window_choices
+    from earthspin.constants import DAY
+    from earthspin.parts.pulls import forces_of, start_of
+
+    forces = forces_of(body, pulls, effects)
+    _, epoch = start_of(body, pulls)
+    first, last = (day * DAY - epoch for day in epochs.span())
+    bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in perturbers}
+    masses: dict[int, float] = {}
+    for name, gm in forces.gm.items():
+        code = bodies[name].naif[0]
+        masses[code] = masses.get(code, 0.0) + gm
+    return window_choices(
+        body.naif[0],
+        forces.figure,
+        masses,
+        (first, last),
+        geodesic=0.0 if forces.primary is None else forces.gm[forces.primary],
+    )
+
+
+@part(unless=no_accuracy, chooses=True)
+def chosen_windows(
+    body: Body,
+    perturbers: tuple[Body, ...],
+    effects: tuple[str, ...],
+    pulls: Pulls,
+    epochs: TimeGrid | TimeList,
+    accuracy: float | None,
+) -> list[Choice[PoleWindows]]:
+    """The cheapest windows of the pole that meet the accuracy asked for, then the most accurate.
+
+    Empty where the sky was not measured.
+    """
+    from earthspin.choosing.choice import cheapest
+
+    menu = windows_on_offer(body, perturbers, effects, pulls, epochs)
+    exact = body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
+    # what H takes of the request is known when the path is; half and half until then
+    share = MARGIN if exact else MARGIN / math.sqrt(2)
+    best = [min(menu, key=lambda choice: choice.error)] if menu else []
+    choice = cheapest(menu, (accuracy or math.inf) * share)
+    return best if choice is None else [choice, *best]
+
+
+def averages_on_offer(
+    body: Body, perturbers: tuple[Body, ...], stretch: Stretch
+) -> list[Choice[Averaging]]:
+    """Windows of an average over orbits; none where the sky was not measured."""
+    from earthspin.choosing.averages import Pull, Pushed, average_choices
+    from earthspin.constants import DAY
+    from earthspin.sky.equator import angle, orbit_normal, pole_at
+    from earthspin.torque.average import best_window
+
+    cycle = max(p.cycle for p in perturbers)
+    normal = orbit_normal(body.needed("pole"), body.orbit_pole)
+    pushed = Pushed(
+        code=body.naif[0],
+        obliquity=angle(pole_at(body.needed("pole"), 0.0), normal),
+        normal=normal,
+        moving=body.pole == IAU_2006,
+        pulls={p.name: Pull(p.naif[0], float(p.gm), p.slow_swing) for p in perturbers},
+        cycle=cycle,
+    )
+    widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
+    return average_choices(pushed, widest.cycles)
+
+
+@part(unless=no_accuracy, chooses=True)
+def chosen_average(
+    body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
+) -> Choice[Averaging] | None:
+    """The cheapest window and step of the averages that meet the accuracy asked for.
+
+    None where the sky was not measured.
+    """
+    from earthspin.choosing.choice import cheapest
+    from earthspin.torque.rates import left_for_method
+
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    # the strongest pull may be all of the rate: its GM stands for all
+    u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in perturbers)
+    allowed = MARGIN * left_for_method(accuracy or math.inf, u_h, u_gm)
+    menu = averages_on_offer(body, perturbers, stretch)
+    widest = max((choice.settings.cycles for choice in menu), default=0)
+    # where none will do, the widest window at the closest step
+    finest = next((choice for choice in menu if choice.settings.cycles == widest), None)
+    return cheapest(menu, allowed) or finest
+
+
+def on_mean_equator(equator: str) -> str | None:
+    """Leave nutation out at the mean equator."""
+    return "the equator is the mean one" if equator == "mean" else None
+
+
+@part(unless=(no_accuracy, on_mean_equator, no_iau_model), chooses=True)
+def chosen_nutation(
+    sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
+) -> Choice[NutationNodes | None] | None:
+    """The cheapest nutation that meets the accuracy asked for, next to what the kernel is off by."""
+    from earthspin.choosing.choice import cheapest
+    from earthspin.choosing.nutation import nutation_choices
+
+    kernel = max(sky.ephemeris.error(code)[0] for code in sky.targets.values())
+    left = (accuracy or math.inf) - kernel
+    first, last = epochs.span()
+    return cheapest(nutation_choices(first, last, epochs.size), MARGIN * left)

@@ -1,0 +1,36 @@
+"""Reasons for leaving a part out that several questions share."""
+
+from __future__ import annotations
+
+from earthspin.bodies import IAU_2006, Body
+
+
+def no_iau_model(body: Body) -> str | None:
+    """Leave out what stands on the IAU's models, for a body that has none."""
+    if body.pole != IAU_2006:
+        return f"the IAU has no precession model for {body.name}"
+    return None
+
+
+def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Leave out what compares the pull of Sun and Moon, no less and no more, with the IAU's."""
+    if no_iau_model(body):
+        return no_iau_model(body)
+    names = {p.name for p in perturbers}
+    missing = [name for name in ("sun", "moon") if name not in names]
+    if missing:
+        return f"the {missing[0]} is not among the perturbers"
+    return "the comparison is for sun and moon alone" if len(names) > 2 else None
+
+
+def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Leave out what follows the Moon above the Earth's equator."""
+    if no_iau_model(body):
+        return no_iau_model(body)
+    there = "moon" in {p.name for p in perturbers}
+    return None if there else "the moon is not among the perturbers"
+
+
+def no_accuracy(accuracy: float | None) -> str | None:
+    """Leave out what chooses settings where no accuracy is asked for."""
+    return "no accuracy is asked for: the finest settings" if accuracy is None else None

@@ -1,0 +1,62 @@
+"""Times at which something is wanted: dates of a series, or seconds from a start."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.engine.part import part
+from earthspin.engine.question import key
+from earthspin.parts.sky import Pulled
+from earthspin.units import FloatArray, Numbers
+
+#: A series longer than this is written block by block, never held whole (0.5 GB in memory).
+LONGEST_IN_MEMORY = 4_000_000
+
+#: Seconds from the start of a motion.
+Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
+
+#: Attributes of the coordinates of time.
+DATES = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
+FROM_START = {"units": "s", "long_name": "time from the start"}
+
+
+class Series(Pulled):
+    """Keys of every question that is answered at many dates."""
+
+    exclusive = (("times",), ("span", "step"))
+
+    span: Span = key(doc="first and last date, TDB; the last is included if the step meets it")
+    step: Step = key(doc="time between two dates")
+    times: TimeList | None = key(None, doc="instead of span and step, the very dates wanted")
+
+
+@part
+def epochs(span: Span, step: float, times: TimeList | None) -> TimeGrid | TimeList:
+    """The dates of the series."""
+    return TimeGrid.over(span, step) if times is None else times
+
+
+@part
+def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
+    """The times of the motion, s from its start."""
+    import numpy as np
+
+    return np.linspace(0.0, duration, points) if times is None else times
+
+
+def refuse_what_does_not_fit(epochs: TimeGrid | TimeList, remedy: str) -> None:
+    """Refuse to hold a series in memory that is too long for it.
+
+    Raises
+    ------
+    SceneError
+    """
+    from earthspin.errors import SceneError
+
+    if epochs.size > LONGEST_IN_MEMORY:
+        raise SceneError(
+            "step",
+            None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s",
+            f"{epochs.size} times do not fit into memory (up to {LONGEST_IN_MEMORY}); {remedy}",
+        )

@@ -1,0 +1,253 @@
+"""A body without torque in time, and Poinsot's picture of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from earthspin.choosing.promises import closed_form, promise
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.errors import Where
+from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.times import FROM_START, Seconds, instants
+from earthspin.units import Duration, FloatArray, Numbers, Plain, Relative, Whole, quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Principal moments as they were given, so that no digits are lost.
+
+    Attributes
+    ----------
+    numbers : tuple of float
+        A, B, C, or A, B - A, C - A, kg m2.
+    differences : bool
+        Which of the two.
+    """
+
+    numbers: tuple[float, float, float]
+    differences: bool = False
+
+    words = 'three values like "8.01e37 kg m2", or a table of "A", "B-A" and "C-A"'
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> Moments:
+        """Read three moments, or one and two differences."""
+        from earthspin.rotor.moments import KEYS
+
+        if isinstance(given, Moments):
+            return given
+        table = isinstance(given, Mapping)
+        if isinstance(given, Mapping):
+            if set(given) != set(KEYS):
+                raise where.error(sorted(map(str, given)), f"the keys are {', '.join(KEYS)}")
+            values = [quantity(given[name], "kg m2", where.at(name), "8e37 kg m2") for name in KEYS]
+        else:
+            values = list(Numbers("kg m2", "8.01e37 kg m2", (3,)).read(given, where))
+        first, second, third = (float(value) for value in values)
+        return cls((first, second, third), table)
+
+    def write(self) -> Plain:
+        """Give what was read."""
+        from earthspin.rotor.moments import KEYS
+
+        texts = [f"{number!r} kg m2" for number in self.numbers]
+        return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
+
+    @property
+    def given(self) -> list[float] | dict[str, float]:
+        """As the physics takes them."""
+        from earthspin.rotor.moments import KEYS
+
+        numbers = list(self.numbers)
+        return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
+
+
+class FreeRotor(
+    Question,
+    word="free-rotor",
+    call="free_rotor",
+    table="rotor",
+    positional=("moments", "omega", "times"),
+):
+    """Motion of a body without torque, in closed form (I.4 to I.6).
+
+    Returns
+    -------
+    Dataset
+        Over `time` (s): `omega_body`, `angular_momentum_body`, `omega_inertial` (along
+        `component`), `attitude` (unit quaternion along `quaternion`, body to inertial; the
+        inertial axes are those of the body at t = 0), `energy`. For one start
+        `earthspin.run_tree` gives Poinsot's ellipsoids, polhode and herpolhode beside it.
+
+    Raises
+    ------
+    EarthspinError
+        For moments that no body has, a start without angular momentum, or numbers that are
+        not finite.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> racket = earthspin.free_rotor([1, 2, 2.8], [0.01, 1, 0], [0, 10, 20])
+    >>> print(racket.omega_body.sel(component="y").round(2).values)
+    [1.   0.98 0.47]
+    """
+
+    exclusive = (("times",), ("duration", "points"))
+
+    moments: Moments = setting(
+        doc="principal moments about the x, y, z axes of the body, in any order of size"
+    )
+    omega: Annotated[FloatArray, Numbers("rad/s", "1 rad/s", (None, 3), optional_row=True)] = (
+        setting(doc="angular velocity along the principal axes at t = 0; one start or many")
+    )
+    times: Seconds | None = setting(None, doc="times from the start")
+    duration: Duration = setting("20 s", doc="last time, if times are not given")
+    points: Annotated[int, Whole()] = setting(401, doc="how many times, evenly spaced")
+    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+
+
+_SERIES = ("time", "component")
+ROTATION = {
+    "omega_body": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
+    "angular_momentum_body": Variable(
+        _SERIES, "kg m2 / s", "angular momentum along the principal axes"
+    ),
+    "omega_inertial": Variable(
+        _SERIES, "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
+    ),
+    "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
+    "energy": Variable(("time",), "J", "kinetic energy of rotation"),
+}
+
+
+@part(gives=ROTATION)
+def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dataset:
+    """Angular velocity, attitude and energy of a free rotor, in closed form."""
+    import xarray as xr
+
+    from earthspin.rotor.triaxial import free_rotation as rotate
+
+    motion = rotate(moments.given, omega, instants)
+    starts = ("start",) * (motion.energy.ndim - 1)
+
+    def laid(values: FloatArray, *dims: str) -> xr.DataArray:
+        return xr.DataArray(values, dims=(*starts, "time", *dims))
+
+    return build(
+        ROTATION,
+        {
+            "omega_body": laid(motion.omega_body, "component"),
+            "angular_momentum_body": laid(motion.angular_momentum_body, "component"),
+            "omega_inertial": laid(motion.omega_inertial, "component"),
+            "attitude": laid(motion.attitude, "quaternion"),
+            "energy": laid(motion.energy),
+        },
+        coords={
+            "time": ("time", motion.times, FROM_START),
+            "component": ["x", "y", "z"],
+            "quaternion": ["w", "x", "y", "z"],
+        },
+    )
+
+
+def several_starts(omega: FloatArray) -> str | None:
+    """Leave Poinsot's picture out where there are several starts."""
+    return None if omega.ndim == 1 else "there are several starts"
+
+
+POINSOT = {
+    "inertia_ellipsoid": Variable(("component",), "rad/s", "semi-axes of the inertia ellipsoid"),
+    "momentum_ellipsoid": Variable(
+        ("component",), "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
+    ),
+    "polhode": Variable(
+        ("polhode_point", "component"), "rad/s", "path of the angular velocity in the body"
+    ),
+    "polhode_period": Variable((), "s", "time of one round of the polhode"),
+    "invariable_plane_distance": Variable(
+        (), "rad/s", "distance of the invariable plane from the centre, 2T/L"
+    ),
+    "herpolhode": Variable(
+        ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
+    ),
+    "herpolhode_radius": Variable(("bound",), "rad/s", "bounds of the herpolhode"),
+    "growth_rate": Variable(
+        ("component",), "1/s", "rate at which a small tilt off each axis grows; 0 if stable"
+    ),
+}
+#: Given where the polhode has a period: not on the separatrix, nor where omega stands still.
+ADVANCE = {"herpolhode_advance": Variable((), "rad", "turn of the herpolhode per round")}
+
+
+@part(gives=POINSOT, unless=several_starts)
+def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dataset:
+    """Ellipsoids, polhode and herpolhode of a free rotor."""
+    import numpy as np
+
+    from earthspin.rotor import poinsot as p
+    from earthspin.rotor.euler import axis_stability
+
+    given, start = moments.given, omega.tolist()
+    path = p.polhode(given, start)
+    stability = axis_stability(given, sum(w * w for w in start) ** 0.5)
+    returns = {}
+    if bool(np.isfinite(path.period)):
+        returns["herpolhode_advance"] = p.herpolhode_advance(given, start)
+    return build(
+        POINSOT | (ADVANCE if returns else {}),
+        {
+            "inertia_ellipsoid": p.inertia_ellipsoid(given, start),
+            "momentum_ellipsoid": p.momentum_ellipsoid(given, start),
+            "polhode": path.omega,
+            "polhode_period": path.period,
+            "invariable_plane_distance": p.invariable_plane_distance(given, start),
+            "herpolhode": p.herpolhode(given, start, instants),
+            "herpolhode_radius": p.herpolhode_radii(given, start),
+            **returns,
+            "growth_rate": stability.growth_rate,
+        },
+        coords={
+            "time": ("time", instants, FROM_START),
+            "component": ["x", "y", "z"],
+            "in_plane": ["x", "y"],
+            "bound": ["inner", "outer"],
+        },
+    )
+
+
+PROMISE = promise("1", "relative, of angular velocity and attitude")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the rotation: asked, estimated, and the method."""
+    from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
+
+    size = free_rotation.attitude.size // 4
+    return closed_form(PROMISE, accuracy, CLOSED_FORM_ERROR, "Jacobi's closed form", size)
+
+
+@part
+def neglected() -> Neglected:
+    """What a rigid body without torque leaves out."""
+    return Neglected(what="a rigid body without torque is all that is asked for")
+
+
+made_of(
+    FreeRotor,
+    answer=(free_rotation, rotation_accuracy),
+    sections={"poinsot": poinsot, "neglected": neglected},
+    parts=(instants,),
+)
+
+free_rotor = ask(FreeRotor)

@@ -1,0 +1,236 @@
+"""The path of the axes under the torques."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from earthspin.bodies import IAU_2006, Body
+from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, si
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import key, made_of
+from earthspin.parts.choices import chosen_windows
+from earthspin.parts.path import (
+    Shift,
+    axis_path,
+    core_response,
+    nonrigid_shift,
+    pole_analysis,
+)
+from earthspin.parts.pulls import ALL_BUT_NONRIGID, NONRIGID, Moved, pulls
+from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.sky import places, sky
+from earthspin.parts.times import DATES, epochs
+from earthspin.units import AngleError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from earthspin.motion.axes import AxisPath
+
+
+class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
+    """Path of the axes under the torques, in the GCRS.
+
+    The body starts from its pole at J2000.0; the Earth from that of IAU 2006/2000A. Of the effects,
+    `geodesic` needs the Sun among the perturbers and turns a sphere, too; `nonrigid` is the response
+    of the Earth's inside, fitted to IAU 2000A.
+
+    Returns
+    -------
+    Dataset
+        Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
+        (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
+        defined; over `time` `direction_error` (uas).
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; among it a spin that is too slow.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> path = earthspin.pole("2000-01-01T12:00", "2001-01-01T12:00", "30 d")
+    >>> print(path.sizes["time"], path.axis.values)
+    13 ['angular_momentum' 'rotation' 'figure']
+    """
+
+    span: Span = key(
+        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
+        doc="first and last date, TDB; the last is included if the step meets it",
+    )
+    step: Step = key("5 d", doc="time between two dates")
+    accuracy: AngleError | None = key(
+        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
+    )
+
+    def check(self) -> None:
+        """A response of the inside that is asked for must be known."""
+        super().check()
+        if NONRIGID in self.effects and no_iau_model(self.body):
+            raise self.error(
+                "effects",
+                NONRIGID,
+                f"no response of the inside of {self.body.name} is known; leave it out",
+            )
+
+
+def response_is_off(effects: tuple[str, ...]) -> str | None:
+    """Leave the response of the inside out where it is switched off."""
+    return None if NONRIGID in effects else "the non-rigid response is switched off"
+
+
+@part(unless=response_is_off)
+def response(nonrigid_shift: Shift) -> Shift:
+    """The response of the inside to nutation, where it is switched on."""
+    return nonrigid_shift
+
+
+_AXES = ("time", "axis")
+DIRECTIONS = {
+    "X": Variable(_AXES, "1", "first component of the unit vector of the axis"),
+    "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
+    "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
+    "direction_error": Variable(
+        ("time",), "uas", "95 % half-width of the directions, figure of the body included"
+    ),
+    "direction_error_method": Variable(("time",), "uas", "share of the integration"),
+    "direction_error_input": Variable(("time",), "uas", "share of the uncertainty of H"),
+}
+
+
+@part(gives=DIRECTIONS)
+def axes(
+    axis_path: AxisPath,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    accuracy: float | None,
+    response: Shift | None = None,
+) -> xr.Dataset:
+    """Directions of angular-momentum, rotation and figure axis at every time."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.dates import datetime64
+    from earthspin.motion.axes import AXES, error_of_input
+
+    now = epochs.days(0, epochs.size)
+    found = axis_path.at(now * DAY)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    method = np.full(now.size, axis_path.error)
+    from_input = error_of_input(axis_path, found["figure"], u_h)
+    error = np.hypot(method, from_input)
+    refuse_unkept(
+        accuracy,
+        float(error.max()),
+        "mas",
+        "stay nearer to J2000.0 or give the body a better known H",
+    )
+    if response is not None:
+        response.apply(found, now)
+    vectors = np.stack([found[axis] for axis in AXES], axis=1)
+    result = build(
+        DIRECTIONS,
+        {
+            "X": vectors[..., 0],
+            "Y": vectors[..., 1],
+            "Z": vectors[..., 2],
+            "direction_error": error,
+            "direction_error_method": method,
+            "direction_error_input": from_input,
+        },
+        coords={"time": ("time", datetime64(now), dict(DATES)), "axis": list(AXES)},
+    )
+    for name in ("X", "Y", "Z"):
+        result[name].attrs["frame"] = "GCRS"
+    window = np.median(np.diff(axis_path.windows.edges)) / DAY
+    result["direction_error"].attrs |= {
+        "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
+        "evaluations": axis_path.evaluations,
+    }
+    return result
+
+
+def no_longitude(body: Body) -> str | None:
+    """Angles need an orbit, and an axis that does not stand on it."""
+    if body.pole == IAU_2006:
+        return None
+    if body.orbit_pole is None or not isinstance(body.pole, tuple):
+        return f"psi is counted along the orbit, and {body.name} has no orbit_pole"
+    (ra, dec), (ra0, dec0) = body.pole, body.orbit_pole
+    half = math.sin((dec - dec0) / 2) ** 2
+    half += math.cos(dec) * math.cos(dec0) * math.sin((ra - ra0) / 2) ** 2
+    if half < 1e-14 or half > 1 - 1e-14:
+        return "the axis stands upright on the orbit: its longitude psi is not defined"
+    return None
+
+
+ANGLES = {
+    "psi": Variable(
+        _AXES, "arcsec", "precession and nutation in longitude along the orbit of J2000.0"
+    ),
+    "eps": Variable(_AXES, "arcsec", "angle of the axis from the normal of that orbit"),
+}
+
+
+@part(gives=ANGLES, unless=no_longitude)
+def pole_angles(axes: xr.Dataset, body: Body) -> xr.Dataset:
+    """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
+    import numpy as np
+
+    from earthspin.compare.angles import on_fixed_ecliptic
+    from earthspin.sky.equator import ecliptic_axes
+
+    vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
+    ecliptic = ecliptic_axes(body.needed("pole"), body.orbit_pole)
+    angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
+    return build(
+        ANGLES,
+        {"psi": np.unwrap(angles[..., 0], axis=0), "eps": angles[..., 1]},
+        coords={"time": axes.time, "axis": axes.axis},
+    )
+
+
+PROMISE = promise("uas", "in direction")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def pole_accuracy(axes: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the pole: asked, estimated, and the method chosen."""
+    error = axes.direction_error
+    return report(
+        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
+    )
+
+
+@part(unless=no_iau_model)
+def neglected(effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
+    """Size of the effects that are switched off, at the time farthest from J2000.0."""
+    from earthspin.motion.neglected import SOURCE, size_of_effect
+
+    reach = max(abs(day) for day in epochs.span())
+    off = [name for name in (*ALL_BUT_NONRIGID, NONRIGID) if name not in effects]
+    return Neglected(
+        {name: size_of_effect(name, reach) for name in off},
+        "mas",
+        "largest change of direction that the model leaves out",
+        SOURCE,
+    )
+
+
+made_of(
+    Pole,
+    answer=(axes, pole_angles, pole_accuracy),
+    sections={"neglected": neglected},
+    parts=(
+        places, sky, epochs, pulls, chosen_windows, axis_path,
+        pole_analysis, core_response, nonrigid_shift, response,
+    ),
+)  # fmt: skip
+
+pole = ask(Pole)

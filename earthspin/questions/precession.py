@@ -1,0 +1,618 @@
+"""Rate and period of precession, and what they mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from earthspin.bodies import Body, all_of
+from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.constants import PUBLISHED_EFFECTS
+from earthspin.dates import Span
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, with_error
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import key, made_of
+from earthspin.parts.choices import chosen_average
+from earthspin.parts.observed_wobble import observed_wobble
+from earthspin.parts.reasons import no_accuracy, no_moon, not_sun_and_moon
+from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.units import Relative
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from earthspin.choosing.averages import Averaging
+    from earthspin.choosing.choice import Choice
+    from earthspin.torque.average import Window
+    from earthspin.torque.rates import Estimate
+
+#: A day apart is dense enough: torques have no strong period under four days (two days give
+#: the same rate to 1e-12, four days are off by 3e-6).
+SAMPLING = 86400.0  # s
+#: Points of a curve of convergence.
+CURVE_POINTS = 81
+MODELS = ("mccullough", "homogeneous", "measured")
+
+
+class Precession(Pulled, word="precession", call="precession"):
+    """Rate and period of precession from torques averaged over orbits (I.8).
+
+    Returns
+    -------
+    Dataset
+        Along `perturber`: `precession_rate` (arcsec/yr), `precession_period` (yr) and
+        `mean_torque` (N m), each with its 95 % half-width `_error`, referred to
+        `reference_epoch`. `earthspin.run_tree` gives sections beside it: convergence of the
+        average, models of the figure, the free wobble, the seasons, IAU 2006, standstills of the
+        Moon, and what is neglected.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> result = earthspin.precession()
+    >>> print(result.precession_period.round().values)
+    [81259. 37614. 25712.]
+    """
+
+    span: Span | None = key(None, doc="dates to average between; all that the kernel covers if not given")
+    accuracy: Relative | None = key(
+        None, doc="largest relative error of the rate by all perturbers; the cheapest settings "
+        "that keep it are chosen"
+    )
+
+
+# --- the answer ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Torques per unit of C - A, evenly sampled about the reference epoch.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        s from J2000.0 TDB.
+    labels : list of str
+        The perturbers, and their total if there are several.
+    push : ndarray, shape (n, perturber)
+        Share of the torque per C - A that makes the axis precess, s-2.
+    torque : ndarray, shape (n, perturber, 3)
+        Torque per C - A, along equator and equinox of date, s-2.
+    window : Window
+        The window that converges fastest on this span; its centre is the epoch.
+    obliquity : float
+        Of the axis to the orbit at the epoch, rad.
+    """
+
+    times: NDArray[np.float64]
+    labels: list[str]
+    push: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    window: Window
+    obliquity: float
+
+
+@part
+def torque_samples(
+    sky: Sky,
+    stretch: Stretch,
+    body: Body,
+    perturbers: tuple[Body, ...],
+    chosen_average: Choice[Averaging] | None = None,
+) -> Samples:
+    """Torque of each perturber through the window that converges fastest."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
+    from earthspin.torque.average import best_window, precessing_push
+    from earthspin.torque.gravity import torque_from_position
+
+    pole, orbit = body.needed("pole"), body.orbit_pole
+    cycle = max(p.cycle for p in perturbers)
+    window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
+    if chosen_average is not None:
+        chosen = chosen_average.settings
+        window, step = replace(window, cycles=chosen.cycles), chosen.step
+    times = window.sample_times(step)
+    days = times / DAY
+
+    equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
+    axis = equator[..., 2, :]
+    axis_at_epoch = equator_of_date(pole, orbit, np.array([window.centre / DAY]))[..., 2, :]
+    positions = sky.positions(days)
+    torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in perturbers]
+    names = [p.name for p in perturbers]
+    return Samples(
+        times=times,
+        labels=names + ["total"] * (len(names) > 1),
+        push=np.stack([precessing_push(t, axis, normal) for t in torques], axis=1),
+        torque=np.stack([rotate(equator, t) for t in torques], axis=1),
+        window=window,
+        obliquity=angle(axis_at_epoch.reshape(3), normal),
+    )
+
+
+@dataclass(frozen=True)
+class MeanRates:
+    """Averages over orbits, along `perturber`; the last one is of all.
+
+    Attributes
+    ----------
+    rate : Estimate
+        Of precession, rad/s.
+    torque : Estimate
+        Magnitude of the mean torque, N m.
+    ratio : ndarray
+        Rate over that of the first perturber.
+    method : str
+        Window and sampling in words.
+    evaluations : int
+        Epochs at which the sky was evaluated.
+    """
+
+    rate: Estimate
+    torque: Estimate
+    ratio: NDArray[np.float64]
+    method: str
+    evaluations: int
+
+    def total(self) -> tuple[xr.DataArray, xr.DataArray]:
+        """Rate by all perturbers and its error, rad/s."""
+        value, error = (
+            of.isel(perturber=-1, drop=True) for of in (self.rate.value, self.rate.error)
+        )
+        return value, error
+
+
+@part
+def mean_rates(
+    torque_samples: Samples,
+    body: Body,
+    perturbers: tuple[Body, ...],
+    accuracy: float | None,
+    chosen_average: Choice[Averaging] | None = None,
+) -> MeanRates:
+    """Averages over orbits: rate, period, mean torque, with errors."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.constants import DAY
+    from earthspin.mass.inertia import moment_difference
+    from earthspin.torque import rates
+    from earthspin.torque.average import window_mean_and_error
+
+    samples = torque_samples
+    window, times = samples.window, samples.times
+
+    def along(values: NDArray[np.float64]) -> xr.DataArray:
+        return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
+
+    swing = np.array([p.slow_swing for p in perturbers])
+    of_push, of_torque = _measured_errors(perturbers, chosen_average)
+    push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
+    if of_push is not None and times[1] - times[0] == SAMPLING:
+        # daily samples: what the neighbours say counts as well, where it is less
+        _, by_neighbours = window_mean_and_error(window, times, samples.push, swing)
+        push_error = np.minimum(push_error, by_neighbours)
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
+    u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
+    u_gm = along(rates.total_uncertainty(push, u_each))
+    rate = rates.precession_estimate(
+        along(push),
+        along(push_error),
+        body.needed("dynamical_flattening"),
+        body.spin_rate,
+        body.relative_uncertainty.get("dynamical_flattening", 0.0),
+        u_gm,
+    )
+    _check_accuracy(accuracy, rate)
+    torque = rates.torque_estimate(
+        along(np.linalg.norm(vector, axis=-1)),
+        along(np.linalg.norm(vector_error, axis=-1)),
+        moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
+        body.relative_uncertainty_of_bulge(),
+        u_gm,
+    )
+    spacing = np.median(np.diff(times)) / DAY
+    return MeanRates(
+        rate=rate,
+        torque=torque,
+        ratio=rates.rate_ratio(push),
+        method=f"{_taken(window)}, a sample each {spacing:g} d",
+        evaluations=times.size,
+    )
+
+
+def _taken(window: Window) -> str:
+    """A window in words."""
+    return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / 86400:.2f} d"
+
+
+def _measured_errors(
+    perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, None]:
+    """Errors of push and torque of each perturber as measured for a choice, s-2."""
+    import numpy as np
+
+    if choice is None:
+        return None, None
+    of_push = [choice.settings.push_errors[p.name] for p in perturbers]
+    return np.array(of_push), np.array([choice.settings.torque_errors[p.name] for p in perturbers])
+
+
+def _check_accuracy(asked: float | None, rate: Estimate) -> None:
+    """Refuse a relative accuracy that the total does not reach, and say what takes most of it."""
+    from earthspin.errors import UndefinedError
+
+    if asked is None:
+        return
+    if not (rate.value.isel(perturber=-1) != 0).all():
+        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
+    method, given, best = (
+        float((share / abs(rate.value)).isel(perturber=-1).max())
+        for share in (rate.method, rate.given, rate.error)
+    )
+    remedy = (
+        f"the given numbers are known to {given:.2g}: give the body a better known H"
+        if given > method
+        else f"the average is known to {method:.2g}: give a longer span"
+    )
+    refuse_unkept(asked, best, "1", remedy)
+
+
+_PERTURBER = ("perturber",)
+_OVER_WINDOW = (("cell_methods", "time: mean (weighted by the taper)"),)
+
+RATES = {
+    **with_error(
+        "precession_rate",
+        Variable(
+            _PERTURBER,
+            "arcsec/yr",
+            "rate of precession in longitude along the fixed orbit",
+            _OVER_WINDOW,
+        ),
+        split=True,
+    ),
+    **with_error(
+        "precession_period", Variable(_PERTURBER, "yr", "time for one turn of precession")
+    ),
+    "rate_ratio": Variable(_PERTURBER, "1", "rate over that of the first perturber"),
+    **with_error(
+        "mean_torque",
+        Variable(_PERTURBER, "N m", "magnitude of the mean torque vector", _OVER_WINDOW),
+    ),
+    "obliquity": Variable((), "deg", "angle between spin axis and orbit normal at the epoch"),
+    "reference_epoch": Variable((), "", "epoch that the averages refer to (TDB)"),
+}
+
+
+@part(gives=RATES)
+def precession_rates(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
+    """Rates, periods and torques by perturber, each with its error."""
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.dates import datetime64
+    from earthspin.torque import rates
+
+    rate, torque = mean_rates.rate, mean_rates.torque
+    result = build(
+        RATES,
+        {
+            "precession_rate": rate.value,
+            "precession_rate_error": rate.error,
+            "precession_rate_error_method": rate.method,
+            "precession_rate_error_input": rate.given,
+            "precession_period": rates.period(rate.value),
+            "precession_period_error": rates.period_error(rate.value, rate.error),
+            "rate_ratio": mean_rates.ratio,
+            "mean_torque": torque.value,
+            "mean_torque_error": torque.error,
+            "obliquity": torque_samples.obliquity,
+            "reference_epoch": datetime64(np.array(torque_samples.window.centre / DAY)),
+        },
+    )
+    result["precession_rate"].attrs["window"] = _taken(torque_samples.window)
+    result["precession_rate_error"].attrs |= {
+        "method": mean_rates.method,
+        "evaluations": mean_rates.evaluations,
+    }
+    return result
+
+
+PROMISE = promise("1", "relative, of the rate by all perturbers")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the rate: asked, estimated, and the method chosen."""
+    rate, error = mean_rates.total()
+    worst = float((error / abs(rate)).max())
+    return report(PROMISE, accuracy, worst, mean_rates.method, mean_rates.evaluations)
+
+
+# --- sections ------------------------------------------------------------------------------------
+
+CONVERGENCE = {
+    "rate_by_window": Variable(
+        ("window", "window_cycles"), "arcsec/yr", "rate of precession of all perturbers"
+    ),
+    "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
+}
+
+
+@part(gives=CONVERGENCE)
+def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
+    """Averaged rate against the length of the window, plain mean and tapers."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.torque import rates
+    from earthspin.torque.average import convergence_curve
+
+    window = torque_samples.window
+    cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
+    total = torque_samples.push.sum(axis=1)
+    curves = convergence_curve(window, torque_samples.times, total, cycles)
+    push = xr.DataArray(
+        np.stack(list(curves.values())),
+        {"window": list(curves), "window_cycles": cycles},
+        ("window", "window_cycles"),
+    )
+    rate = rates.precession_rate(push, body.needed("dynamical_flattening"), body.spin_rate)
+    length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
+    return build(CONVERGENCE, {"rate_by_window": rate, "window_length": length})
+
+
+def no_figure(body: Body) -> str | None:
+    """Leave out the models of a figure that is not known, or from which nothing follows."""
+    missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
+    if missing:
+        return f"{body.name} has no {missing[0]}"
+    if not all_of((body.flattening > -1) & (body.flattening < 1)):
+        return "McCullough's formula needs a flattening between -1 and 1"
+    if not all_of(body.needed("dynamical_flattening") != 0):
+        return "with H = 0 the polar moment does not follow from J2"
+    return None
+
+
+_MODEL = ("earth_model",)
+FIGURE_MODELS = {
+    "h_by_model": Variable(_MODEL, "1", "dynamical flattening (C - A)/C"),
+    "period_by_model": Variable(_MODEL, "yr", "time for one turn of precession"),
+    "wobble_by_model": Variable(_MODEL, "d", "period of the rigid free wobble"),
+    "moment_difference": Variable((), "kg m2", "C - A from J2"),
+    "polar_moment_factor": Variable((), "1", "C/(M a2) from J2 and H"),
+    "j2_from_moment_difference": Variable((), "1", "J2 from C - A, and back"),
+}
+
+
+@part(gives=FIGURE_MODELS, unless=no_figure)
+def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
+    """Three ways to the dynamical flattening, and what precession and wobble each implies."""
+    import xarray as xr
+
+    from earthspin.mass import inertia
+    from earthspin.rotor.axisymmetric import free_wobble_period
+    from earthspin.torque import rates
+
+    samples = torque_samples
+    j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
+    push = samples.window.mean(samples.times, samples.push.sum(axis=1))
+    h = xr.concat(
+        [
+            xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
+            xr.DataArray(inertia.h_homogeneous(j2)),
+            xr.DataArray(measured),
+        ],
+        dim=xr.Variable("earth_model", list(MODELS)),
+    )
+    spin_period = body.needed("spin_period")
+    difference = inertia.moment_difference(j2, body.mass, body.needed("radius"))
+    return build(
+        FIGURE_MODELS,
+        {
+            "h_by_model": h,
+            "period_by_model": rates.period(rates.precession_rate(push, h, body.spin_rate)),
+            "wobble_by_model": free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
+            "moment_difference": difference,
+            "polar_moment_factor": inertia.polar_moment_factor(j2, measured),
+            "j2_from_moment_difference": inertia.j2_from_moment_difference(
+                difference, body.mass, body.needed("radius")
+            ),
+        },
+    )
+
+
+def is_sphere(body: Body) -> str | None:
+    """Leave the wobble of a sphere out."""
+    round_ = not all_of(body.needed("dynamical_flattening") != 0)
+    return "a sphere does not wobble" if round_ else None
+
+
+FREE_WOBBLE = {
+    **with_error(
+        "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
+    ),
+    "free_wobble_period_sidereal": Variable(
+        (), "1", "period of the rigid free wobble in turns of the body, its sidereal days"
+    ),
+}
+
+
+@part(gives=FREE_WOBBLE, unless=is_sphere)
+def free_wobble(body: Body) -> xr.Dataset:
+    """Period of the free wobble of the rigid body."""
+    from earthspin.mass.inertia import ellipticity_from_h
+    from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
+
+    h = body.needed("dynamical_flattening")
+    period = free_wobble_period(ellipticity_from_h(h), body.needed("spin_period"))
+    u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return build(
+        FREE_WOBBLE,
+        {
+            "free_wobble_period": period,
+            "free_wobble_period_error": free_wobble_error(period, h, u),
+            "free_wobble_period_sidereal": free_wobble_period(ellipticity_from_h(h), 1.0),
+        },
+    )
+
+
+SEASONS = {
+    **with_error(
+        "general_precession",
+        Variable((), "arcsec/yr", "slide of the equinox along the moving ecliptic"),
+    ),
+    **with_error(
+        "general_precession_period", Variable((), "yr", "time for one turn of the equinox")
+    ),
+    "time_per_degree": Variable((), "yr", "time in which the equinox slides by one degree"),
+    "tropical_year": Variable((), "d", "time from season to season"),
+    "time_per_day_of_drift": Variable(
+        (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
+    ),
+}
+
+
+@part(gives=SEASONS, unless=not_sun_and_moon)
+def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Dataset:
+    """General precession, years a degree, drift of the calendar."""
+    from earthspin.compare import seasons as s
+    from earthspin.constants import DAY
+    from earthspin.sky.iau import precession_rates
+    from earthspin.torque import rates
+
+    rate, error = mean_rates.total()
+    chi_rate = precession_rates(torque_samples.window.centre / DAY).chi_a
+    general = s.general_precession(rate, chi_rate, torque_samples.obliquity)
+    year = s.tropical_year(general, body.needed("orbital_period"))
+    return build(
+        SEASONS,
+        {
+            "general_precession": general,
+            "general_precession_error": error,
+            "general_precession_period": rates.period(general),
+            "general_precession_period_error": rates.period_error(general, error),
+            "time_per_degree": s.time_per_degree(general),
+            "tropical_year": year,
+            "time_per_day_of_drift": s.time_per_day_of_drift(year),
+        },
+    )
+
+
+IAU_2006 = {
+    "iau_rate": Variable((), "arcsec/yr", "rate of psi_A in IAU 2006 at the same epoch"),
+    **with_error("difference_from_iau", Variable((), "arcsec/yr", "our rate minus the IAU's")),
+    **with_error(
+        "closure",
+        Variable((), "arcsec/yr", "difference left after every published contribution"),
+    ),
+}
+
+
+@part(gives=IAU_2006, unless=not_sun_and_moon)
+def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
+    """IAU 2006 precession beside ours, and what closes the difference."""
+    from earthspin.compare.budget import closure
+    from earthspin.constants import DAY
+    from earthspin.sky.iau import precession_rates
+
+    rate, error = mean_rates.total()
+    iau_rate = precession_rates(torque_samples.window.centre / DAY).psi_a
+    return build(
+        IAU_2006,
+        {
+            "iau_rate": iau_rate,
+            "difference_from_iau": rate - iau_rate,
+            "difference_from_iau_error": error,
+            "closure": closure(rate, iau_rate),
+            "closure_error": error,
+        },
+    )
+
+
+STANDSTILLS = {
+    "standstill_kind": Variable(("standstill",), "", "major or minor"),
+    **with_error(
+        "standstill_declination",
+        Variable(("standstill",), "deg", "extreme declination, mean equator of date"),
+    ),
+}
+
+
+@part(gives=STANDSTILLS, unless=no_moon)
+def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
+    """Major and minor standstills of the moon: dates and extreme declinations."""
+    import numpy as np
+
+    from earthspin.dates import datetime64
+    from earthspin.sky.equator import equator_of_date, rotate, spherical
+    from earthspin.sky.standstill import find_standstills
+
+    moon = {"moon": sky.targets["moon"]}
+
+    def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
+        position = sky.ephemeris.positions(moon, sky.centre, days)["moon"]
+        equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
+        return spherical(rotate(equator, position))[1]
+
+    kernel_error, _ = sky.ephemeris.error(sky.targets["moon"])
+    found = find_standstills(declination, stretch.first, stretch.last)
+    return build(
+        STANDSTILLS,
+        {
+            "standstill_kind": np.array([s.kind for s in found], dtype=str),
+            "standstill_declination": np.array([s.declination for s in found], dtype=float),
+            "standstill_declination_error": np.full(len(found), kernel_error),
+        },
+        coords={
+            "standstill": (
+                "standstill",
+                datetime64(np.array([s.day for s in found], dtype=float)),
+                {"long_name": "day of the extreme declination (TDB)"},
+            )
+        },
+    )
+
+
+@part(unless=not_sun_and_moon)
+def neglected(body: Body) -> Neglected:
+    """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
+    from earthspin.compare.budget import published_effects
+
+    return Neglected(
+        published_effects(),
+        "arcsec/yr",
+        "published contribution to the rate that the model leaves out",
+        next(iter(PUBLISHED_EFFECTS.values())).source,
+    )
+
+
+made_of(
+    Precession,
+    answer=(precession_rates, rate_accuracy),
+    sections={
+        "convergence": convergence,
+        "figure_models": figure_models,
+        "free_wobble": (free_wobble, observed_wobble),
+        "seasons": seasons,
+        "iau_2006": iau_2006,
+        "standstills": standstills,
+        "neglected": neglected,
+    },
+    parts=(places, sky, stretch, chosen_average, torque_samples, mean_rates),
+)
+
+precession = ask(Precession)

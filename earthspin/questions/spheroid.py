@@ -1,0 +1,134 @@
+"""The exact field of a homogeneous spheroid at given points."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+from earthspin.bodies import EARTH, Body, all_of
+from earthspin.choosing.promises import closed_form, promise
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.parts.reasons import no_accuracy
+from earthspin.units import FloatArray, Number, Numbers, Relative
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class Spheroid(
+    Question, word="spheroid", call="spheroid_field", table="spheroid", positional=("position",)
+):
+    """Exact field of a homogeneous spheroid with the mass and figure of a body (I.9).
+
+    Its `gm`, `radius` and `flattening` are used; the flattening may be negative (prolate) or zero
+    (sphere).
+
+    Returns
+    -------
+    Dataset
+        Along `point`: `potential`, `attraction`, `torque`.
+
+    Raises
+    ------
+    EarthspinError
+        For a body without a figure, or positions that are not finite.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> field = earthspin.spheroid_field(["7000 km", "0 km", "0 km"])
+    >>> print(field.attraction.sel(component="x").round(3).values, "m/s2")
+    [-8.145] m/s2
+    """
+
+    body: Body = key(EARTH, doc="whose mass and figure the spheroid has")
+    position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
+        doc="points from the centre, z along the axis"
+    )
+    point_mass: Annotated[float, Number("kg", "1 kg")] = setting(
+        "1 kg", doc="mass at each point, whose torque on the body is given"
+    )
+    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+
+    def check(self) -> None:
+        """A spheroid has a mass."""
+        if not all_of(self.body.gm > 0):
+            raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+
+
+_VECTOR = ("point", "component")
+FIELD = {
+    "position": Variable(_VECTOR, "m", "place of the point from the centre"),
+    "potential": Variable(("point",), "J/kg", "gravitational potential"),
+    "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
+    "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
+}
+
+
+@part(gives=FIELD)
+def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
+    """Potential, attraction and torque of a homogeneous spheroid, exact."""
+    from earthspin.mass import spheroid
+
+    figure = body.gm, body.needed("radius"), body.needed("flattening")
+    return build(
+        FIELD,
+        {
+            "position": position,
+            "potential": spheroid.spheroid_potential(*figure, position),
+            "attraction": spheroid.spheroid_attraction(*figure, position),
+            "torque": spheroid.spheroid_torque(*figure, point_mass, position),
+        },
+        coords={"component": ["x", "y", "z"]},
+        frame="principal axes of the spheroid, z along its axis",
+    )
+
+
+PROMISE = promise("1", "relative, of potential, attraction and torque")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def field_accuracy(field: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the field: asked, estimated, and the method."""
+    from earthspin.mass.spheroid import CLOSED_FORM_ERROR
+
+    points = field.sizes["point"]
+    return closed_form(PROMISE, accuracy, CLOSED_FORM_ERROR, "exact closed form", points)
+
+
+def no_j2(body: Body) -> str | None:
+    """Leave the size out where the body's own J2 is not known."""
+    if body.labelled:
+        return "sizes are given for one body at a time"
+    return f"{body.name} has no j2 to compare with" if body.j2 is None else None
+
+
+@part(unless=no_j2)
+def neglected(body: Body, position: FloatArray) -> Neglected:
+    """What the even density leaves out: the body is denser inside and has a smaller J2."""
+    import numpy as np
+
+    from earthspin.mass.figure import eccentricity_squared
+
+    nearest = float(np.min(np.linalg.norm(position, axis=-1)))
+    # (C - A)/(M a2) of an even density is a fifth of e2
+    excess = float(eccentricity_squared(body.number("flattening"))) / 5 - body.number("j2")
+    size = body.number("gm") / nearest * (body.number("radius") / nearest) ** 2 * abs(excess)
+    return Neglected(
+        {"density that grows inwards": size},
+        "J/kg",
+        "largest change of the potential by the body's own J2, at the nearest point",
+        body.reference,
+    )
+
+
+made_of(
+    Spheroid,
+    answer=(field, field_accuracy),
+    sections={"neglected": neglected},
+)
+
+spheroid_field = ask(Spheroid)

@@ -1,0 +1,214 @@
+"""The heavy symmetric top in time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+from earthspin.choosing.promises import closed_form, promise
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.times import FROM_START, Seconds, instants
+from earthspin.units import Duration, FloatArray, Number, Relative, Whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from earthspin.top.motion import HeavyTopMotion
+    from earthspin.top.start import HeavyTop
+
+#: Points of the effective potential, ends included.
+POTENTIAL_POINTS = 361
+
+Moment = Annotated[float, Number("kg m2", "2e-4 kg m2")]
+Angle = Annotated[float, Number("rad", "30 deg")]
+Rate = Annotated[float, Number("rad/s", "200 rad/s")]
+
+
+class Top(Question, word="top", call="heavy_top", table="top", positional=("times",)):
+    """Motion of a heavy symmetric top, by elliptic functions (I.7).
+
+    Returns
+    -------
+    Dataset
+        Over `time` (s): `theta`, `phi`, `psi` (rad), `attitude`, `omega_body`; `pattern` (wave,
+        cusp, loop, sleeping, steady), `nutation_period`, `mean_precession_rate`.
+        `earthspin.run_tree` gives the turning angles and the effective potential beside it.
+
+    Raises
+    ------
+    EarthspinError
+        For a top that cannot be, or a start out of range.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> top = earthspin.heavy_top(
+    ...     [0, 1, 2],
+    ...     transverse_moment=1,
+    ...     axial_moment=1.2,
+    ...     weight_moment=1.5,
+    ...     theta="40 deg",
+    ...     spin=3,
+    ... )
+    >>> print(top.pattern.values)
+    cusp
+    """
+
+    exclusive = (("times",), ("duration", "points"))
+
+    times: Seconds | None = setting(None, doc="times from the start")
+    duration: Duration = setting("20 s", doc="last time, if times are not given")
+    points: Annotated[int, Whole()] = setting(401, doc="how many times, evenly spaced")
+    transverse_moment: Moment = setting(doc="I1, about an axis through the pivot square to the axis")
+    axial_moment: Moment = setting(doc="I3, about the axis; no body has more than 2 I1")
+    weight_moment: Annotated[float, Number("N m", "0.04 N m")] = setting(
+        doc="m g r, weight times the distance from the pivot to the centre of mass"
+    )
+    theta: Angle = setting(doc="angle from the vertical to the axis at t = 0")
+    spin: Rate = setting(doc="omega3, angular velocity along the axis")
+    phi_rate: Rate = setting("0 rad/s", doc="rate of phi at t = 0")
+    theta_rate: Rate = setting("0 rad/s", doc="rate of theta at t = 0")
+    phi: Angle = setting("0 deg", doc="turn of the axis about the vertical at t = 0")
+    psi: Angle = setting("0 deg", doc="turn of the body about its axis at t = 0")
+    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+
+
+@part
+def heavy_top_start(
+    transverse_moment: float,
+    axial_moment: float,
+    weight_moment: float,
+    theta: float,
+    spin: float,
+    phi_rate: float,
+    theta_rate: float,
+    phi: float,
+    psi: float,
+) -> HeavyTop:
+    """The top and its motion at the start."""
+    from earthspin.top.start import HeavyTop
+
+    return HeavyTop(
+        transverse_moment=transverse_moment,
+        axial_moment=axial_moment,
+        weight_moment=weight_moment,
+        theta=theta,
+        spin=spin,
+        phi_rate=phi_rate,
+        theta_rate=theta_rate,
+        phi=phi,
+        psi=psi,
+    )
+
+
+@part
+def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
+    """Euler angles, pattern and turning angles, by elliptic functions."""
+    from earthspin.top.motion import heavy_top_motion
+
+    return heavy_top_motion(heavy_top_start, instants)
+
+
+_TIME = ("time",)
+MOTION = {
+    "theta": Variable(_TIME, "rad", "angle from the vertical to the axis"),
+    "phi": Variable(_TIME, "rad", "turn of the axis about the vertical"),
+    "psi": Variable(_TIME, "rad", "turn of the body about its axis"),
+    "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
+    "omega_body": Variable(
+        ("time", "component"), "rad/s", "angular velocity along the principal axes"
+    ),
+    "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
+    "nutation_period": Variable((), "s", "time in which theta goes once to and fro"),
+    "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
+}
+
+
+@part(gives=MOTION)
+def euler_angles(motion: HeavyTopMotion, instants: FloatArray) -> xr.Dataset:
+    """The motion of the top in time."""
+    return build(
+        MOTION,
+        {
+            "theta": motion.theta,
+            "phi": motion.phi,
+            "psi": motion.psi,
+            "attitude": motion.attitude,
+            "omega_body": motion.omega_body,
+            "pattern": motion.pattern,
+            "nutation_period": motion.nutation_period,
+            "mean_precession_rate": motion.precession_rate,
+        },
+        coords={
+            "time": ("time", instants, FROM_START),
+            "component": ["x", "y", "z"],
+            "quaternion": ["w", "x", "y", "z"],
+        },
+    )
+
+
+TURNING = {"turning_angle": Variable(("turning",), "rad", "least and greatest theta")}
+
+
+@part(gives=TURNING)
+def turning(motion: HeavyTopMotion) -> xr.Dataset:
+    """The angles at which the nutation turns back."""
+    values = {"turning_angle": motion.turning_angle}
+    return build(TURNING, values, coords={"turning": ["upper", "lower"]})
+
+
+POTENTIAL = {
+    "effective_potential": Variable(
+        ("inclination",), "rad2 / s2", "effective potential V of alpha = theta'^2 + V"
+    )
+}
+
+
+@part(gives=POTENTIAL)
+def potential(heavy_top_start: HeavyTop) -> xr.Dataset:
+    """The effective potential of the inclination."""
+    import numpy as np
+
+    from earthspin.top.turning import effective_potential
+
+    inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]
+    degrees = {"units": "deg", "long_name": "angle from the vertical"}
+    return build(
+        POTENTIAL,
+        {"effective_potential": effective_potential(heavy_top_start, inclination)},
+        coords={"inclination": ("inclination", np.degrees(inclination), degrees)},
+    )
+
+
+PROMISE = promise("1", "relative, of angles, angular velocity and attitude")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def top_accuracy(
+    heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
+) -> xr.Dataset:
+    """Accuracy of the top: asked, estimated, and the method."""
+    from earthspin.top.rounding import error_bound
+
+    bound = error_bound(heavy_top_start, instants)
+    return closed_form(PROMISE, accuracy, bound, "elliptic functions", instants.size)
+
+
+@part
+def neglected() -> Neglected:
+    """What a top without friction leaves out."""
+    return Neglected(what="a rigid top on a sharp pivot without friction is all that is asked for")
+
+
+made_of(
+    Top,
+    answer=(euler_angles, top_accuracy),
+    sections={"turning": turning, "potential": potential, "neglected": neglected},
+    parts=(instants, heavy_top_start, motion),
+)
+
+heavy_top = ask(Top)

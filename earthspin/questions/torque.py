@@ -1,0 +1,232 @@
+"""Where the perturbers stand and what they pull, at many times."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+from earthspin.bodies import Body
+from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, si, with_error
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import Block, part
+from earthspin.engine.question import key, made_of
+from earthspin.parts.choices import chosen_nutation, on_mean_equator
+from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.sky import Sky, places, sky
+from earthspin.parts.times import DATES, Series, epochs, refuse_what_does_not_fit
+from earthspin.units import AngleError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from earthspin.choosing.choice import Choice
+    from earthspin.choosing.nutation import NutationNodes
+    from earthspin.sky.iau import Nutation
+
+
+class Torque(
+    Series, word="torque", call="torque_series", positional=("start", "stop", "step")
+):
+    """Declination, distance and torque of each perturber in time (I.8.7).
+
+    Returns
+    -------
+    Dataset
+        Over `time` and `perturber`: `right_ascension`, `declination` (deg), `distance` (m),
+        `torque` (N m, `component` x, y, z), `torque_magnitude` and its error; bounds on
+        directions and distances for each perturber.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> year = earthspin.torque_series("2000-01-01", "2001-01-01", "1 d")
+    >>> print(year.declination.sel(perturber="sun").max().round(3).values)
+    23.438
+    """
+
+    span: Span = key(
+        ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
+        doc="first and last date, TDB; the last is included if the step meets it",
+    )
+    step: Step = key("6 h", doc="time between two dates")
+    equator: Literal["mean", "true"] = key("mean", doc="equator and equinox of date to refer to")
+    accuracy: AngleError | None = key(
+        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
+    )
+
+    def check(self) -> None:
+        """The true equator needs a model of nutation."""
+        super().check()
+        if self.equator == "true" and no_iau_model(self.body):
+            raise self.error(
+                "equator", "true", f"there is no nutation model for {self.body.name}; use 'mean'"
+            )
+
+
+@part(unless=on_mean_equator)
+def nutation(
+    epochs: TimeGrid | TimeList, chosen_nutation: Choice[NutationNodes | None] | None = None
+) -> Nutation | None:
+    """IAU nutation from nodes, for the true equator; None where the mean equator will do."""
+    from earthspin.sky.iau import Nutation
+
+    start, end = epochs.span()
+    if chosen_nutation is None:
+        return Nutation(start, end, epochs.size)
+    nodes = chosen_nutation.settings
+    if nodes is None:
+        return None
+    return Nutation(start, end, epochs.size, model=nodes.model, spacing=nodes.spacing)
+
+
+_SERIES = ("time", "perturber")
+TORQUES = {
+    "right_ascension": Variable(_SERIES, "deg", "right ascension, geometric"),
+    "declination": Variable(_SERIES, "deg", "declination, geometric"),
+    "distance": Variable(_SERIES, "m", "distance between the centres"),
+    "torque": Variable((*_SERIES, "component"), "N m", "torque on the bulge"),
+    **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
+    "direction_error": Variable(("perturber",), "deg", "bound on right ascension and declination"),
+    "distance_error": Variable(("perturber",), "m", "bound on the distance from the kernel"),
+}
+
+
+@part(gives=TORQUES)
+def torques(
+    epochs: TimeGrid | TimeList,
+    sky: Sky,
+    body: Body,
+    perturbers: tuple[Body, ...],
+    equator: str,
+    accuracy: float | None,
+    nutation: Nutation | None = None,
+    chosen_nutation: Choice[NutationNodes | None] | None = None,
+    block: Block | None = None,
+) -> xr.Dataset:
+    """Declination, distance and torque of each perturber at every time."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.dates import datetime64
+    from earthspin.mass.inertia import moment_difference
+    from earthspin.sky.equator import equator_of_date, rotate, spherical
+    from earthspin.torque.gravity import torque_error, torque_from_declination
+
+    if block is None:
+        refuse_what_does_not_fit(
+            epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
+        )
+        block = Block(0, epochs.size)
+    now = epochs.days(block.first, block.last)
+    axes = equator_of_date(body.needed("pole"), body.orbit_pole, now, nutation)
+    positions = sky.positions(now)
+    names = list(sky.targets)
+    seen = {name: spherical(rotate(axes, positions[name])) for name in names}
+    turned = 0.0 if chosen_nutation is None else chosen_nutation.error
+    bounds = {name: sky.ephemeris.error(sky.targets[name]) for name in names}
+    kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
+    worst = max(angle for angle, _ in kernel_error.values())
+    refuse_unkept(accuracy, worst, "mas", "that is what the kernel is known to; ask for less")
+
+    def stack(values: list[NDArray[np.float64]], *dims: str) -> xr.DataArray:
+        return xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
+
+    bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
+    u_bulge = body.relative_uncertainty_of_bulge()
+    per_bulge = [torque_from_declination(p.gm, 1.0, *seen[p.name]) for p in perturbers]
+    error = [
+        torque_error(
+            p.gm,
+            1.0,
+            declination=seen[p.name][1],
+            distance=seen[p.name][2],
+            angle_error=kernel_error[p.name][0],
+            distance_error=kernel_error[p.name][1],
+            u_product=math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0)),
+        )
+        for p in perturbers
+    ]
+    result = build(
+        TORQUES,
+        {
+            "right_ascension": stack([seen[name][0] for name in names]),
+            "declination": stack([seen[name][1] for name in names]),
+            "distance": stack([seen[name][2] for name in names]),
+            "torque": stack(per_bulge, "component") * bulge,
+            "torque_magnitude": stack([np.linalg.norm(t, axis=-1) for t in per_bulge]) * abs(bulge),
+            "torque_magnitude_error": stack(error) * abs(bulge),
+            "direction_error": [kernel_error[name][0] for name in names],
+            "distance_error": [kernel_error[name][1] for name in names],
+        },
+        coords={
+            "time": ("time", datetime64(now), dict(DATES)),
+            "perturber": names,
+            "component": ["x", "y", "z"],
+        },
+        frame=f"{equator} equator and equinox of date",
+    )
+    result["direction_error"].attrs |= {
+        "method": _equator_words(nutation, chosen_nutation),
+        "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
+    }
+    return result
+
+
+def _equator_words(
+    nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
+) -> str:
+    """How the equator was found, for people."""
+    if nutation is not None:
+        return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
+    return "mean equator" if chosen is None else chosen.words
+
+
+PROMISE = promise("mas", "in direction")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the directions: asked, estimated, and the method chosen."""
+    error = torques.direction_error
+    return report(
+        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
+    )
+
+
+def not_one_body(body: Body) -> str | None:
+    """Leave sizes out for arrays of bodies."""
+    return "sizes are given for one body at a time" if body.labelled else None
+
+
+@part(unless=not_one_body)
+def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
+    """Largest torque of each part of the figure beyond the bulge, at the nearest distance."""
+    from earthspin.torque.neglected import largest_torque_on_figure
+
+    nearest = torques.distance.min("time")
+    pulls = [(p.gm, float(nearest.sel(perturber=p.name))) for p in perturbers]
+    figure = {3: float(body.j3), 4: float(body.j4)}
+    sizes = largest_torque_on_figure(
+        pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
+    )
+    return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
+
+
+made_of(
+    Torque,
+    answer=(torques, series_accuracy),
+    sections={"neglected": neglected},
+    parts=(places, sky, epochs, chosen_nutation, nutation),
+)
+
+torque_series = ask(Torque)

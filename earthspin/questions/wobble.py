@@ -1,0 +1,419 @@
+"""The wobble ladder: rigid rungs, what the interior adds, and what it depends on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from earthspin.bodies import EARTH, Body, all_of
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, with_error
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.errors import nearest
+from earthspin.parts.observed_wobble import observed_wobble
+from earthspin.units import FloatArray, Number
+from earthspin.wobble.named import ANELASTIC_EXPONENT, INTERIORS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from earthspin.wobble.ladder import Inputs, Spin
+    from earthspin.wobble.named import Interior
+
+#: A layered model stands for bodies whose mass and radius are within this of its own.
+FIT = 0.01
+DRAWS = 1000
+#: Draws times bodies are kept below this, for memory.
+MOST_DRAWS = 100_000
+
+_FIGURE = ("dynamical_flattening", "j2", "triaxiality")
+_SPIN = ("gm", "radius", "spin_period")
+
+
+class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
+    """Period of the free wobble, from a formula of flattening to a body that yields (I.6).
+
+    The `interior` of the body says how far the ladder goes.
+
+    Returns
+    -------
+    Dataset
+        Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
+        `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
+        `quality_factor`. `earthspin.run_tree` gives sections beside it: the observed period, what
+        the last rung depends on, the free core nutation, and the Love numbers of the interior.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> print(earthspin.wobble_ladder().period_solar.round(1).values)
+    [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
+    """
+
+    body: Body = key(EARTH, doc="what wobbles")
+    ocean: Literal["real", "global", "none"] = setting("real", doc="which ocean lies on it")
+    anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
+        ANELASTIC_EXPONENT.value,
+        doc="exponent of frequency in the mantle's quality factor; observed decay leaves 0.04 to "
+        "0.19 (Smith & Dahlen 1981)",
+    )
+
+    def check(self) -> None:
+        """A body with a mass, and an interior that is known."""
+        if not all_of(self.body.gm > 0):
+            raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+        name = self.body.interior
+        if name not in (None, "none", *INTERIORS):
+            raise self.error("body.interior", name, nearest(name, INTERIORS))
+
+
+def interior_of(body: Body) -> Interior:
+    """What lies inside a body that names its interior."""
+    return INTERIORS[str(body.interior)]
+
+
+def why_rigid(body: Body) -> str | None:
+    """Why the ladder stops at the rigid rungs; None if it goes on."""
+    if body.interior in (None, "none"):
+        return f"no interior of {body.name} is kept; set body.interior"
+    if not all_of(body.needed("dynamical_flattening") > 0):
+        return "only an oblate body is climbed further"
+    interior = interior_of(body)
+    if interior.layers is not None:
+        for what, own, models in (
+            ("mass", body.mass, interior.layers.mass),
+            ("radius", body.needed("radius"), interior.layers.radius),
+        ):
+            if not all_of(abs(own / models - 1) < FIT):
+                return f"interior '{interior.name}' is of another {what}, {models:.4g} in SI"
+    return None
+
+
+def not_layered(body: Body) -> str | None:
+    """Leave the Love numbers out of a body without layers."""
+    if body.interior in (None, "none"):
+        return f"no interior of {body.name} is kept"
+    layered = interior_of(body).layers is not None
+    return None if layered else f"interior '{body.interior}' is published numbers, not layers"
+
+
+# --- what lies inside ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Inside:
+    """What the upper rungs need, as arrays of one shape.
+
+    Attributes
+    ----------
+    inputs, spin, interior
+        As `earthspin.wobble.ladder.climb` takes them.
+    ocean : str
+    dims : tuple of str
+        Names of the arrays' dimensions.
+    uncertainty : mapping of str to float
+        One standard deviation over value, of the body's numbers and the interior's.
+    """
+
+    inputs: Inputs
+    spin: Spin
+    interior: Interior
+    ocean: str
+    dims: tuple[str, ...]
+    uncertainty: Mapping[str, float]
+
+    def label(self, value: FloatArray) -> xr.DataArray:
+        """Give back their names to arrays of the body's own dimensions."""
+        import numpy as np
+        import xarray as xr
+
+        array = np.asarray(value)
+        return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
+
+
+@part(unless=why_rigid)
+def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
+    """Inputs of the upper rungs, from the body, its interior and the ocean."""
+    import xarray as xr
+
+    from earthspin.wobble import ladder
+
+    interior = interior_of(body)
+    numbers = [xr.DataArray(body.needed(name)) for name in (*_FIGURE, *_SPIN)]
+    numbers = list(xr.broadcast(*numbers))
+    dims = tuple(str(d) for d in numbers[0].dims)
+    values = dict(zip((*_FIGURE, *_SPIN), (n.values for n in numbers), strict=True))
+    spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
+    inputs = ladder.inputs_of(interior, spin, values, ocean, anelastic_exponent)
+    uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
+    return Inside(inputs, spin, interior, ocean, dims, uncertainty)
+
+
+# --- the answer ------------------------------------------------------------------------------
+
+_RUNG = ("rung",)
+LADDER = {
+    **with_error(
+        "period_solar",
+        Variable(_RUNG, "d", "period of the free wobble in days of 86400 s"),
+    ),
+    "period_sidereal": Variable(
+        _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
+    ),
+    "factor": Variable(_RUNG, "1", "period over that of the rung before"),
+    "quality_factor": Variable(
+        _RUNG,
+        "1",
+        "quality factor of the free wobble",
+        (
+            (
+                "comment",
+                "infinite where nothing is lost; the exponent of the loss is a free choice, "
+                "so the anelastic rung is a check of consistency, not a prediction",
+            ),
+        ),
+    ),
+    "rung_formula": Variable(_RUNG, "", "turns per wobble, and where the formula stands"),
+}
+
+
+@part(gives=LADDER)
+def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
+    """Free wobble, from a formula of flattening to a body that yields."""
+    import numpy as np
+    import xarray as xr
+
+    from earthspin.wobble import ladder
+
+    h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
+    turns = {
+        "flattening": ladder.turns_from_flattening(body.needed("flattening")),
+        "rigid": ladder.turns_rigid(h),
+        "triaxial": ladder.turns_triaxial(h, j2, body.triaxiality),
+    }
+    quality = dict.fromkeys(turns, np.inf)
+    left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
+    spread = _rigid_spread(body, turns)
+    if inside is not None:
+        climbed = ladder.climb(inside.inputs, inside.spin, inside.interior, inside.ocean)
+        left_out = climbed.left_out
+        label = inside.label
+        turns |= {name: label(value) for name, value in climbed.turns.items()}
+        quality |= {name: label(value) for name, value in climbed.quality_factor.items()}
+        spread |= {name: label(value) for name, value in _sampled(inside).items()}
+    period = _along(turns, "rung") * abs(body.needed("spin_period"))
+    like = xr.zeros_like(period)
+    result = build(
+        LADDER,
+        {
+            "period_solar": period,
+            "period_solar_error": _along(spread, "rung") * abs(body.needed("spin_period")) + like,
+            "period_sidereal": _along(turns, "rung") + like,
+            "factor": period.copy(data=ladder.factors(_along(turns, "rung").values)),
+            "quality_factor": _along(quality, "rung") + like,
+            "rung_formula": np.array([ladder.FORMULAS[name] for name in turns]),
+        },
+    )
+    result.rung.attrs["left_out"] = "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"
+    return result
+
+
+def _sampled(inside: Inside) -> dict[str, FloatArray]:
+    """95 % half-widths of the upper rungs, by sampling the inputs."""
+    import numpy as np
+
+    from earthspin.wobble import ladder
+
+    bodies = np.asarray(inside.spin.gm).size
+    draws = max(100, min(DRAWS, MOST_DRAWS // bodies))
+    drawn = ladder.draw(inside.inputs, inside.uncertainty, draws)
+    sampled = ladder.climb(drawn, inside.spin, inside.interior, inside.ocean)
+    ends = {n: np.percentile(v, [2.5, 97.5], axis=0) for n, v in sampled.turns.items()}
+    return {name: (high - low) / 2 for name, (low, high) in ends.items()}
+
+
+def _rigid_spread(body: Body, turns: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """95 % half-widths of the rigid rungs: relative errors of f and of H."""
+    import numpy as np
+
+    from earthspin.rotor.axisymmetric import free_wobble_error
+
+    u = body.relative_uncertainty
+    fields = {"flattening": "flattening"}
+    shares = {n: u.get(fields.get(n, "dynamical_flattening"), 0.0) for n in turns}
+    h = {n: 0.0 if n in fields else body.needed("dynamical_flattening") for n in turns}
+    return {
+        name: free_wobble_error(value, h[name], shares[name])
+        if shares[name]
+        else 0.0 * np.where(np.isinf(value), 0.0, value)  # an infinite period has no error
+        for name, value in turns.items()
+    }
+
+
+def _along(
+    values: Mapping[str, FloatArray],
+    dim: str,
+    label: Callable[[FloatArray], xr.DataArray] | None = None,
+) -> xr.DataArray:
+    """Arrays laid side by side along a new dimension, their names its labels."""
+    import xarray as xr
+
+    parts = [(label or xr.DataArray)(value) for value in values.values()]
+    return xr.concat(
+        xr.broadcast(*parts),
+        dim=xr.Variable(dim, list(values)),
+        coords="minimal",
+        compat="override",
+    )
+
+
+# --- sections --------------------------------------------------------------------------------
+
+INTERIOR = {
+    "love_number": Variable(("love",), "1", "Love number of degree two, elastic, at 1 s"),
+    "moment_factor": Variable((), "1", "moment of inertia of the model over M R2"),
+    "core_fraction": Variable((), "1", "moment of the core over that of the body"),
+    "fluid_love_number": Variable((), "1", "k2 if the body were liquid throughout"),
+    "global_ocean_love_number": Variable(
+        (), "1", "what an ocean all over would add to k2, in closed form"
+    ),
+}
+
+
+@part(gives=INTERIOR, unless=not_layered)
+def interior_response(body: Body) -> xr.Dataset:
+    """Love numbers and moments of the layered interior, by integration."""
+    import numpy as np
+
+    from earthspin.wobble.interior import equilibrium
+    from earthspin.wobble.named import elastic, global_ocean
+
+    layers = interior_of(body).layers
+    assert layers is not None
+    love = elastic(layers)
+    names = ("k", "h", "l", "k_load", "h_load")
+    result = build(
+        INTERIOR,
+        {
+            "love_number": np.array([float(getattr(love, name)) for name in names]),
+            "moment_factor": layers.moment_factor,
+            "core_fraction": layers.core_fraction,
+            "fluid_love_number": equilibrium(layers).k,
+            "global_ocean_love_number": global_ocean(layers),
+        },
+        coords={"love": ("love", ["k2", "h2", "l2", "k2_load", "h2_load"])},
+    )
+    result.love_number.attrs["references"] = layers.reference
+    return result
+
+
+SENSITIVITY = {
+    "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
+    "input_value": Variable(("input",), "1", "value of the input"),
+    "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
+    "days_from_input": Variable(
+        ("input",), "d", "95 % half-width of the last rung from the input"
+    ),
+}
+
+
+@part(gives=SENSITIVITY)
+def sensitivity(inside: Inside) -> xr.Dataset:
+    """Days of the last rung per unit of each input."""
+    from dataclasses import fields
+
+    import numpy as np
+
+    from earthspin.constants import DAY
+    from earthspin.wobble import ladder
+
+    settings = (inside.spin, inside.interior, inside.ocean)
+    slopes = ladder.sensitivities(inside.inputs, *settings)
+    names = [f.name for f in fields(ladder.Inputs)]
+    values = {name: getattr(inside.inputs, name) for name in names}
+    low, high = ladder.EXPONENT_RANGE
+    u = inside.uncertainty
+    half = {n: 1.96 * u.get(n, 0.0) * abs(np.asarray(values[n])) for n in names}
+    if "anelastic" in ladder.climb(inside.inputs, *settings).turns:
+        half["anelastic_exponent"] = np.asarray((high - low) / 2)
+
+    def stack(parts: Mapping[str, FloatArray]) -> xr.DataArray:
+        return _along(parts, "input", inside.label)
+
+    return build(
+        SENSITIVITY,
+        {
+            "days_per_unit": stack(slopes) * DAY,
+            "input_value": stack(values),
+            "input_half_width": stack(half),
+            "days_from_input": abs(stack(slopes) * stack(half)) * DAY,
+        },
+    )
+
+
+CORE_NUTATION = {
+    "free_core_nutation": Variable(
+        ("core_shape",), "d", "period of the free core nutation among the stars"
+    ),
+    "free_core_nutation_sidereal": Variable(
+        ("core_shape",), "1", "period of the free core nutation in turns of the body"
+    ),
+}
+
+
+@part(gives=CORE_NUTATION)
+def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
+    """The system's other root: the free core nutation, by the shape of the core."""
+    from dataclasses import replace
+
+    from earthspin.wobble import ladder
+
+    shapes = {"hydrostatic": inside.inputs}
+    observed = inside.interior.observed_core_ellipticity
+    if observed is not None:
+        shapes["observed"] = replace(inside.inputs, core_ellipticity=observed.value)
+    settings = (inside.spin, inside.interior, inside.ocean)
+    turns = {
+        name: inside.label(ladder.climb(i, *settings).core_turns["fluid-core"])
+        for name, i in shapes.items()
+    }
+    nutation = _along(turns, "core_shape") * body.needed("spin_period")
+    return build(
+        CORE_NUTATION,
+        {
+            "free_core_nutation": nutation,
+            "free_core_nutation_sidereal": nutation / abs(body.needed("spin_period")),
+        },
+    )
+
+
+@part
+def neglected(body: Body, inside: Inside | None = None) -> Neglected:
+    """What the last rung leaves out."""
+    if inside is None:
+        return Neglected(what=f"the ladder stops at a rigid body: {why_rigid(body)}")
+    return Neglected(what="no size is known of a solid inner core, winds and currents")
+
+
+made_of(
+    Wobble,
+    answer=wobble_rungs,
+    sections={
+        "observed": observed_wobble,
+        "sensitivity": sensitivity,
+        "core_nutation": core_nutation,
+        "interior": interior_response,
+        "neglected": neglected,
+    },
+    parts=(inside,),
+)
+
+wobble_ladder = ask(Wobble)

@@ -1,1 +1,0 @@
-"""What is asked for, and only that: scenes, plans, parts."""

@@ -1,0 +1,343 @@
+"""Scenes: the list of questions, the files that ask them, and answers that are asked again."""
+
+from __future__ import annotations
+
+import tomllib
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from earthspin.engine import plan as planning
+from earthspin.engine import run as running
+from earthspin.engine.part import Block
+from earthspin.engine.question import Question
+from earthspin.errors import SceneError, nearest
+from earthspin.questions.free_rotor import FreeRotor
+from earthspin.questions.iau import IAU
+from earthspin.questions.polar_motion import PolarMotion
+from earthspin.questions.pole import Pole
+from earthspin.questions.precession import Precession
+from earthspin.questions.spheroid import Spheroid
+from earthspin.questions.top import Top
+from earthspin.questions.torque import Torque
+from earthspin.questions.wobble import Wobble
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Every question, by the word after ``compute =``.
+QUESTIONS: dict[str, type[Question]] = {
+    question.word: question
+    for question in (
+        Precession, Torque, Pole, IAU, Wobble, PolarMotion, FreeRotor, Top, Spheroid,
+    )
+}  # fmt: skip
+
+#: How many times a long series is written at once.
+BLOCK = 1 << 17
+
+#: Attributes of an answer that say what made it, beside its scene.
+VERSIONS = (
+    "earthspin_version", "numpy_version", "jplephem_version", "pyerfa_version", "ephemeris_sha256",
+)  # fmt: skip
+
+
+class VersionWarning(UserWarning):
+    """An answer is run again with other versions than those that made it."""
+
+
+def Scene(*, compute: str, **keys: Any) -> Question:  # noqa: N802 - a public name
+    """Build a question from the keys of a scene.
+
+    Parameters
+    ----------
+    compute : str
+        What is asked: ``"precession"``, ``"torque"``, ...
+    **keys
+        Keys of that question, as in a scene file or as arguments of its call.
+
+    Raises
+    ------
+    SceneError, UnitsError, BodyError
+        If a key is unknown, missing or wrong.
+    """
+    return question_named(compute).from_table(keys)
+
+
+def question_named(word: object, source: str = "") -> type[Question]:
+    """Class of a question by its word.
+
+    Raises
+    ------
+    SceneError
+        If there is none; it names the nearest.
+    """
+    if not isinstance(word, str) or word not in QUESTIONS:
+        raise SceneError("compute", word, nearest(word or "", QUESTIONS), source=source)
+    return QUESTIONS[word]
+
+
+def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question:
+    """Read a question from a scene file, a shipped scene, or an answer.
+
+    Parameters
+    ----------
+    scene : str, Path, Question, Dataset or DataTree
+        ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
+        answer.
+    changes : mapping, optional
+        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene, it is not TOML, or a key is unknown or wrong.
+    """
+    if isinstance(scene, Question):
+        return scene.replace(**changes) if changes else scene
+    if hasattr(scene, "attrs"):
+        text, source, title = _scene_of(scene), "", ""
+    elif Path(str(scene)).suffix in (".nc", ".zarr"):
+        from earthspin.engine.store import open as open_file
+
+        answer = open_file(scene)
+        text, source, title = _scene_of(answer), str(scene), ""
+    else:
+        text, source, title = _read(scene)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError("file", source, f"it is not TOML: {error}") from None
+    except (ValueError, RecursionError) as error:
+        raise SceneError("file", source, f"it cannot be read: {error}") from None
+    for key, value in (changes or {}).items():
+        _set_key(table, key, value, source)
+    if "compute" not in table:
+        raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
+    question = question_named(table.pop("compute"), source)
+    return question.from_table(table, source=source, title=title)
+
+
+def shipped_scenes() -> dict[str, str]:
+    """Names of the shipped scenes, with the title of each."""
+    folder = resources.files("earthspin") / "shipped"
+    found = {}
+    for file in sorted(folder.iterdir(), key=lambda f: f.name):
+        if file.name.endswith(".toml"):
+            table = tomllib.loads(file.read_text(encoding="utf-8"))
+            found[file.name.removesuffix(".toml")] = table.get("title", "")
+    return found
+
+
+def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
+    """Say what will run for a scene, in which order, and what is left out and why.
+
+    Parameters
+    ----------
+    scene : str, Path, Question, Dataset or DataTree
+        As `load_scene` takes it.
+    sections : str or iterable of str
+        Sections that are wanted beside the answer; ``"all"`` takes all that apply.
+
+    Raises
+    ------
+    SceneError
+        If nothing that answers the question can run; it gives the reason.
+    """
+    return planning.plan(load_scene(scene), sections)
+
+
+def run(scene: Any) -> xr.Dataset:
+    """Answer a question.
+
+    Parameters
+    ----------
+    scene : str, Path, Question, Dataset or DataTree
+        The name of a shipped scene, a file, a question, or an answer that is run again: with the
+        same versions it gives the same bits, otherwise a warning says which differ.
+
+    Returns
+    -------
+    Dataset
+        The answer; `ds.earthspin` knows its plan and its complete question.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong with the scene, the kernel or the body, in one line.
+    """
+    answer = running.run(load_scene(scene))
+    _say_what_differs(scene, answer)
+    return answer
+
+
+def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
+    """Answer a question with sections beside the answer, and the plan with its seconds.
+
+    Parameters
+    ----------
+    scene : str, Path, Question, Dataset or DataTree
+        As `run` takes it.
+    sections : str or iterable of str
+        Names of sections, or ``"all"``.
+
+    Returns
+    -------
+    DataTree
+        The answer at the root, a node for each section, and the node ``plan``.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; among it a section that the question does not have.
+    """
+    tree = running.run_tree(load_scene(scene), sections)
+    _say_what_differs(scene, tree)
+    return tree
+
+
+def _say_what_differs(scene: Any, answer: Any) -> None:
+    """Warn if an answer that was run again was made with other versions."""
+    if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
+        from earthspin.engine.store import open as open_file
+
+        scene = open_file(scene)
+    old = getattr(scene, "attrs", {})
+    differ = [
+        f"{name} {old[name]}, now {answer.attrs.get(name)}"
+        for name in VERSIONS
+        if name in old and old[name] != answer.attrs.get(name)
+    ]
+    if differ:
+        warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=3)
+
+
+# --- long series ---------------------------------------------------------------------------------
+
+
+def write_series(scene: Any, path: str | Path) -> Path:
+    """Write a torque series of any length to chunked Zarr, in bounded memory.
+
+    Parameters
+    ----------
+    scene : str, Path, Question or answer
+        One that computes ``torque``.
+    path : str or Path
+        The Zarr folder; what is there is replaced when all is written.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; nothing is left behind then.
+    """
+    from earthspin.engine import store
+    from earthspin.progress import progress
+
+    question = load_scene(scene)
+    size = series_length(question)
+    if size == 0:
+        raise SceneError("compute", question.word, "only a torque series is written by region")
+    with progress("torque series", size) as advance:
+
+        def blocks() -> Iterator[xr.Dataset]:
+            for block in run_blocks(question):
+                yield block
+                advance(block.sizes["time"])
+
+        return store.write_blocks(blocks(), path)
+
+
+def series_length(question: Question) -> int:
+    """How many times a question asks for; 0 if it is no series that can be written by region."""
+    if not isinstance(question, Torque):
+        return 0
+    from earthspin.parts.times import epochs
+
+    return epochs(question.span, question.step, question.times).size
+
+
+def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
+    """Run a torque series block by block, for times that do not fit into memory.
+
+    Parameters
+    ----------
+    scene : str, Path or Question
+        One that computes ``torque``.
+
+    Yields
+    ------
+    Dataset
+        Consecutive stretches of the series.
+    """
+    question = load_scene(scene)
+    size = series_length(question)
+    stretches = (Block(first, min(first + BLOCK, size)) for first in range(0, size, BLOCK))
+    return running.run_blocks(question, stretches)
+
+
+def chosen(question: Question) -> list[str]:
+    """What is chosen for the accuracy that a question asks for, in words.
+
+    Whether the numbers of the body and the kernel allow it shows when it runs.
+    """
+    found = running.run_choosing(question)
+    first = (next(iter(c), None) if isinstance(c, list) else c for c in found)
+    return [choice.words if choice is not None else "the finest settings" for choice in first]
+
+
+# --- reading -------------------------------------------------------------------------------------
+
+
+def _scene_of(answer: Any) -> str:
+    """Text of the scene that an answer carries."""
+    text = answer.attrs.get(running.SCENE)
+    if not isinstance(text, str):
+        raise SceneError(
+            "scene", type(answer).__name__, "it does not carry the scene that made it"
+        )
+    return text
+
+
+def _read(scene: str | Path) -> tuple[str, str, str]:
+    """Text of a scene, the file to name in messages, and a title."""
+    text = str(scene)
+    if "/" not in text and not text.endswith(".toml"):
+        names = shipped_scenes()
+        if text not in names:
+            raise SceneError("scene", text, f"no such scene; {nearest(text, names)}, or a file")
+        file = resources.files("earthspin") / "shipped" / f"{text}.toml"
+        return file.read_text(encoding="utf-8"), f"{text}.toml", text
+    path = Path(scene)
+    try:
+        return path.read_text(encoding="utf-8-sig"), text, path.stem
+    except FileNotFoundError:
+        raise SceneError(
+            "scene", text, f"there is no such file; shipped: {', '.join(shipped_scenes())}"
+        ) from None
+    except OSError as error:
+        raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise SceneError("scene", text, "it cannot be read: it is not text in UTF-8") from None
+
+
+def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
+    """Set a key, dotted or not, in a table as read."""
+    *path, last = key.split(".")
+    for step in path:
+        inner = table.get(step, {})
+        # `body = "earth"` with body.j2 set means: start from that body.
+        table[step] = inner = (
+            {"from": inner} if step == "body" and isinstance(inner, str) else inner
+        )
+        if not isinstance(inner, dict):
+            raise SceneError(key, value, f"'{step}' is not a table", source=source)
+        table = inner
+    table[last] = value
+
+
