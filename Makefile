@@ -29,6 +29,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/report_process.py
 	$(BIN)/python tests/benchmarks/pole.py
 	$(BIN)/python tests/benchmarks/leaving_out.py
+	$(BIN)/python tests/benchmarks/call_overhead.py
 
 clean:
 	rm -rf $(VENV) report build dist docs/_build

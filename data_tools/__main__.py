@@ -10,7 +10,9 @@ from data_tools import (
     error_models,
     hashes,
     kernels,
+    neglected,
     references,
+    signatures,
     stability,
     windows,
 )
@@ -20,12 +22,14 @@ VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
+    "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
     "accuracy-pages": (
         accuracy_pages.main,
         "measure error against run time, for docs/work_precision.md",
     ),
     "references": (references.main, "make the stored references of the checks again"),
+    "signatures": (signatures.main, "write the signatures of the public calls for editors"),
     "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.

@@ -29,11 +29,11 @@ from numpy.typing import NDArray
 
 from data_tools.windows import DEGREE, SPACING
 from earthspin.bodies import BODIES, EARTH, IAU_2006, MARS, PLANETS, Body
+from earthspin.choosing.choice import DATA
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.motion.geodesic import geodesic_rate
 from earthspin.motion.windows import Windows, integrated
 from earthspin.progress import progress
-from earthspin.scene.choosing import DATA
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.equator import ecliptic_axes, orbit_normal
 from earthspin.sky.iau import NUTATION_MODELS, Nutation, precession_angles

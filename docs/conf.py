@@ -17,13 +17,14 @@ extensions = [
     "myst_nb",
     "equation_map",
     "native_math",
+    "scene_keys",
 ]
 html_theme = "pydata_sphinx_theme"
 html_theme_options = {"show_prev_next": False, "secondary_sidebar_items": ["page-toc"]}
 html_math_renderer = "native"
 html_title = "earthspin"
 templates_path = ["_templates"]
-exclude_patterns = ["_build", "_templates", "jupyter_execute"]
+exclude_patterns = ["_build", "_templates", "jupyter_execute", "examples"]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _ERROR = "_error"
 
 
-@xr.register_dataset_accessor("earthspin")
+@xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
     """What an answer of earthspin knows of itself.
 
@@ -78,7 +78,7 @@ class Answer:
         -------
         list of Figure
         """
-        from earthspin.views.drawings import figures_of
+        from earthspin.views.of_question import figures_of
 
         return figures_of(self._dataset)
 

@@ -29,15 +29,9 @@ NOTHING = "nothing"
 IAU_2006 = "iau2006"
 
 
-_REQUIRED: Any = object()
-
-
-def _given(unit: str, example: str, default: Any = _REQUIRED) -> Any:
-    """Declare a numeric field with its unit."""
-    metadata = {"unit": unit, "example": example}
-    if default is _REQUIRED:
-        return field(metadata=metadata)
-    return field(default=default, metadata=metadata)
+def _in(unit: str, example: str) -> dict[str, str]:
+    """Say in which unit a field is kept, and how one would write it."""
+    return {"unit": unit, "example": example}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -100,29 +94,32 @@ class Body:
     """
 
     name: str
-    gm: Numeric = _given("m3/s2", "3.986e14 m3/s2")
+    gm: Numeric = field(metadata=_in("m3/s2", "3.986e14 m3/s2"))
     naif: tuple[int, ...] = ()
-    radius: Numeric | None = _given("m", "6378 km", None)
-    j2: Numeric | None = _given("", "1.08e-3", None)
-    dynamical_flattening: Numeric | None = _given("", "3.27e-3", None)
-    triaxiality: Numeric = _given("", "7.26e-6", 0.0)
-    j3: Numeric = _given("", "-2.53e-6", 0.0)
-    j4: Numeric = _given("", "-1.62e-6", 0.0)
-    j2_rate: Numeric = _given("1/s", "-9.5e-19 1/s", 0.0)
-    meridian: float = _given("rad", "10 deg", 0.0)
-    flattening: Numeric | None = _given("", "3.35e-3", None)
-    spin_period: Numeric | None = _given("s", "23.93 h", None)
+    radius: Numeric | None = field(default=None, metadata=_in("m", "6378 km"))
+    j2: Numeric | None = field(default=None, metadata=_in("", "1.08e-3"))
+    dynamical_flattening: Numeric | None = field(default=None, metadata=_in("", "3.27e-3"))
+    triaxiality: Numeric = field(default=0.0, metadata=_in("", "7.26e-6"))
+    j3: Numeric = field(default=0.0, metadata=_in("", "-2.53e-6"))
+    j4: Numeric = field(default=0.0, metadata=_in("", "-1.62e-6"))
+    j2_rate: Numeric = field(default=0.0, metadata=_in("1/s", "-9.5e-19 1/s"))
+    meridian: float = field(default=0.0, metadata=_in("rad", "10 deg"))
+    flattening: Numeric | None = field(default=None, metadata=_in("", "3.35e-3"))
+    spin_period: Numeric | None = field(default=None, metadata=_in("s", "23.93 h"))
     pole: str | tuple[float, float] | None = None
     orbit_pole: tuple[float, float] | None = None
-    orbital_period: float | None = _given("s", "365.25 d", None)
-    cycle: float = _given("s", "4333 d", c.JUPITER_ORBITAL_PERIOD.value)
-    slow_swing: float = _given("", "2e-7", 2e-7)  # measured: `python -m data_tools windows`
+    orbital_period: float | None = field(default=None, metadata=_in("s", "365.25 d"))
+    cycle: float = field(default=c.JUPITER_ORBITAL_PERIOD.value, metadata=_in("s", "4333 d"))
+    slow_swing: float = field(
+        default=2e-7, metadata=_in("", "2e-7")
+    )  # measured: `python -m data_tools windows`
     interior: str | None = None
     observed_wobble: c.Constant | None = None
     relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
     reference: str = ""
 
-    words: ClassVar[str] = "the name of a body, or a table of its numbers"
+    words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
+    hint: ClassVar[str] = "Body | str | Mapping[str, Any]"
 
     def __post_init__(self) -> None:
         for name in UNITS:
@@ -187,7 +184,10 @@ class Body:
                 )
                 if not same:
                     raise BodyError(
-                        self.name, name, f"labels along '{dim}'", f"they differ from those of {other}"
+                        self.name,
+                        name,
+                        f"labels along '{dim}'",
+                        f"they differ from those of {other}",
                     )
 
     def _check_directions(self) -> None:
@@ -348,17 +348,23 @@ class Body:
             raise BodyError(self.name, word, changes[word], nearest(word, words))
         # A changed number is the user's own: what was known about the old one no longer holds.
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
-        if self._is_another(changes):
-            changes = {"observed_wobble": None} | changes
-        return _replace(self, **({"relative_uncertainty": known} | changes))
+        made = _replace(self, **({"relative_uncertainty": known} | changes))
+        if "observed_wobble" in changes or not self._is_another(changes):
+            return made
+        return _replace(made, observed_wobble=None)
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
         """Whether a change makes it a body whose wobble nobody has observed."""
-        for name in _OF_THE_WOBBLE & set(changes):
-            old, new = getattr(self, name), changes[name]
-            if not (old and new is not None and all_of(abs(new / old - 1) <= SAME_BODY)):
-                return True
-        return False
+        changed = _OF_THE_WOBBLE & set(changes)
+        return not all(_close(changes[name], getattr(self, name)) for name in changed)
+
+    @property
+    def is_as_named(self) -> bool:
+        """Whether figure and spin are those of the named body, to one per cent."""
+        named = BODIES.get(self.name)
+        return named is not None and all(
+            _close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE
+        )
 
     def _figure_from_moments(self, changes: dict[str, Any]) -> dict[str, Any]:
         moments = changes.pop("moments")
@@ -407,9 +413,18 @@ def _read_field(key: str, value: Any, where: Where) -> Any:
         if not isinstance(value, (list, tuple)) or len(value) != 2:
             raise where.error(value, "give right ascension and declination")
         return tuple(quantity(v, "rad", where, "317.7 deg") for v in value)
-    if key == "observed_wobble" and isinstance(value, Mapping):
-        return c.Constant(**{"uncertainty": None} | dict(value))
-    if key == "naif" and isinstance(value, (list, tuple)):
+    if key in ("name", "reference", "interior") and not isinstance(value, str):
+        raise where.error(value, "it is a line of text")
+    if key == "observed_wobble":
+        return _read_constant(value, where)
+    if key == "relative_uncertainty":
+        if not isinstance(value, Mapping):
+            raise where.error(value, "give a table of one number for each field")
+        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
+    if key == "naif":
+        whole = isinstance(value, (list, tuple)) and all(type(code) is int for code in value)
+        if not whole:
+            raise where.error(value, "give a list of whole numbers, like [399]")
         return tuple(value)
     units = UNITS | {"mass": ("kg", "5.97e24 kg")}
     if key in units:
@@ -420,6 +435,23 @@ def _read_field(key: str, value: Any, where: Where) -> Any:
     if key not in words:
         raise where.error(value, nearest(key, words))
     return value
+
+
+def _read_constant(value: Any, where: Where) -> c.Constant:
+    """A cited figure from a table of its fields."""
+    from earthspin.units import quantity
+
+    try:
+        table: dict[str, Any] = {"uncertainty": None} | dict(value)
+        for name in ("value", "uncertainty"):
+            if table[name] is not None:
+                table[name] = quantity(table[name], "", where.at(name), "433.0")
+        return c.Constant(**table)
+    except (KeyError, TypeError, ValueError) as error:
+        if isinstance(error, EarthspinError):
+            raise
+        words = ", ".join(f.name for f in fields(c.Constant))
+        raise where.error(value, f"give a table of {words}") from None
 
 
 def _labelled(table: Mapping[str, Any], values: Any, where: Where) -> Any:
@@ -453,6 +485,13 @@ def _write_field(name: str, value: Any) -> Any:
     if isinstance(value, c.Constant):
         return {k: v for k, v in asdict(value).items() if v is not None}
     return list(value) if isinstance(value, tuple) else value
+
+
+def _close(value: Numeric | None, other: Numeric | None) -> bool:
+    """Whether two numbers may belong to the same body."""
+    if value is None or other is None:
+        return value is other
+    return all_of(abs(value - other) <= SAME_BODY * abs(other))
 
 
 def _is_finite(value: Numeric) -> Numeric:

@@ -1,16 +1,20 @@
-"""The command line: report, run, plan, scenes, accuracy, stability, info."""
+"""The command line: report, run, plan, scenes, keys, accuracy, stability, info, completion."""
 
 from __future__ import annotations
 
 import argparse
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, SceneError
+
+if TYPE_CHECKING:
+    from earthspin.engine.question import Question
 
 CHECK_FAILED, USAGE_ERROR = 1, 2
 
@@ -36,9 +40,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status: 0; 1 if a check fails; 2 with one line on stderr if something given is
         wrong; 130 if interrupted, 141 if whoever read the output has gone.
     """
-    given = _parser().parse_args(arguments)
+    parser = _parser()
+    _complete(parser)
+    given = parser.parse_args(arguments)
     try:
-        status: int | None = given.command(given)
+        with warnings.catch_warnings():
+            warnings.showwarning = _say
+            status: int | None = given.command(given)
         sys.stdout.flush()
     except EarthspinError as error:
         print(f"earthspin: {error}", file=sys.stderr)
@@ -55,6 +63,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return USAGE_ERROR
     return status or 0
+
+
+def _say(message: Warning | str, *_: object, **__: object) -> None:
+    """Show a warning as one line."""
+    print(f"earthspin: {message}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -74,25 +87,37 @@ def _parser() -> argparse.ArgumentParser:
     _add_ephemeris(report)
     report.set_defaults(command=_report)
 
-    run = commands.add_parser("run", help="run a scene")
-    run.add_argument("scene", help="name of a shipped scene, or a TOML file")
-    run.add_argument("--out", metavar="DIR", help="folder to write the result to")
+    run = commands.add_parser("run", help="run a scene", add_help=False)
+    _add_scene(run)
+    run.add_argument(
+        "--out", metavar="DIR|FILE", help="folder for a page and the data, or a .nc or .zarr file"
+    )
     run.add_argument("--json", action="store_true", help="print the result as JSON")
-    _add_settings(run)
+    _add_sections(run, "default: none on the screen, all with --out")
     run.set_defaults(command=_run)
 
-    plan = commands.add_parser("plan", help="show what a scene needs, and what it leaves out")
-    plan.add_argument("scene", help="name of a shipped scene, or a TOML file")
-    _add_settings(plan)
+    plan = commands.add_parser(
+        "plan", help="show what a scene needs, and what it leaves out", add_help=False
+    )
+    _add_scene(plan)
+    _add_sections(plan, "default: none")
+    plan.add_argument("--script", action="store_true", help="the parts as a plain script")
     plan.set_defaults(command=_plan)
 
     accuracy = commands.add_parser("accuracy", help="measure error against run time")
-    accuracy.add_argument("quantity", nargs="?", metavar="QUANTITY", help="all by default")
+    quantity = accuracy.add_argument(
+        "quantity", nargs="?", metavar="QUANTITY", help="all by default"
+    )
+    quantity.completer = _quantities  # type: ignore[attr-defined]
     accuracy.add_argument("--quick", action="store_true", help="short problems, few settings")
     accuracy.add_argument("--out", metavar="DIR", help="folder for data, figures and a page")
     accuracy.set_defaults(command=_accuracy)
 
     commands.add_parser("scenes", help="list the shipped scenes").set_defaults(command=_scenes)
+    keys = commands.add_parser("keys", help="list what can be asked, question by question")
+    question = keys.add_argument("question", nargs="?", help="all by default")
+    question.completer = _words  # type: ignore[attr-defined]
+    keys.set_defaults(command=_keys)
     info = commands.add_parser("info", help="versions, kernels and their coverage")
     info.set_defaults(command=_info)
 
@@ -101,7 +126,63 @@ def _parser() -> argparse.ArgumentParser:
     stability.add_argument("--only", metavar="WORD", help="a part, or a word of a case's name")
     stability.add_argument("--long", action="store_true", help="also those that take minutes")
     stability.set_defaults(command=_stability)
+
+    completion = commands.add_parser("completion", help="print what a shell needs to complete")
+    completion.add_argument("shell", choices=("bash", "zsh", "fish"))
+    completion.set_defaults(command=_completion)
     return parser
+
+
+class _ShowHelp(argparse.Action):
+    """Help of a command, and of the scene's keys where one is named before it."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(nargs=0, **kwargs)
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> NoReturn:
+        """Print and leave."""
+        parser.print_help()
+        scene = getattr(namespace, "scene", None)
+        if scene is not None:
+            try:
+                print(f"\n{_keys_of(scene)}")
+            except EarthspinError as error:
+                parser.error(str(error))
+        parser.exit()
+
+
+def _add_scene(parser: argparse.ArgumentParser) -> None:
+    """Arguments of every command that takes a scene."""
+    scene = parser.add_argument(
+        "scene", help="name of a shipped scene, a TOML file, or a file with a result"
+    )
+    scene.completer = _scenes_and_files  # type: ignore[attr-defined]
+    _add_ephemeris(parser)
+    settings = parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        dest="settings",
+        help="change a key of the scene, e.g. --set step='1 h'",
+    )
+    settings.completer = _key_words  # type: ignore[attr-defined]
+    parser.add_argument(
+        "-h", "--help", action=_ShowHelp, help="show this, and the keys of a scene named before"
+    )
+
+
+def _add_sections(parser: argparse.ArgumentParser, default: str) -> None:
+    sections = parser.add_argument(
+        "--sections", metavar="NAMES|all", help=f"what to tell beside the answer ({default})"
+    )
+    sections.completer = _section_names  # type: ignore[attr-defined]
 
 
 def _add_ephemeris(parser: argparse.ArgumentParser) -> None:
@@ -110,24 +191,14 @@ def _add_ephemeris(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_settings(parser: argparse.ArgumentParser) -> None:
-    _add_ephemeris(parser)
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        dest="settings",
-        help="change a key of the scene, e.g. --set step='1 h'",
-    )
-
-
 def _report(given: argparse.Namespace) -> None:
-    from earthspin.views.tables import print_tables
+    from earthspin.views.of_question import print_tables
 
     if given.topic == "wobble":
-        from earthspin.views.wobble_report import write_wobble_report
+        from earthspin.views.report import write_wobble_report
 
+        if given.ephemeris is not None:
+            raise SceneError("--ephemeris", given.ephemeris, "the wobble report needs no kernel")
         results, written = write_wobble_report(given.out, figures=not given.no_figures)
     else:
         from earthspin.views.report import write_report
@@ -143,61 +214,111 @@ def _report(given: argparse.Namespace) -> None:
 
 
 def _run(given: argparse.Namespace) -> None:
-    from earthspin import storage
-    from earthspin.calls import write_series
-    from earthspin.scene.running import LONGEST_IN_MEMORY, run, series_length
+    from earthspin.engine import store
+    from earthspin.parts import times
+    from earthspin.scenes import run_tree, series_length, write_series
 
-    scene = _scene(given)
+    question = _question(given)
+    target = None if given.out is None else Path(given.out)
     name = Path(given.scene).stem
-    if given.out is not None:
-        storage.check_writable(given.out)
-        if series_length(scene) > LONGEST_IN_MEMORY:
+    if target is not None:
+        is_file = target.suffix in (".nc", ".zarr")
+        store.check_writable(target.parent if is_file else target)
+        if series_length(question) > times.LONGEST_IN_MEMORY:
             if given.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
-            print(f"wrote {write_series(scene, Path(given.out) / f'{name}.zarr')}")
+            place = target if target.suffix == ".zarr" else target / f"{name}.zarr"
+            print(f"wrote {write_series(question, place)}")
             return
-    result = run(scene)
+    wanted = _sections(given)
+    everything = target is not None and wanted is None
+    tree = run_tree(question, "all" if everything else wanted or ())
     if given.json:
-        print(_json(result))
+        print(_json(tree))
     else:
-        from earthspin.views.tables import print_tables
+        from earthspin.views.of_question import print_tables
 
-        print_tables(result)
-    if given.out is not None:
-        from earthspin.views.report import scene_views
-
-        place = Path(given.out)
-        with (
-            storage.replacing(place / f"{name}.html") as page,
-            storage.replacing(place / f"{name}.nc") as data,
-        ):
-            page.write_text(scene_views(result), encoding="utf-8")
-            storage.write_netcdf(result, data)
-        for path in (place / f"{name}.html", place / f"{name}.nc"):
+        print_tables(tree)
+        _say_what_else(question, tree)
+    if target is not None:
+        for path in _write(tree, target, name):
             print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
 
 
-def _plan(given: argparse.Namespace) -> None:
-    from earthspin.scene.planning import plan
-    from earthspin.scene.running import chosen
+def _write(tree: Any, target: Path, name: str) -> list[Path]:
+    """Write one file, or a page and the data into a folder."""
+    from earthspin.engine import store
 
-    planned = plan(_scene(given))
-    print(planned)
-    if planned.scene.accuracy is not None:
-        words = ", ".join(chosen(planned)) or "no settings to choose"
+    if target.suffix in (".nc", ".zarr"):
+        return [store.write(tree, target)]
+    from earthspin.views.of_question import scene_page
+
+    files = [target / f"{name}.html", target / f"{name}.nc"]
+    with store.replacing(files[0]) as page, store.replacing(files[1]) as data:
+        page.write_text(scene_page(tree), encoding="utf-8")
+        store.write_netcdf(tree, data)
+    return files
+
+
+def _say_what_else(question: Question, tree: Any) -> None:
+    """Name the sections that were not asked for."""
+    others = [name for name in question.graph.sections if name not in tree.children]
+    if others and not tree.children.keys() - {"plan"}:
+        print(f"More: --sections {','.join(others)}, or all")
+
+
+def _plan(given: argparse.Namespace) -> None:
+    from earthspin.scenes import chosen, plan
+
+    question = _question(given)
+    if given.script:
+        from earthspin.engine.asking import script_of
+
+        print(script_of(type(question)))
+        return
+    print(plan(question, _sections(given) or ()))
+    accuracy = getattr(question, "accuracy", None)
+    if accuracy is not None:
+        asked = question.to_table()["accuracy"]
+        words = ", ".join(chosen(question)) or "no settings to choose"
         print(
-            f"\nchosen for an accuracy of {planned.scene.accuracy}: {words}\n"
+            f"\nchosen for an accuracy of {asked}: {words}\n"
             "(whether the body's numbers and the kernel allow it shows when it runs)"
         )
 
 
+def _sections(given: argparse.Namespace) -> str | list[str] | None:
+    """Names after --sections; None if they are not named."""
+    if given.sections is None or given.sections.strip() == "all":
+        return None if given.sections is None else "all"
+    return [name.strip() for name in given.sections.split(",") if name.strip()]
+
+
+def _keys(given: argparse.Namespace) -> None:
+    from earthspin.engine.question import describe_keys
+    from earthspin.scenes import QUESTIONS, question_named
+
+    words = QUESTIONS if given.question is None else [given.question]
+    print("\n\n".join(f"compute = {w!r}\n\n{describe_keys(question_named(w))}" for w in words))
+
+
+def _keys_of(scene: str) -> str:
+    """Keys and sections of the question that a scene asks."""
+    from earthspin.engine.question import describe_keys
+    from earthspin.scenes import load_scene
+
+    question = type(load_scene(scene))
+    sections = ", ".join(question.graph.sections)
+    return f"keys of {scene}:\n\n{describe_keys(question)}\n\nsections: {sections}"
+
+
 def _accuracy(given: argparse.Namespace) -> int:
-    from earthspin import storage
     from earthspin.checks.work_precision import QUANTITIES, accuracy
+    from earthspin.engine import store
     from earthspin.views.work_precision_views import print_accuracy, write_accuracy
 
     if given.out is not None:
-        storage.check_writable(given.out)
+        store.check_writable(given.out)
     results = []
     for quantity in QUANTITIES if given.quantity is None else [given.quantity]:
         results.append(accuracy(quantity, quick=given.quick))
@@ -209,7 +330,7 @@ def _accuracy(given: argparse.Namespace) -> int:
 
 
 def _scenes(given: argparse.Namespace) -> None:
-    from earthspin.scene.spec import shipped_scenes
+    from earthspin.scenes import shipped_scenes
 
     scenes = shipped_scenes()
     width = max(map(len, scenes))
@@ -243,9 +364,9 @@ def _stability(given: argparse.Namespace) -> int:
     return CHECK_FAILED if tally(result)[FAILS] else 0
 
 
-def _scene(given: argparse.Namespace) -> Any:
-    """Scene of the command line: the file, then --set, then --ephemeris."""
-    from earthspin.scene.spec import load_scene
+def _question(given: argparse.Namespace) -> Question:
+    """Question of the command line: the scene, then --set, then --ephemeris."""
+    from earthspin.scenes import load_scene
 
     changes = dict(_setting(text) for text in given.settings)
     if given.ephemeris is not None:
@@ -266,7 +387,7 @@ def _setting(text: str) -> tuple[str, Any]:
         return key.strip(), value.strip()
 
 
-def _json(result: Any) -> str:
+def _json(tree: Any) -> str:
     """A result as JSON: dates as text, and infinity as text, for which JSON has no number."""
     import json
     import math
@@ -282,4 +403,70 @@ def _json(result: Any) -> str:
             return str(value)
         return value
 
-    return json.dumps(plain(result.to_dict()), indent=1)
+    data = tree.to_dataset().to_dict()
+    sections = {n: of.to_dataset().to_dict() for n, of in tree.children.items() if n != "plan"}
+    return json.dumps(plain(data | ({"sections": sections} if sections else {})), indent=1)
+
+
+# --- completion ----------------------------------------------------------------------------------
+
+
+def _completion(given: argparse.Namespace) -> None:
+    """Print the lines that teach a shell to complete; they ask this program for the words."""
+    try:
+        from argcomplete.shell_integration import shellcode
+    except ImportError:
+        from earthspin.errors import MissingExtraError
+
+        raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
+    print(shellcode(["earthspin"], shell=given.shell))
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer a shell that asks for words, and leave; do nothing for anyone else."""
+    if "_ARGCOMPLETE" in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser)
+
+
+def _scenes_and_files(prefix: str, **_: object) -> list[str]:
+    from earthspin.scenes import shipped_scenes
+
+    files = Path(prefix).parent.glob("*")
+    return [*shipped_scenes(), *(str(p) for p in files if p.suffix in (".toml", ".nc", ".zarr"))]
+
+
+def _question_of(parsed_args: argparse.Namespace) -> type[Question] | None:
+    """Class of the question of the scene that stands on the line so far."""
+    from earthspin.scenes import load_scene
+
+    try:
+        return type(load_scene(parsed_args.scene))
+    except EarthspinError:
+        return None
+
+
+def _key_words(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    from earthspin.engine.question import keys_of
+
+    question = _question_of(parsed_args)
+    keys = {} if question is None else keys_of(question)
+    return [f"{question.table}.{n}=" if one.setting else f"{n}=" for n, one in keys.items()]  # type: ignore[union-attr]
+
+
+def _section_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    question = _question_of(parsed_args)
+    return ["all"] if question is None else [*question.graph.sections, "all"]
+
+
+def _words(**_: object) -> list[str]:
+    from earthspin.scenes import QUESTIONS
+
+    return list(QUESTIONS)
+
+
+def _quantities(**_: object) -> list[str]:
+    from earthspin.checks.work_precision import QUANTITIES
+
+    return list(QUANTITIES)

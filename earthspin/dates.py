@@ -13,21 +13,22 @@ import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any, NoReturn, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import SceneError, Where
-from earthspin.units import FloatArray, Number, Plain, pack, unpack
+from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
+FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
 LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
 _ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
 
 
-def microseconds(value: object, where: Where) -> int:
+def microseconds(value: Any, where: Where) -> int:
     """Convert one date to whole microseconds from J2000.0 TDB.
 
     Parameters
@@ -53,24 +54,24 @@ def microseconds(value: object, where: Where) -> int:
             except ValueError:
                 raise where.error(value, "there is no such date") from None
     if isinstance(value, dt.datetime) and value.tzinfo is not None:
-        return _from_utc(value.astimezone(dt.UTC).replace(tzinfo=None), where)
+        return int(_from_utc(value.astimezone(dt.UTC).replace(tzinfo=None), where))
     if is_time(value):
         return round(float(_days_from_time(value, where)) * MICROSECONDS_PER_DAY)
     if not isinstance(value, (str, dt.date, np.datetime64)):
         raise where.error(value, "write a date like '2000-01-01T12:00'")
     try:
-        stamp = np.datetime64(value, "us")
-        year = int(np.datetime64(value, "Y").astype(np.int64)) + 1970
-    except ValueError:
+        stamp = np.datetime64(cast(Any, value), "us")
+        year = int(np.datetime64(cast(Any, value), "Y").astype(np.int64)) + 1970
+    except (TypeError, ValueError):
         raise where.error(value, "there is no such date") from None
     if np.isnat(stamp):
         raise where.error("NaT", "NaT is no date")
     if not 1 <= year <= 9999:
         raise where.error(value, "years run from 1 to 9999")
-    return int((stamp - J2000) / np.timedelta64(1, "us"))
+    return int(np.asarray(stamp - J2000).astype(np.int64))
 
 
-def _from_utc(value: Any, where: Where) -> Any:
+def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
     """Microseconds from J2000.0 TDB of UTC, one datetime or an array of datetime64."""
     from astropy.time import Time
     from astropy.utils.exceptions import AstropyWarning
@@ -78,11 +79,13 @@ def _from_utc(value: Any, where: Where) -> Any:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            found = _days_from_time(Time(value, scale="utc"), where)
+            time = Time(value, scale="utc")
+            found = _days_from_time(time, where)
         except (Warning, AstropyWarning, ValueError):
             _refuse_utc(value, where)
-    counts = np.rint(found * MICROSECONDS_PER_DAY).astype(np.int64)
-    return int(counts) if np.ndim(counts) == 0 else counts
+    if np.min(time.jd) < FIRST_UTC:  # of the last day before it, the library does not warn
+        _refuse_utc(value, where)
+    return np.asarray(np.rint(found * MICROSECONDS_PER_DAY), dtype=np.int64)
 
 
 def _refuse_utc(value: object, where: Where) -> NoReturn:
@@ -122,12 +125,11 @@ def days(times: object, where: Where) -> FloatArray:
 
 def _counts(times: Any, where: Where) -> NDArray[np.int64]:
     """Whole microseconds from J2000.0 TDB of a list that is no Time."""
-    if np.any(getattr(times, "mask", False)):
+    if is_masked(times):
         raise where.error("a masked time", "give times that are all known")
     zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
     if zone is not None:  # an index or series of pandas that says its zone
-        utc = times.dt if hasattr(times, "dt") else times
-        times = np.asarray(utc.tz_convert("UTC").tz_localize(None), dtype="datetime64[us]")
+        times = np.asarray(times, dtype="datetime64[us]")  # in UTC, as pandas keeps it
         _check_years(times, where)
         return np.atleast_1d(_from_utc(times, where))
     try:
@@ -180,7 +182,7 @@ class Span:
     first: int
     last: int
 
-    words = "two dates"
+    words, hint = "two dates", "tuple[Date, Date]"
 
     @classmethod
     def read(cls, given: object, where: Where) -> Span:
@@ -253,7 +255,7 @@ class TimeList:
 
     listed: FloatArray
 
-    words = "a list of times"
+    words, hint = "a list of times", "Dates"
 
     @classmethod
     def read(cls, given: object, where: Where) -> TimeList:

@@ -11,7 +11,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-
 #: What was given is repeated in a message up to this many characters.
 LONGEST_ECHO = 100
 
@@ -105,7 +104,8 @@ class UnitsError(EarthspinError, ValueError):
     def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
         self.what, self.given, self.wanted = what, given, wanted
         super().__init__(
-            f"{what} = {_shown(given)} is not a value in units of {wanted}; write it like {example!r}"
+            f"{what} = {_shown(given)} is not a value in units of {wanted}; "
+            f"write it like {example!r}"
         )
 
 

@@ -48,7 +48,7 @@ class VersionWarning(UserWarning):
     """An answer is run again with other versions than those that made it."""
 
 
-def Scene(*, compute: str, **keys: Any) -> Question:  # noqa: N802 - a public name
+def Scene(*, compute: str, **keys: Any) -> Question:
     """Build a question from the keys of a scene.
 
     Parameters
@@ -298,9 +298,7 @@ def _scene_of(answer: Any) -> str:
     """Text of the scene that an answer carries."""
     text = answer.attrs.get(running.SCENE)
     if not isinstance(text, str):
-        raise SceneError(
-            "scene", type(answer).__name__, "it does not carry the scene that made it"
-        )
+        raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
     return text
 
 
@@ -339,5 +337,3 @@ def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
             raise SceneError(key, value, f"'{step}' is not a table", source=source)
         table = inner
     table[last] = value
-
-

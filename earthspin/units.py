@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import UnitsError, Where, nearest
+from earthspin.errors import EarthspinError, UnitsError, Where, nearest
 
 FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -48,6 +48,10 @@ class Kind(Protocol[T]):
     @property
     def words(self) -> str:
         """What may be given, for people."""
+
+    @property
+    def hint(self) -> str:
+        """What may be given, as a type for editors and type checkers."""
 
     def read(self, given: object, where: Where) -> T:
         """Check and convert what was given."""
@@ -86,36 +90,68 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     SceneError
         If a number is masked, missing or not finite.
     """
-    converted = _convert(value, unit, what, example)
+    converted = _convert(value, _Wanted(unit, what, example))
     plain = getattr(converted, "values", converted)
     if not np.all(np.isfinite(plain)):
         raise _where(what).error(value, "give finite numbers")
     return converted
 
 
-def _convert(value: Any, unit: str, what: object, example: str) -> Any:
-    wrong = UnitsError(str(what), value, unit or "a pure number", example)
+@dataclass(frozen=True)
+class _Wanted:
+    """What a value should be, and the error if it is not."""
+
+    unit: str
+    what: object
+    example: str
+
+    def wrong(self, given: object) -> UnitsError:
+        return UnitsError(str(self.what), given, self.unit or "a pure number", self.example)
+
+    def factor(self, given: object, unit: str) -> float:
+        """Size of another unit in this one."""
+        import astropy.units as u
+
+        try:
+            return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
+        except (TypeError, ValueError, u.UnitConversionError):
+            raise self.wrong(given) from None
+
+
+def _convert(value: Any, wanted: _Wanted) -> Any:
     if isinstance(value, (bool, np.bool_)):
-        raise wrong
+        raise wanted.wrong(value)
     if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
-        return _as_float(value, wrong)
+        return _plain(value, wanted)
     if isinstance(value, str):
         found = _NUMBER_AND_UNIT.fullmatch(value)
         measures, size = COMMON.get(found[2], ("", 1.0)) if found else ("", 1.0)
-        if found and measures == unit:
+        if found and measures == wanted.unit:
             return float(found[1]) * size
-        return _by_astropy(value, unit, wrong)
+        return _by_astropy(value, wanted)
     if isinstance(value, (dt.timedelta, np.timedelta64)):
-        return _seconds(value, unit, wrong)
-    if np.any(getattr(value, "mask", False)):
-        raise _where(what).error("a masked value", "give numbers that are all known")
+        return _length_of_time(value, wanted)
+    if is_masked(value):
+        raise _where(wanted.what).error("a masked value", "give numbers that are all known")
     if hasattr(value, "to_value"):
-        return _by_astropy(value, unit, wrong)
+        return _by_astropy(value, wanted)
     if hasattr(value, "dims"):
-        return _labelled(value, unit, what, example)
+        own = value.attrs.get("units")  # one that says its units is converted
+        factor = 1.0 if own is None else wanted.factor(own, own)
+        plain = _plain(value.values, wanted)
+        return value.copy(data=plain * factor) if own is not None else value.copy(data=plain)
     if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
-        return _stack([_convert(inner, unit, what, example) for inner in value], wrong)
-    return _plain_array(value, unit, wrong)
+        try:
+            return np.stack([np.asarray(_convert(inner, wanted), dtype=float) for inner in value])
+        except ValueError as error:
+            raise error if isinstance(error, EarthspinError) else wanted.wrong(value) from None
+    return _plain(value, wanted)
+
+
+def is_masked(value: object) -> bool:
+    """Whether an array or a Time hides some of its numbers; `mask` of pandas is a method."""
+    mask = getattr(value, "mask", False)
+    return not callable(mask) and bool(np.any(mask))
 
 
 def _has_unit(value: object) -> bool:
@@ -124,70 +160,43 @@ def _has_unit(value: object) -> bool:
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
 
-def _as_float(value: float, wrong: UnitsError) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        raise wrong from None
-
-
-def _by_astropy(value: Any, unit: str, wrong: UnitsError) -> Any:
+def _by_astropy(value: Any, wanted: _Wanted) -> Any:
     import astropy.units as u
 
     try:
         read = u.Quantity(value)
-        if isinstance(value, str) and read.unit == u.dimensionless_unscaled and unit:
+        if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
-        converted = read.to_value(u.Unit(unit))
+        converted = read.to_value(u.Unit(wanted.unit))
     except (TypeError, ValueError, OverflowError, u.UnitConversionError):
-        raise wrong from None
+        raise wanted.wrong(value) from None
     return float(converted) if np.ndim(converted) == 0 else np.asarray(converted, dtype=float)
 
 
-def _seconds(value: dt.timedelta | np.timedelta64, unit: str, wrong: UnitsError) -> float:
-    if isinstance(value, np.timedelta64):
-        if np.isnat(value):
-            raise wrong
-        seconds = float(value / np.timedelta64(1, "us")) * 1e-6
-    else:
+def _length_of_time(value: dt.timedelta | np.timedelta64, wanted: _Wanted) -> float:
+    if isinstance(value, dt.timedelta):
         seconds = value.total_seconds()
-    return seconds if unit == "s" else float(_by_astropy(f"{seconds!r} s", unit, wrong))
+    elif np.isnat(value):
+        raise wanted.wrong(value)
+    else:
+        seconds = float(value / np.timedelta64(1, "us")) * 1e-6
+    return seconds if wanted.unit == "s" else seconds * wanted.factor(value, "s")
 
 
-def _labelled(value: Any, unit: str, what: object, example: str) -> Any:
-    """A labelled array; one that says its units is converted."""
-    own = value.attrs.get("units")
-    if own is not None:
-        import astropy.units as u
-
-        try:
-            factor = float((1.0 * u.Unit(own)).to_value(u.Unit(unit)))
-        except (TypeError, ValueError, u.UnitConversionError):
-            raise UnitsError(str(what), own, unit or "a pure number", example) from None
-        return value.copy(data=_plain_array(value.values, unit, None) * factor)
-    plain = _plain_array(value.values, unit, UnitsError(str(what), value, unit, example))
-    return value if plain is value.values else value.copy(data=plain)
-
-
-def _plain_array(value: Any, unit: str, wrong: UnitsError | None) -> Any:
+def _plain(value: Any, wanted: _Wanted) -> Any:
     """Numbers that are in the unit already."""
     try:
         array = np.asarray(value)
-    except (ValueError, OverflowError):
-        raise wrong or UnitsError("value", value, unit, "1.0") from None
-    if array.dtype.kind == "m" and unit == "s" and not np.isnat(array).any():
+        if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits
+            array = array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise wanted.wrong(value) from None
+    if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
         return array / np.timedelta64(1, "us") * 1e-6
     if array.dtype.kind not in "fiu":
-        raise wrong or UnitsError("value", value, unit, "1.0")
+        raise wanted.wrong(value)
     return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
-
-
-def _stack(values: list[Any], wrong: UnitsError) -> FloatArray:
-    try:
-        return np.stack([np.asarray(value, dtype=np.float64) for value in values])
-    except ValueError:
-        raise wrong from None
 
 
 def _where(what: object) -> Where:
@@ -225,6 +234,11 @@ class Number:
     plain: bool = True
 
     @property
+    def hint(self) -> str:
+        """Type for editors."""
+        return "Value" if self.text else "Pure"
+
+    @property
     def words(self) -> str:
         """What may be given."""
         return f'"{self.example}"' if self.unit else self.example
@@ -233,8 +247,10 @@ class Number:
         """Check and convert."""
         real = isinstance(given, (int, float)) and not hasattr(given, "to_value")
         if (isinstance(given, str) and not self.text) or (real and not self.plain):
-            hint = f"give it with its unit, like '{self.example}'" if self.unit else (
-                f"give a number without quotes, like {self.example}"
+            hint = (
+                f"give it with its unit, like '{self.example}'"
+                if self.unit
+                else (f"give a number without quotes, like {self.example}")
             )
             raise where.error(given, hint)
         value = quantity(given, self.unit, where, self.example)
@@ -246,6 +262,8 @@ class Number:
 
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
+        if self.above == 0:
+            return "it is greater than zero"
         if self.above > -math.inf:
             return f"it is greater than {self.above:g}{unit}"
         if self.high < math.inf:
@@ -275,6 +293,8 @@ class Numbers:
     example: str
     shape: tuple[int | None, ...]
     optional_row: bool = False
+
+    hint = "Values"
 
     @property
     def words(self) -> str:
@@ -339,6 +359,8 @@ class Whole:
 
     low: int = 1
 
+    hint = "int"
+
     @property
     def words(self) -> str:
         """What may be given."""
@@ -367,6 +389,11 @@ class Word:
     allowed: tuple[str, ...]
 
     @property
+    def hint(self) -> str:
+        """Type for editors."""
+        return f"Literal[{', '.join(map(repr, self.allowed))}]"
+
+    @property
     def words(self) -> str:
         """What may be given."""
         return " or ".join(f'"{word}"' for word in self.allowed)
@@ -388,7 +415,7 @@ class Word:
 class Text:
     """A line of text."""
 
-    words = "a line of text"
+    words, hint = "a line of text", "str"
 
     def read(self, given: object, where: Where) -> str:
         """Check."""
@@ -413,9 +440,14 @@ class Several:
     of: Kind[Any]
 
     @property
+    def hint(self) -> str:
+        """Type for editors."""
+        return f"{self.of.hint} | Sequence[{self.of.hint}]"
+
+    @property
     def words(self) -> str:
         """What may be given."""
-        return f"a list of {self.of.words}"
+        return f"{self.of.words}; one or a list"
 
     def read(self, given: object, where: Where) -> tuple[Any, ...]:
         """Check each."""
@@ -439,7 +471,7 @@ def kind_of(annotation: Any) -> Kind[Any]:
         A type that reads itself, an Annotated with a kind, Literal words, or a tuple of them.
     """
     if get_origin(annotation) is Annotated:
-        return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))  # type: ignore[no-any-return]
+        return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))
     if get_origin(annotation) in (Union, UnionType):
         (inner,) = (one for one in get_args(annotation) if one is not NoneType)
         return kind_of(inner)

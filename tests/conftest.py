@@ -48,9 +48,15 @@ def load_pins(topic: str) -> dict[str, Pin]:
 
 
 @pytest.fixture(scope="session")
-def precession_result() -> xr.Dataset:
-    """The shipped precession scene, run once."""
-    return earthspin.run("precession")
+def precession_tree() -> xr.DataTree:
+    """The shipped precession scene with all its sections, run once."""
+    return earthspin.run_tree("precession")
+
+
+@pytest.fixture(scope="session")
+def precession_result(precession_tree: xr.DataTree) -> xr.Dataset:
+    """The answer alone."""
+    return precession_tree.to_dataset()
 
 
 @pytest.fixture(scope="session")

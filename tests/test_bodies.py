@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from earthspin import EARTH, MARS, SUN, BodyError, SceneError
 from earthspin.bodies import BODIES, body
+from earthspin.errors import Where
 
 
 @pytest.mark.parametrize("name", BODIES)
@@ -26,7 +27,7 @@ def test_a_body_is_frozen() -> None:
 
 def test_a_name_that_is_nearly_right() -> None:
     with pytest.raises(SceneError, match="did you mean 'earth'"):
-        body("erth")
+        body("erth", Where("body"))
 
 
 @pytest.mark.parametrize(

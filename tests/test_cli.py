@@ -1,6 +1,7 @@
 """The command line, as a process would be used: output, files, exit status."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -9,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from earthspin import storage
+import earthspin
 from earthspin.cli import main
-from earthspin.scene.spec import shipped_scenes
+from earthspin.engine import store
+from earthspin.scenes import QUESTIONS, shipped_scenes
 from tests.sky.test_ephemeris import bad_kernels
 
 
@@ -34,7 +36,7 @@ def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert "http" not in page.replace("http://www.w3.org", "").replace(
         "http://purl.org", ""
     ).replace("https://matplotlib.org", "").replace("http://creativecommons.org", "")
-    result = storage.read(tmp_path / "r" / "precession.nc")
+    result = store.open(tmp_path / "r" / "precession.nc")
     assert result.precession_period.sizes == {"perturber": 3}
     assert sorted(p.name for p in (tmp_path / "r").iterdir()) == [
         "index.html",
@@ -78,7 +80,7 @@ def test_run_with_a_changed_key(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     words = ("run", "torque", "--set", "step=12 h", "--set", 'perturbers=["sun"]')
     status, out, _ = run(capsys, *words, "--out", str(tmp_path))
     assert status == 0
-    result = storage.read(tmp_path / "torque.nc")
+    result = store.open(tmp_path / "torque.nc")
     assert result.sizes["time"] == 2 * 366 + 1
     assert list(result.perturber.values) == ["sun"]
     assert f"wrote {tmp_path / 'torque.nc'}" in out
@@ -96,23 +98,127 @@ def test_run_as_json(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_series_too_long_for_memory_goes_to_zarr(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from earthspin.scene import running
+    from earthspin.parts import times
 
-    monkeypatch.setattr(running, "LONGEST_IN_MEMORY", 100)
+    monkeypatch.setattr(times, "LONGEST_IN_MEMORY", 100)
     status, _out, _ = run(capsys, "run", "torque", "--out", str(tmp_path))
     assert status == 0
-    assert storage.read(tmp_path / "torque.zarr").sizes["time"] == 4 * 366 + 1
+    assert store.open(tmp_path / "torque.zarr").sizes["time"] == 4 * 366 + 1
 
 
 def test_plan_scenes_info(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(capsys, "plan", "wobble")
+    status, out, _ = run(capsys, "plan", "precession")
     assert status == 0
-    assert "ephemeris" in out.split("left out")[1]
+    assert "standstills" in out.split("left out")[1]
+    status, out, _ = run(capsys, "plan", "precession", "--sections", "standstills")
+    assert "standstills" in out.split("left out")[0]
+    status, out, _ = run(capsys, "plan", "wobble")
+    assert "kernel" not in out
     status, out, _ = run(capsys, "scenes")
     assert {line.split()[0] for line in out.splitlines()} == set(shipped_scenes())
     status, out, _ = run(capsys, "info")
     assert "de421" in out
     assert "1899-07-29 to 2053-10-09" in out
+
+
+def test_sections_are_printed_and_written(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, out, _ = run(capsys, "run", "precession")
+    assert status == 0
+    assert "Lunar standstills" not in out
+    assert "--sections" in out
+    status, out, _ = run(capsys, "run", "precession", "--sections", "standstills,seasons")
+    assert status == 0
+    assert "Lunar standstills" in out
+    assert "mccullough" not in out
+    status, out, _ = run(capsys, "run", "precession", "--sections", "all")
+    assert "mccullough" in out
+    for name in ("p.nc", "p.zarr"):
+        file = tmp_path / name
+        status, out, _ = run(
+            capsys, "run", "precession", "--sections", "seasons", "--out", str(file)
+        )
+        assert status == 0
+        assert f"wrote {file}" in out
+        tree = store.open(file)
+        assert set(tree.children) == {"seasons", "plan"}
+        assert np.all(tree["plan"].run_time[tree["plan"].status == "ran"] >= 0)
+    status, out, _ = run(capsys, "run", "wobble", "--out", str(tmp_path / "w"))
+    assert set(store.open(tmp_path / "w" / "wobble.nc").children) == {
+        *QUESTIONS["wobble"].graph.sections,
+        "plan",
+    }
+
+
+def test_sections_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "run", "wobble", "--json", "--sections", "observed")
+    assert status == 0
+    sections = json.loads(out)["sections"]
+    assert list(sections) == ["observed"]
+    assert "observed_period" in sections["observed"]["data_vars"]
+
+
+def test_a_file_runs_again(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    answer = earthspin.run("top-wave")
+    answer.to_netcdf(tmp_path / "plain.nc")
+    status, _, _ = run(capsys, "run", str(tmp_path / "plain.nc"), "--out", str(tmp_path / "b.nc"))
+    assert status == 0
+    assert store.open(tmp_path / "b.nc").to_dataset().identical(answer)
+
+
+def test_keys_and_help_come_from_the_classes(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "keys")
+    assert status == 0
+    assert all(f"compute = {word!r}" in out for word in QUESTIONS)
+    status, out, _ = run(capsys, "run", "top-loop", "--help")
+    assert status == 0
+    assert "m g r, weight times" in out
+    assert "--sections" in out
+    status, out, err = run(capsys, "run", "--help")
+    assert (status, err) == (0, "")
+    status, _, err = run(capsys, "run", "top-lop", "--help")
+    assert status == 2
+    assert "did you mean 'top-loop'" in err
+
+
+def test_the_plan_as_a_script(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "plan", "wobble", "--script")
+    assert status == 0
+    compile(out, "wobble.py", "exec")
+
+
+COMPLETIONS = {
+    "earthspin sc": {"scenes"},
+    "earthspin run top-l": {"top-loop"},
+    "earthspin run top-loop --set top.th": {"top.theta=", "top.theta_rate="},
+    "earthspin run precession --set top": set(),
+    "earthspin plan precession --sections stand": {"standstills"},
+    "earthspin accuracy free": {"free-rotor"},
+    "earthspin keys polar": {"polar-motion"},
+}
+
+
+@pytest.mark.parametrize("line", COMPLETIONS)
+def test_what_a_shell_is_offered(line: str) -> None:
+    """As bash asks: the line in the environment, the words on file descriptor 8."""
+    asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "COMP_LINE": line}
+    found = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m earthspin 8>&1 9>/dev/null >/dev/null"],
+        env={**os.environ, **asked, "COMP_POINT": str(len(line))},
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout
+    assert {word.strip() for word in found.split("\n") if word.strip()} == COMPLETIONS[line]
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_for_shells(capsys: pytest.CaptureFixture[str], shell: str) -> None:
+    status, out, _ = run(capsys, "completion", shell)
+    assert status == 0
+    assert "earthspin" in out
+    assert "_ARGCOMPLETE" in out
 
 
 def test_as_a_module() -> None:
@@ -137,6 +243,14 @@ def wrong_commands(folder: Path) -> list[tuple[list[str], str]]:
         (["run", str(folder / "scene.toml")], "scene.toml"),
         (["run", str(folder / "empty.toml")], "compute"),
         (["run", "torque", "--set", "stepp=1 h"], "step"),
+        (["run", "precession", "--set", 'step="1 h"'], "step"),
+        (["run", "precession", "--set", 'equator="true"'], "equator"),
+        (["run", "wobble", "--set", 'span=["2000-01-01", "2001-01-01"]'], "span"),
+        (["run", "wobble", "--ephemeris", "de421"], "ephemeris"),
+        (["report", "wobble", "--ephemeris", "de421"], "ephemeris"),
+        (["run", "top-loop", "--set", "rotor.moments=1"], "rotor"),
+        (["run", "precession", "--sections", "standstils"], "standstills"),
+        (["run", "sun-only", "--sections", "seasons"], "moon"),
         (["run", "torque", "--set", "step=0 h"], "0 h"),
         (["run", "torque", "--set", "step=1 kg"], "1 kg"),
         (["run", "torque", "--set", "nonsense"], "KEY=VALUE"),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from earthspin import constants as c
-from earthspin.dataset import FROM_SI
+from earthspin.engine.labels import FROM_SI
 
 CONSTANTS = {name: value for name, value in vars(c).items() if isinstance(value, c.Constant)}
 

@@ -1,4 +1,4 @@
-"""The house: its doors, its words, and that all of it is delivered."""
+"""The package: its import rules, its words, and that all of it is delivered."""
 
 import re
 import subprocess
@@ -26,11 +26,18 @@ def test_doors_are_one_way() -> None:
 
 
 def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
-    """Comments and docstrings may; code may not, save the default of the short calls."""
+    """Comments and docstrings may; code may not, save the defaults of questions."""
     word = re.compile(r"[\"'](the )?earth[\"']|\bEARTH\b|\bEarth\b|\b399\b")
-    allowed = {"bodies.py", "constants.py", "spec.py", "calls.py", "__init__.py"}
-    for path in PACKAGE.rglob("*.py"):
-        if path.name in allowed:
+    allowed = {
+        *("bodies.py", "constants.py", "__init__.py", "__init__.pyi"),
+        # the bodies that a question takes if none is named
+        *("parts/sky.py", "questions/wobble.py", "questions/spheroid.py"),
+        "questions/polar_motion.py",
+    }
+    paths = {str(path.relative_to(PACKAGE)): path for path in PACKAGE.rglob("*.py*")}
+    assert allowed <= set(paths)
+    for name, path in paths.items():
+        if name in allowed or path.suffix not in {".py", ".pyi"}:
             continue
         code = re.sub(r'""".*?"""|#[^\n]*', "", path.read_text(), flags=re.DOTALL)
         assert not word.search(code), path
@@ -70,13 +77,18 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
         archive.extractall(tmp_path)
     assert all(n.startswith(("earthspin/", f"earthspin-{earthspin.__version__}")) for n in names)
     assert "earthspin/py.typed" in names
+    scenes = {f"earthspin/shipped/{path.name}" for path in (PACKAGE / "shipped").glob("*.toml")}
+    assert len(scenes) == 15
+    assert scenes <= set(names)
     program = (
         f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
         "import importlib, earthspin\n"
         f"assert earthspin.__file__.startswith({str(tmp_path)!r})\n"
         f"for name in {MODULES!r}: importlib.import_module(name)\n"
         "for name in earthspin.__all__: getattr(earthspin, name)\n"
-        "assert 'wobble' in earthspin.scene.spec.shipped_scenes()\n"
+        "from earthspin.scenes import shipped_scenes\n"
+        f"assert list(shipped_scenes()) == {sorted(Path(name).stem for name in scenes)!r}\n"
+        "for name in shipped_scenes(): earthspin.load_scene(name)\n"
         "from earthspin.views.page import PackageLoader\n"
         "PackageLoader('earthspin.views').get_source("
         "__import__('jinja2').Environment(), 'page.html.j2')\n"

@@ -5,6 +5,14 @@ import sys
 
 import pytest
 
+from earthspin.scenes import shipped_scenes
+
+#: What costs a second or more to load, and what stands on it.
+HEAVY = {
+    *("scipy", "astropy", "xarray", "pandas", "jplephem", "skyfield", "erfa", "matplotlib"),
+    *("netCDF4", "zarr", "dask", "jinja2", "rich"),
+}
+
 
 def modules_after(program: str) -> set[str]:
     """Top-level modules that a fresh process has imported after a program."""
@@ -19,8 +27,8 @@ def modules_after(program: str) -> set[str]:
 
 
 def test_importing_costs_nothing() -> None:
-    loaded = modules_after("import earthspin; earthspin.EARTH; earthspin.Body")
-    assert not loaded & {"numpy", "scipy", "xarray", "astropy", "skyfield", "matplotlib"}
+    loaded = modules_after("import earthspin; earthspin.EARTH; earthspin.Body; dir(earthspin)")
+    assert not loaded & {"numpy", *HEAVY}
 
 
 def test_a_wobble_opens_no_sky() -> None:
@@ -52,24 +60,54 @@ def test_a_scene_draws_nothing(scene: str) -> None:
     assert "jplephem" in loaded
 
 
-def test_planning_computes_nothing() -> None:
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_planning_loads_numpy_at_most(scene: str) -> None:
+    """And no physics that a plan does not tell of."""
     loaded = modules_after(
-        "import earthspin; print(earthspin.plan(earthspin.load_scene('torque')))"
+        f"import earthspin; print(earthspin.plan({scene!r}), earthspin.plan({scene!r}, 'all'))"
     )
-    # astropy.units reads the step
-    assert not loaded & {"xarray", "scipy", "skyfield", "jplephem", "erfa", "matplotlib"}
+    assert "earthspin" in loaded
+    assert not loaded & HEAVY
+
+
+def test_every_way_to_give_a_key_in_text_loads_numpy_at_most() -> None:
+    program = """
+import earthspin
+earthspin.plan(earthspin.load_scene("torque", {
+    "body.spin_period": "12 h", "span": ["1990-01-01", "1990-02-01T06:00:00.5"], "step": "10 min",
+    "accuracy": "1 mas", "body.radius": "6378 km", "equator": "true", "perturbers": ["moon"],
+}))
+"""
+    assert not modules_after(program) & HEAVY
 
 
 def test_no_public_name_is_a_modules_name() -> None:
+    """Of the modules right under the package, which importing them sets as its attributes."""
     import pkgutil
 
     import earthspin
 
-    modules = {
-        part
-        for module in pkgutil.walk_packages(earthspin.__path__, "earthspin.")
-        for part in module.name.split(".")[1:]
-    }
-    public = {name for name in earthspin.__all__ if not name.startswith("_")}
-    # `torque` and `scene` are words of the grammar too, but not public names.
-    assert not public & modules
+    modules = {module.name for module in pkgutil.iter_modules(earthspin.__path__)}
+    assert "questions" in modules
+    assert not {name for name in earthspin.__all__ if not name.startswith("_")} & modules
+
+
+def test_public_names_alone_are_shown() -> None:
+    program = (
+        "import earthspin; earthspin.plan('wobble'); earthspin.accuracy\n"
+        "assert dir(earthspin) == sorted(earthspin.__all__)\n"
+        "for name in dir(earthspin): getattr(earthspin, name)\n"
+        "assert dir(earthspin) == sorted(earthspin.__all__)"
+    )
+    modules_after(program)
+
+
+@pytest.mark.parametrize("program", ["import earthspin.accessor", "import earthspin.scenes"])
+def test_the_accessor_is_registered_when_it_is_asked_for(program: str) -> None:
+    look = f"{program}\nimport xarray as xr; print(hasattr(xr.Dataset, 'earthspin'))"
+    out = subprocess.run([sys.executable, "-c", look], check=True, capture_output=True, text=True)
+    assert out.stdout == f"{'accessor' in program}\n"
+
+
+def test_the_first_call_registers_the_accessor() -> None:
+    modules_after("import earthspin; assert earthspin.wobble_ladder().earthspin.scene")

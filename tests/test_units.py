@@ -1,29 +1,34 @@
 """The border: what is taken, what is refused, and that nothing is lost on the way."""
 
 import datetime as dt
+import math
 
 import astropy.units as u
 import numpy as np
 import pytest
 import xarray as xr
-from astropy.time import Time
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin import SceneError, UnitsError, units
+from earthspin import EarthspinError, SceneError, UnitsError, units
+from earthspin.errors import Where
+from earthspin.units import COMMON, Number, Numbers, Several, Text, Whole, Word, kind_of
+
+STEP = Where("step")
+SECONDS = Number("s", "6 h")
 
 
 @pytest.mark.parametrize(
     "value", ["6 h", 6 * u.h, dt.timedelta(hours=6), np.timedelta64(6, "h"), 21600, 21600.0]
 )
 def test_durations(value: object) -> None:
-    assert units.seconds(value) == 21600.0
+    assert SECONDS.read(value, STEP) == 21600.0
 
 
 @pytest.mark.parametrize("value", ["6", "6 kg", "6 houres", "", "h", 6 * u.m, True])
 def test_what_is_no_duration(value: object) -> None:
     with pytest.raises(UnitsError) as error:
-        units.seconds(value, "step")
+        SECONDS.read(value, STEP)
     assert "step" in str(error.value)
     assert "\n" not in str(error.value)
 
@@ -35,93 +40,194 @@ def test_arcsec_per_century_is_not_arcsec_per_cycle() -> None:
         units.quantity("5040.4 arcsec/cy", "arcsec/yr", "rate", "50 arcsec/yr")
 
 
-@pytest.mark.parametrize(
-    "value",
-    [
-        "2000-01-01T12:00:00",
-        "2000-01-01 12:00",
-        np.datetime64("2000-01-01T12"),
-        dt.datetime(2000, 1, 1, 12),
-        Time(2451545.0, format="jd", scale="tdb"),
-        Time("2000-01-01T12:00:00", scale="tdb"),
-    ],
-)
-def test_dates(value: object) -> None:
-    assert units.microseconds(value) == 0
-
-
-def test_a_time_in_utc_is_converted() -> None:
-    # UTC + 32 s + 32.184 s = TT; TDB differs from TT by at most 2 ms
-    day = units.days(Time("2000-01-01T12:00:00", scale="utc"))[0]
-    assert abs(day * 86400 - 64.184) < 2e-3
+@pytest.mark.parametrize("unit", COMMON)
+@given(number=st.floats(-1e12, 1e12))
+def test_common_units_are_astropys_bit_for_bit(unit: str, number: float) -> None:
+    measures, size = COMMON[unit]
+    astropys = u.Quantity(f"{number!r} {unit}").to_value(u.Unit(measures))
+    assert float(number) * size == astropys
+    read = units.quantity(f"{number!r} {unit}", measures, "it", f"1 {unit}")
+    assert read == astropys
+    assert math.copysign(1.0, read) == math.copysign(1.0, astropys)
 
 
 @pytest.mark.parametrize(
     "value",
     [
-        "tomorrow",
-        "2000-13-01",
-        "2000-02-30",
-        "NaT",
-        np.datetime64("NaT"),
-        3.0,
+        math.nan,
+        math.inf,
+        -math.inf,
+        "nan s",
+        "inf h",
+        math.nan * u.s,
+        np.float64("nan"),
+        [1.0, math.nan],
+        np.array([1.0, math.inf]),
+        [1.0, math.inf] * u.s,
+        xr.DataArray([1.0, math.nan], dims="draw"),
+        np.ma.masked_array([1.0, 2.0], [False, True]),
+        np.ma.masked,
+        10**400,
+        np.timedelta64("NaT"),
+        np.array([1, "NaT"], "m8[s]"),
+        "many",
+        "1 s 2",
+        ["1 s", "2 kg"],
+        [[1.0], [1.0, 2.0]],
+        [["1 s"], ["1 s", "2 s"]],
         None,
-        dt.datetime(2000, 1, 1, tzinfo=dt.UTC),
+        ...,
+        {"a": 1},
+        1j,
+        np.array(["1", "2"]),
+        b"1 s",
+        [True, False],
+        xr.DataArray([1.0], dims="draw", attrs={"units": "kg"}),
+        xr.DataArray([1.0], dims="draw", attrs={"units": "parsnips"}),
+        [1.0, 2.0] * u.kg,
+        [1 * u.s, 2 * u.m],
     ],
+    ids=repr,
 )
-def test_what_is_no_date(value: object) -> None:
-    with pytest.raises(SceneError) as error:
-        units.microseconds(value, "span")
-    assert error.value.key == "span"
+def test_what_is_no_number_of_seconds(value: object) -> None:
+    with pytest.raises(EarthspinError) as error:
+        units.quantity(value, "s", Where("times"), "1 s")
+    assert "times" in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_masked_array_that_hides_nothing_is_an_array() -> None:
+    assert units.quantity(np.ma.masked_array([1.0, 2.0]), "s", "it", "1 s").tolist() == [1.0, 2.0]
+
+
+def test_a_labelled_array_that_says_its_units_is_converted() -> None:
+    hours = xr.DataArray([1.0, 2.0], {"draw": [7, 8]}, ("draw",), attrs={"units": "h"})
+    found = units.quantity(hours, "s", "it", "1 s")
+    assert found.values.tolist() == [3600.0, 7200.0]
+    assert found.draw.values.tolist() == [7, 8]
+
+
+# --- kinds -----------------------------------------------------------------------------------
+
+
+def test_a_range_is_kept_and_named() -> None:
+    share = Number("", "0.1", low=0.0, high=0.2)
+    assert share.read(0.2, STEP) == 0.2
+    for wrong in (-1e-9, 0.21):
+        with pytest.raises(SceneError, match=r"between 0 and 0\.2"):
+            share.read(wrong, STEP)
+    with pytest.raises(SceneError, match="greater than zero"):
+        Number("d", "433 d", above=0.0).read("0 d", STEP)
+    with pytest.raises(SceneError, match="one number"):
+        share.read([0.1, 0.1], STEP)
+
+
+def test_a_number_may_want_its_unit_or_none() -> None:
+    with pytest.raises(SceneError, match="with its unit"):
+        Number("rad", "1 mas", plain=False).read(1e-6, STEP)
+    with pytest.raises(SceneError, match="without quotes"):
+        Number("", "1e-6", text=False).read("1e-6", STEP)
 
 
 @pytest.mark.parametrize(
-    "times",
+    ("shape", "given", "found"),
     [
-        ["2000-01-01T12", "2000-01-02T12"],
-        np.array(["2000-01-01T12", "2000-01-02T12"], "M8[ns]"),
-        xr.DataArray(np.array(["2000-01-01T12", "2000-01-02T12"], "M8[us]"), dims="time"),
-        Time([2451545.0, 2451546.0], format="jd", scale="tdb"),
+        ((None,), [1, 2, 3], (3,)),
+        ((None,), 5.0, (1,)),
+        ((3,), ["1 m", "2 km", 3], (3,)),
+        ((None, 3), [1, 2, 3], (1, 3)),
+        ((None, 3), [[1, 2, 3], [4, 5, 6]], (2, 3)),
+        ((None, 3), [[1 * u.m, 2 * u.km, 3 * u.m]], (1, 3)),
     ],
 )
-def test_lists_of_times(times: object) -> None:
-    assert units.days(times).tolist() == [0.0, 1.0]
+def test_arrays_have_the_shape_that_is_wanted(
+    shape: tuple[int | None, ...], given: object, found: tuple[int, ...]
+) -> None:
+    values = Numbers("m", "1 m", shape).read(given, STEP)
+    assert values.shape == found
+    assert not values.flags.writeable
 
 
-@pytest.mark.parametrize("times", [[], ["x"], np.array(["NaT"], "M8[us]"), [[["2000-01-01"]]]])
-def test_what_is_no_list_of_times(times: object) -> None:
-    with pytest.raises(SceneError):
-        units.days(times)
+@pytest.mark.parametrize(
+    ("shape", "given"),
+    [
+        ((None,), []),
+        ((None,), [[1.0]] * 2),
+        ((3,), [1, 2]),
+        ((3,), [1, 2, 3, 4]),
+        ((None, 3), [1, 2]),
+        ((None, 3), [[1, 2]]),
+        ((None, 3), [[[1, 2, 3]]]),
+        ((None, 3), np.zeros((0, 3))),
+        ((None, 3), 7.0),
+    ],
+)
+def test_sizes_that_do_not_fit(shape: tuple[int | None, ...], given: object) -> None:
+    with pytest.raises(SceneError, match="shape") as error:
+        Numbers("m", "1 m", shape).read(given, STEP)
+    assert "\n" not in str(error.value)
 
 
-@given(st.integers(-14_000_000_000_000_000, 21_000_000_000_000_000))
-def test_no_microsecond_is_lost_between_1550_and_2650(count: int) -> None:
-    whole, rest = divmod(count, units.MICROSECONDS_PER_DAY)
-    day = np.array([whole + rest / units.MICROSECONDS_PER_DAY])
-    back = (units.datetime64(day) - units.J2000).astype(int)[0]
-    assert abs(back - count) <= 3  # float64 days hold 5 us at the ends, 0.3 us in our century
+def test_an_array_does_not_change_with_what_was_given() -> None:
+    given = np.array([1.0, 2.0])
+    read = Numbers("s", "1 s", (None,)).read(given, STEP)
+    given[0] = 9.0
+    assert read.tolist() == [1.0, 2.0]
 
 
-@given(step=st.integers(1, 10**13), size=st.integers(1, 50), start=st.integers(-(10**16), 10**16))
-def test_a_grid_is_exact(step: int, size: int, start: int) -> None:
-    grid = units.TimeGrid(start, step, size)
-    expected = [(start + k * step) / units.MICROSECONDS_PER_DAY for k in range(size)]
-    assert np.allclose(grid.days(), expected, rtol=0, atol=2e-14)
-    assert np.array_equal(grid.days(size // 2, size), grid.days()[size // 2 :])
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=70))
+def test_arrays_are_written_and_read_exactly(listed: list[float]) -> None:
+    for unit in ("s", ""):
+        kind = Numbers(unit, f"1 {unit}", (None,))
+        back = kind.read(kind.write(np.array(listed)), STEP)
+        assert np.array_equal(back, listed)
+        assert np.array_equal(np.signbit(back), np.signbit(listed))
 
 
-def test_the_end_of_a_span_is_included_if_the_step_meets_it() -> None:
-    assert units.time_grid("2000-01-01", "2000-01-02", "6 h").size == 5
-    assert units.time_grid("2000-01-01", "2000-01-02", "7 h").size == 4
-    assert units.time_grid("2000-01-01", "2000-01-01", "7 h").size == 1
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_numbers_are_written_and_read_exactly(number: float) -> None:
+    for unit in ("s", "rad", "kg m2", "N m", "rad/s", "d", ""):
+        kind = Number(unit, f"1 {unit}")
+        back = kind.read(kind.write(number), STEP)
+        assert back == number
+        assert math.copysign(1, back) == math.copysign(1, number)
 
 
-@pytest.mark.parametrize("step", [0, -1, "0 h", "-3 h", float("nan"), float("inf"), 1e-9])
-def test_steps_that_lead_nowhere(step: object) -> None:
-    with pytest.raises(SceneError, match="greater than zero"):
-        units.time_grid("2000-01-01", "2000-01-02", step)
+def test_arrays_that_are_damaged_are_refused() -> None:
+    kind = Numbers("s", "1 s", (None,))
+    good = kind.write(np.arange(40.0))
+    for wrong in ({"shape": [39]}, {"float64": "%%"}, {"float64": 3}, {"shape": "x"}):
+        with pytest.raises(SceneError, match="list of numbers"):
+            kind.read(good | wrong, STEP)
 
 
-def test_a_span_that_ends_before_it_starts() -> None:
-    with pytest.raises(SceneError, match="ends before it starts"):
-        units.time_grid("2000-01-02", "2000-01-01", "6 h")
+@pytest.mark.parametrize("given", [0, -3, 1.0, "7", True, None, np.float64(3)])
+def test_what_is_no_whole_number(given: object) -> None:
+    with pytest.raises(SceneError, match="whole number, 1 or more"):
+        Whole().read(given, STEP)
+    assert Whole().read(np.int64(7), STEP) == 7
+
+
+def test_words_lists_and_text() -> None:
+    word = Word(("mean", "true"))
+    assert word.read("mean", STEP) == "mean"
+    assert word.read(True, STEP) == "true"  # TOML's own, and a shell that takes the quotes away
+    for wrong in ("men", 3, None, ["mean"]):
+        with pytest.raises(SceneError, match="allowed: mean, true"):
+            word.read(wrong, STEP)
+    several = Several(word)
+    assert several.read("true", STEP) == ("true",)
+    assert several.read(["mean", "true"], STEP) == ("mean", "true")
+    assert several.write(("mean",)) == ["mean"]
+    with pytest.raises(SceneError, match="line of text"):
+        Text().read(5, STEP)
+
+
+def test_kinds_follow_from_types() -> None:
+    from typing import Literal
+
+    assert kind_of(Literal["a", "b"]) == Word(("a", "b"))
+    assert kind_of(tuple[Literal["a"], ...]) == Several(Word(("a",)))
+    assert kind_of(units.Days | None).unit == "d"
+    assert kind_of(str) == Text()
+    assert kind_of(int) == Whole()

@@ -35,7 +35,7 @@ class Case:
     name : str
         In plain words, like no other.
     part : str
-        Of the house.
+        Of the package.
     hard_because : str
         What makes it hard.
     held_against : str

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from earthspin._version import __version__
 from earthspin.checks.case import FAILS, HOLDS, REFUSED, Case, Outcome, judge
-from earthspin.dataset import CONVENTIONS, Variable, build
+from earthspin.engine.labels import CONVENTIONS, Variable, build
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Rooms that have cases, in the order in which they run.
+#: Parts of the package that have cases, in the order in which they run.
 PARTS = (
     "mass",
     "rotor",
@@ -40,7 +40,7 @@ SCHEMA = {
     "unit": Variable(_CASE, "", "unit of the distance and its bound"),
     "verdict": Variable(_CASE, "", "holds, refused or fails"),
     "must_hold": Variable(_CASE, "", "whether only an answer will do"),
-    "case_part": Variable(_CASE, "", "part of the house that is tried"),
+    "case_part": Variable(_CASE, "", "part of the package that is tried"),
     "hard_because": Variable(_CASE, "", "what makes it hard"),
     "held_against": Variable(_CASE, "", "invariant, or independent reference"),
     "reason": Variable(_CASE, "", "why it was refused, or fails"),
@@ -84,8 +84,8 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
 
 def all_cases() -> tuple[Case, ...]:
     """Every case there is."""
-    rooms = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
-    return tuple(case for room in rooms for case in room.CASES)
+    modules = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
+    return tuple(case for module in modules for case in module.CASES)
 
 
 def chosen_cases(
@@ -129,7 +129,6 @@ def chosen_cases(
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
     """The dataset of cases and how they went."""
     result = build(
-        "stability",
         SCHEMA,
         {
             "measured": [o.measured for o in outcomes],

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.dataset import FROM_SI, Variable, build
+from earthspin.engine.labels import FROM_SI, Variable, build
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import Advance, progress
 
@@ -349,7 +349,6 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
     bound = np.array([method.bound for method in ladder.methods])
     ours = np.array([method.ours for method in ladder.methods])
     result = build(
-        "accuracy",
         schema(ladder.unit),
         {
             "error": error,
@@ -399,7 +398,7 @@ def _attributes(
     from importlib.metadata import version
 
     from earthspin._version import __version__
-    from earthspin.dataset import CONVENTIONS
+    from earthspin.engine.labels import CONVENTIONS
 
     return {
         "title": f"Error against run time: {ladder.quantity}",

@@ -40,7 +40,6 @@ class Averaging:
     torque_errors: Mapping[str, float]
 
 
-
 @dataclass(frozen=True)
 class Pushed:
     """What decides how far an error of the mean tensor is one of the rate of precession.

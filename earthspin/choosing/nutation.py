@@ -28,7 +28,6 @@ class NutationNodes:
     spacing: float
 
 
-
 def nutation_choices(first: float, last: float, size: int) -> list[Choice[NutationNodes | None]]:
     """Ways to the true equator with their errors.
 

@@ -34,7 +34,6 @@ class PoleWindows:
     order: int
 
 
-
 def window_choices(
     code: int,
     figure: Figure,

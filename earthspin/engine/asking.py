@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import inspect
 import textwrap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from earthspin.engine.plan import plan
 from earthspin.engine.question import Key, Question, keys_of
 from earthspin.engine.run import run
 
@@ -69,9 +68,8 @@ def signature_of(question: type[Question]) -> inspect.Signature:
     """Signature of the public call."""
     parameters = []
     for name, one in arguments_of(question).items():
-        place = inspect.Parameter.POSITIONAL_OR_KEYWORD
-        if name not in question.positional:
-            place = inspect.Parameter.KEYWORD_ONLY
+        free = name in question.positional
+        place = inspect.Parameter.POSITIONAL_OR_KEYWORD if free else inspect.Parameter.KEYWORD_ONLY
         default: Any = None
         if one is not None and not ("start" in question.positional and name == "step"):
             default = inspect.Parameter.empty if one.required else _as_written(one.shown)
@@ -90,10 +88,7 @@ def docstring_of(question: type[Question]) -> str:
     """Docstring of the public call: that of the class, with a sentence for each argument."""
     head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
     lines = [head, "", "Parameters", "----------"]
-    span = keys_of(question).get("span")
     for name, one in arguments_of(question).items():
-        source = span if one is None else one
-        assert source is not None
         if one is None:
             lines += [f"{name} : date", f"    {_END[name]}"]
             continue
@@ -144,14 +139,11 @@ def script_of(question: type[Question]) -> str:
         inputs = [i for i in (*one.needs, *one.uses) if i in parts or i in keys]
         arguments = ", ".join(f"{i}={i}" for i in inputs)
         lines.append(f"    {name} = {one.__module__}.{name}({arguments})")
-    ends: Mapping[str, tuple[str, ...]] = {"answer": question.graph.answer}
-    for section, names in (ends | question.graph.sections).items():
+    ends = {"answer": question.graph.answer} | question.graph.sections
+    for section, names in ends.items():
         lines.append(f"    _{section} = {', '.join(names)}")
     return "\n".join([*lines, ""])
 
 
 def _head(question: type[Question]) -> str:
     return inspect.cleandoc(question.__doc__ or "").split("\n")[0]
-
-
-__all__ = ["ask", "docstring_of", "plan", "script_of", "signature_of"]

@@ -93,27 +93,42 @@ def build(
 
     if set(values) != set(schema):
         raise SchemaError(f"a part gave {sorted(values)}, declares {sorted(schema)}")
-    arrays: dict[str, xr.DataArray | xr.Variable] = {}
+    arrays: dict[str, xr.Variable] = {}
+    labels: dict[Any, Any] = dict(coords or {})
     for name, declared in schema.items():
         value = values[name]
-        labelled = isinstance(value, xr.DataArray)
-        array = value.variable if labelled else xr.Variable(declared.dims, value)
-        if not set(declared.dims) <= set(array.dims):
-            raise SchemaError(f"{name} has {array.dims}, declares {declared.dims}")
-        data = array.transpose(*declared.dims, ...)
-        size = np.asarray(data.values * FROM_SI.get(declared.units, 1.0)) if (
-            declared.units in FROM_SI
-        ) else data.values
-        if size.dtype.kind == "f" and bool(np.isnan(size).any()):
+        if isinstance(value, xr.DataArray):
+            _collect(labels, value)
+            value = value.variable
+        else:
+            value = xr.Variable(declared.dims, value)
+        if not set(declared.dims) <= set(value.dims):
+            raise SchemaError(f"{name} has {value.dims}, declares {declared.dims}")
+        laid = value.transpose(*declared.dims, ...)
+        data = laid.values
+        if declared.units in FROM_SI:
+            data = np.asarray(data * FROM_SI[declared.units])
+        if data.dtype.kind == "f" and np.isnan(data).any():
             raise UndefinedError(
                 f"{declared.long_name} has no value here; check the body's numbers"
             )
         attributes = _attributes(name, declared, schema)
-        if frame and "component" in data.dims:
+        if frame and "component" in laid.dims:
             attributes["frame"] = frame
-        made = xr.Variable(data.dims, size, attributes)
-        arrays[name] = xr.DataArray(made, coords=value.coords) if labelled else made
-    return xr.Dataset(arrays, coords=dict(coords or {}))
+        arrays[name] = xr.Variable(laid.dims, data, attributes)
+    return xr.Dataset(arrays, coords=labels)
+
+
+def _collect(labels: dict[Any, Any], array: xr.DataArray) -> None:
+    """Add the labels of an array to those of the others, with which they must agree."""
+    for name, own in array.coords.items():
+        known = labels.setdefault(name, own.variable)
+        if (
+            known is not own.variable
+            and hasattr(known, "equals")
+            and not known.equals(own.variable)
+        ):
+            raise SchemaError(f"labels along '{name}' differ from one variable to the next")
 
 
 def si(array: xr.DataArray) -> xr.DataArray:

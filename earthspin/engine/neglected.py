@@ -57,4 +57,8 @@ class Neglected:
         source = (("references", self.source),) if self.source else ()
         schema = {"neglected_effect": Variable(("effect",), self.unit, self.what, source)}
         sizes = [float(self.sizes.get(name, 0.0)) for name in names]
-        return build(schema, {"neglected_effect": sizes}, coords={"effect": ("effect", np.array(names, dtype=str))})
+        return build(
+            schema,
+            {"neglected_effect": sizes},
+            coords={"effect": ("effect", np.array(names, dtype=str))},
+        )

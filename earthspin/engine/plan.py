@@ -139,7 +139,8 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     wanted = _wanted(question, sections)
     kept = []
     for section in wanted:
-        if any([choose(name) for name in graph.sections[section]]):
+        told = [name for name in graph.sections[section] if choose(name)]
+        if told:
             kept.append(section)
         elif sections != ALL:
             why = reasons[graph.sections[section][0]]

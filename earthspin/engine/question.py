@@ -9,7 +9,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any, ClassVar, Self, dataclass_transform, get_type_hints
 
 from earthspin.engine.part import BLOCK, Part
@@ -75,6 +75,12 @@ class Key:
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
 
 
+def _shown(value: Any, kind: Kind[Any]) -> Any:
+    """A value as one would give it: bodies by their names."""
+    bodies = value if isinstance(value, tuple) else (value,)
+    return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
+
+
 def plain_words(value: Any) -> str:
     """Write a value on one line: bodies by their names."""
     if isinstance(value, (tuple, list)):
@@ -106,6 +112,7 @@ class Question:
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     graph: ClassVar[Graph]
+    key_table: ClassVar[dict[str, Key]]
 
     title: str = key("", doc="words for headings")
 
@@ -184,7 +191,9 @@ class Question:
                         raise SceneError(f"{name}.{inner}", of, nearest(inner, own), source=source)
                 flat |= value
             elif name in keys and keys[name].setting:
-                raise SceneError(name, value, f"it belongs in the table [{cls.table}]", source=source)
+                raise SceneError(
+                    name, value, f"it belongs in the table [{cls.table}]", source=source
+                )
             else:
                 flat[name] = value
         made = cls.__new__(cls)
@@ -222,9 +231,9 @@ class Question:
 
     def __repr__(self) -> str:
         shown = [
-            f"{name}={plain_words(getattr(self, name))!r}"
-            for name in keys_of(type(self))
-            if name in self.given
+            f"{name}={_shown(getattr(self, name), one.kind)!r}"
+            for name, one in keys_of(type(self)).items()
+            if name in self.given and getattr(self, name) is not None
         ]
         return f"{type(self).__name__}({', '.join(shown)})"
 
@@ -232,9 +241,14 @@ class Question:
 dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 
 
-@lru_cache
 def keys_of(question: type[Question]) -> dict[str, Key]:
     """Keys of a question by name, in the order in which its class has them."""
+    if "key_table" not in vars(question):
+        question.key_table = _read_keys(question)
+    return question.key_table
+
+
+def _read_keys(question: type[Question]) -> dict[str, Key]:
     hints = get_type_hints(question, include_extras=True)
     return {
         one.name: Key(
@@ -314,7 +328,7 @@ def made_of(
         for parameter in (*one.needs, *one.uses):
             if parameter not in names | keys | {BLOCK}:
                 raise TypeError(f"{question.__name__}: {one.name} asks for '{parameter}'")
-    if NEGLECTED not in told:
+    if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
     question.graph = Graph(
         named,

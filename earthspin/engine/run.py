@@ -213,19 +213,18 @@ def _attributes(ran: Ran) -> dict[str, str]:
         if several and all(hasattr(one, "reference") for one in several):
             references += [one.reference for one in several if one.reference]
             attributes[name] = " ".join(one.name for one in several)
-            changes = "; ".join(one.changes for one in several if one.changes)
-            if changes:
-                attributes[f"{name}_changes"] = changes
+            changed = [one for one in several if one.changes]
+            if changed:
+                words = [
+                    one.changes if one is value else f"{one.name}: {one.changes}" for one in changed
+                ]
+                attributes[f"{name}_changes"] = "; ".join(words)
         elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
     for value in ran.given.values():
         attributes |= getattr(value, "provenance", {})
-    neglected = [ran.given.get(name) for name in question.graph.sections[NEGLECTED]]
-    attributes[NEGLECTED] = next(
-        (one.largest for one in neglected if one is not None),
-        f"size not known: {ran.plan.left_out.get(NEGLECTED, '')}",
-    )
+    attributes[NEGLECTED] = ran.given[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes
 

@@ -6,7 +6,9 @@ interrupted finds the old file as it was.
 
 from __future__ import annotations
 
+import datetime as dt
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -27,12 +29,12 @@ TIME_ENCODING = {
 }
 
 
-def write(result: xr.Dataset, path: str | Path) -> Path:
-    """Write a result to a file.
+def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
+    """Write an answer, alone or with its sections, to a file.
 
     Parameters
     ----------
-    result : Dataset
+    result : Dataset or DataTree
     path : str or Path
         Ends in ``.nc`` or ``.zarr``.
 
@@ -48,15 +50,15 @@ def write(result: xr.Dataset, path: str | Path) -> Path:
         If zarr is asked for and not installed.
     """
     if Path(path).suffix == ".zarr":
-        return write_blocks([result], path)
+        return _write_zarr(result, path)
     _refuse_other_endings(Path(path))  # by its own name, not the draft's
     with replacing(path) as draft:
         write_netcdf(result, draft)
     return Path(path)
 
 
-def write_netcdf(result: xr.Dataset, path: Path) -> None:
-    """Write a result straight to a netCDF file; `write` does so whole or not at all.
+def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
+    """Write an answer straight to a netCDF file; `write` does so whole or not at all.
 
     Raises
     ------
@@ -64,12 +66,62 @@ def write_netcdf(result: xr.Dataset, path: Path) -> None:
         If the name does not end in ``.nc``.
     """
     _refuse_other_endings(path)
-    result.to_netcdf(path, engine="netcdf4", encoding=_encoding(result))
+    for number, (group, node) in enumerate(_groups(result).items()):
+        node.to_netcdf(
+            path,
+            mode="a" if number else "w",
+            group=group,
+            engine="netcdf4",
+            encoding=_encoding(node),
+        )
+
+
+def _groups(result: xr.Dataset | xr.DataTree) -> dict[str | None, xr.Dataset]:
+    """The answer, with the date in its history, and its sections by the group of each in a file."""
+    groups: dict[str | None, xr.Dataset] = {None: _answer_of(result)}
+    for path, node in getattr(result, "subtree_with_keys", ()):
+        if path != ".":
+            groups[path] = node.to_dataset(inherit=False)
+    history = groups[None].attrs.get("history")
+    if history is not None:
+        stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+        groups[None] = groups[None].assign_attrs(history=f"{stamp} {history}")
+    return groups
+
+
+def _answer_of(result: xr.Dataset | xr.DataTree) -> xr.Dataset:
+    import xarray as xr
+
+    return result.to_dataset() if isinstance(result, xr.DataTree) else result
+
+
+def _write_zarr(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
+    """Write an answer with its sections to Zarr, a group for each node."""
+    zarr = _zarr()
+    with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
+        for group, node in _groups(result).items():
+            node.to_zarr(
+                str(draft),
+                mode="w" if group is None else "a",
+                group=group,
+                consolidated=False,
+                zarr_format=2,  # version 3 has no settled way to keep words
+                encoding=_encoding(node),
+            )
+    return Path(path)
 
 
 def _refuse_other_endings(path: Path) -> None:
     if path.suffix != ".nc":
         raise OutputError(path, "it ends in neither .nc nor .zarr", "choose one of the two")
+
+
+def _zarr() -> Any:
+    try:
+        import zarr
+    except ImportError:
+        raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
+    return zarr
 
 
 def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
@@ -89,15 +141,12 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
     MissingExtraError
         If zarr is not installed.
     """
-    try:
-        import zarr
-    except ImportError:
-        raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
+    zarr = _zarr()
     # Each thread of zarr's would keep the memory of the largest chunk that it has ever packed.
     with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
         for number, block in enumerate(blocks):
             if number == 0:
-                block.to_zarr(
+                _groups(block)[None].to_zarr(
                     draft,
                     mode="w",
                     consolidated=False,
@@ -110,13 +159,18 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
     return Path(path)
 
 
-def read(path: str | Path) -> xr.Dataset:
-    """Read a result back, times as ``datetime64[us]``.
+def open(path: str | Path) -> xr.Dataset | xr.DataTree:
+    """Read what was written back as it was: an answer, or an answer with its sections.
 
     Parameters
     ----------
     path : str or Path
         NetCDF is read whole, Zarr as it is used.
+
+    Returns
+    -------
+    Dataset or DataTree
+        Times as ``datetime64[us]``.
 
     Raises
     ------
@@ -125,17 +179,36 @@ def read(path: str | Path) -> xr.Dataset:
     """
     import xarray as xr
 
+    import earthspin.accessor  # noqa: F401 - registers ds.earthspin
+
+    zarr = Path(path).suffix == ".zarr"
+    options: dict[str, Any] = (
+        {"engine": "zarr", "consolidated": False} if zarr else {"engine": "netcdf4"}
+    )
     coder = xr.coders.CFDatetimeCoder(time_unit="us")
     try:
-        if Path(path).suffix == ".zarr":
-            result: xr.Dataset = xr.open_zarr(
-                path, decode_times=coder, consolidated=False, chunks=None
-            )
-            return result
-        with xr.open_dataset(path, decode_times=coder, engine="netcdf4") as file:
-            return file.load()
+        nodes = xr.open_groups(path, decode_times=coder, **options)
+        if not zarr:
+            nodes = {name: _loaded(node) for name, node in nodes.items()}
     except (OSError, ValueError, KeyError) as error:
         raise OutputError(path, f"it cannot be read: {_one_line(error)}") from None
+    root = nodes["/"]
+    if "history" in root.attrs:  # the date belongs to the file
+        nodes["/"] = root.assign_attrs(history=_STAMP.sub("", root.attrs["history"]))
+    return nodes["/"] if len(nodes) == 1 else xr.DataTree.from_dict(nodes)
+
+
+def _loaded(node: xr.Dataset) -> xr.Dataset:
+    """Read a node whole and close its file."""
+    with node:
+        return node.load()
+
+
+#: Date that a file's history begins with.
+_STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
+
+#: The same by its older name.
+read = open
 
 
 def check_writable(folder: str | Path) -> Path:

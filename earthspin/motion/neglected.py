@@ -1,7 +1,8 @@
 """How far each effect moves the axes of the Earth, for those who leave it out.
 
-Measured by `python -m data_tools neglected`: the path of the figure axis with all effects of a rigid
-Earth under Sun and Moon, less the path with one switched off; the response of the inside switched on.
+Measured by `python -m data_tools neglected`: the path of the figure axis with all effects of a
+rigid Earth under Sun and Moon, less the path with one switched off; for the response of the inside,
+the path with it less the path without.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ class Growth(NamedTuple):
 
 
 SIZES = {
-    "planets": Growth(0.20, 0.1255),
-    "j3": Growth(0.202, 0.00187),
-    "j4": Growth(0.0016, 0.01003),
-    "triaxiality": Growth(0.038, 0.00035),
-    "geodesic": Growth(0.141, 7.6377),
-    "j2-rate": Growth(0.006, 0.0, 2.76e-4),
-    "second-order": Growth(9.2, 0.2438),
+    "planets": Growth(0.237, 0.125),
+    "j3": Growth(0.215),
+    "j4": Growth(0.00163, 0.0101),
+    "triaxiality": Growth(0.041),
+    "geodesic": Growth(0.0629, 7.64),
+    "j2-rate": Growth(0.00483, 0.0, 2.81e-4),
+    "second-order": Growth(9.72, 0.179),
     "nonrigid": Growth(57.5),
 }
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from earthspin.bodies import IAU_2006, Body
+from earthspin.bodies import BODIES, IAU_2006, PLANETS, Body
 from earthspin.choosing.promises import MARGIN
+from earthspin.constants import DAY
 from earthspin.engine.part import part
+from earthspin.parts.pulls import forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 
 if TYPE_CHECKING:
@@ -28,10 +30,7 @@ def windows_on_offer(
     epochs: TimeGrid | TimeList,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where the sky was not measured."""
-    from earthspin.bodies import BODIES, PLANETS
     from earthspin.choosing.windows import window_choices
-    from earthspin.constants import DAY
-    from earthspin.parts.pulls import forces_of, start_of
 
     forces = forces_of(body, pulls, effects)
     _, epoch = start_of(body, pulls)
@@ -79,7 +78,6 @@ def averages_on_offer(
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
     from earthspin.choosing.averages import Pull, Pushed, average_choices
-    from earthspin.constants import DAY
     from earthspin.sky.equator import angle, orbit_normal, pole_at
     from earthspin.torque.average import best_window
 
@@ -128,7 +126,7 @@ def on_mean_equator(equator: str) -> str | None:
 def chosen_nutation(
     sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """The cheapest nutation that meets the accuracy asked for, next to what the kernel is off by."""
+    """The cheapest nutation that meets the accuracy asked for, with what the kernel is off by."""
     from earthspin.choosing.choice import cheapest
     from earthspin.choosing.nutation import nutation_choices
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from earthspin.bodies import Body
+from earthspin.constants import DAY, NORMAL_95
 from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.part import part
 
@@ -22,8 +23,6 @@ def not_kept(body: Body) -> str | None:
 @part(gives=OBSERVED, unless=not_kept)
 def observed_wobble(body: Body) -> xr.Dataset:
     """The observed period of the free wobble, a cited figure."""
-    from earthspin.constants import DAY, NORMAL_95
-
     observed = body.observed_wobble
     assert observed is not None
     period = observed.value * DAY

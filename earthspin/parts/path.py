@@ -6,16 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from earthspin.bodies import Body
+from earthspin.constants import DAY
 from earthspin.engine.part import part
+from earthspin.errors import UndefinedError
 from earthspin.parts.pulls import NONRIGID, Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import refuse_what_does_not_fit
+from earthspin.progress import progress
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from earthspin.choosing.choice import Choice
     from earthspin.choosing.windows import PoleWindows
     from earthspin.compare.analysis import PoleAnalysis, Secular
@@ -43,8 +46,6 @@ def axis_path(
 
     The windows that were chosen are taken if they will do, the finest otherwise.
     """
-    from earthspin.errors import UndefinedError
-
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
     tried: list[AxisPath] = []
     for choice in (*(chosen_windows or ()), None):
@@ -64,9 +65,6 @@ def axis_path(
 
 def _worst_error(body: Body, path: AxisPath, epochs: TimeGrid | TimeList) -> float:
     """Largest error of a direction at the times wanted, H included, rad."""
-    import numpy as np
-
-    from earthspin.constants import DAY
     from earthspin.motion.axes import error_of_input
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -85,11 +83,7 @@ def _follow(
     choice: Choice[PoleWindows] | None,
 ) -> AxisPath:
     """Integrate on chosen windows, or on the finest."""
-    import numpy as np
-
-    from earthspin.constants import DAY
     from earthspin.motion.axes import WINDOW, axis_path, window_count
-    from earthspin.progress import progress
 
     sky = pulls.sky
     sky.ephemeris.check_times(np.array(epochs.span()), {*pulls.targets.values(), sky.centre})
@@ -144,8 +138,6 @@ class Analysed:
         self, path: AxisPath, days: NDArray[np.float64], axis: str = "figure"
     ) -> NDArray[np.float64]:
         """Unit vectors of one axis without the semidiurnal motion."""
-        from earthspin.constants import DAY
-
         return path.at(days * DAY, semidiurnal=False)[axis]
 
 
@@ -157,7 +149,6 @@ def path_over(
     days: NDArray[np.float64],
 ) -> AxisPath:
     """Axes over some days, the sky kept for the next run over the same."""
-    from earthspin.constants import DAY
     from earthspin.motion.axes import axis_path
 
     _, epoch = start_of(body, pulls)
@@ -173,12 +164,8 @@ def rigid(effects: Sequence[str]) -> list[str]:
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
-    import numpy as np
-
     from earthspin.compare.analysis import PoleAnalysis, shifted_start
     from earthspin.compare.nutation import complex_nutation
-    from earthspin.constants import DAY
-    from earthspin.progress import progress
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
@@ -217,8 +204,6 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
 @part
 def core_response(pole_analysis: Analysed, body: Body) -> Response:
     """Resonance form fitted to IAU 2000A over our rigid amplitudes."""
-    import numpy as np
-
     from earthspin.compare.response import SUN_SYNCHRONOUS, fit_response
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles

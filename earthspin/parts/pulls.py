@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from earthspin.bodies import Body
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import BODIES, PLANETS, Body
+from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from earthspin.motion.forces import Forces
 
 #: What moves the axis beside the pull of the perturbers on the bulge.
@@ -65,8 +66,6 @@ class Pulls:
         self, names: Sequence[str], times: NDArray[np.float64], keep: bool
     ) -> dict[str, NDArray[np.float64]]:
         """Places of some of them at times in s; kept for runs that ask for the same again."""
-        from earthspin.constants import DAY
-
         at = (float(times[0]), float(times[-1]), times.size)
         known = self._seen.setdefault(at, {}) if keep else {}
         missing = {name: self.targets[name] for name in names if name not in known}
@@ -76,13 +75,8 @@ class Pulls:
 
 
 @part
-def pulls(
-    sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]
-) -> Pulls:
+def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
     """Masses and places of the perturbers, and of the planets if switched on."""
-    from earthspin.bodies import BODIES, PLANETS
-    from earthspin.constants import DAY
-
     masses = {p.name: p.number("gm") for p in perturbers}
     targets = dict(sky.targets)
     if "planets" in effects:
@@ -96,7 +90,6 @@ def pulls(
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Forces with some effects switched on and no other evaluated."""
-    from earthspin.constants import DAY
     from earthspin.mass.inertia import inverse_polar_moment
     from earthspin.motion.forces import Figure, Forces
     from earthspin.sky.equator import mean_pole
@@ -128,7 +121,6 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:
     """Figure axis to start with, and when (s): J2000.0, or as near as the kernel reaches."""
-    from earthspin.constants import DAY
     from earthspin.sky.equator import pole_at
 
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])

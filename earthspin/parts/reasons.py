@@ -23,6 +23,15 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     return "the comparison is for sun and moon alone" if len(names) > 2 else None
 
 
+def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Leave the IAU's numbers out for an Earth whose figure or spin has been changed."""
+    if not_sun_and_moon(body, perturbers):
+        return not_sun_and_moon(body, perturbers)
+    if body.is_as_named:
+        return None
+    return f"the IAU's numbers are those of another {body.name}: {body.changes}"
+
+
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave out what follows the Moon above the Earth's equator."""
     if no_iau_model(body):

@@ -8,16 +8,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
+from numpy.typing import NDArray
+
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
-from earthspin.errors import Where
+from earthspin.engine.run import version
+from earthspin.errors import SceneError, UndefinedError, Where
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from earthspin.sky.ephemeris import Ephemeris
 
 
@@ -26,6 +27,7 @@ class KernelName:
     """Kind of an ephemeris: the name of a kernel, the path of a file, or a kernel of Skyfield's."""
 
     words = '"de421", "de440", or the path of a .bsp file'
+    hint = "str | PathLike[str] | SpiceKernel"
 
     def read(self, given: object, where: Where) -> str:
         """Take a name or a path; of a kernel of Skyfield's, its file."""
@@ -107,8 +109,6 @@ class Sky:
     @cached_property
     def provenance(self) -> dict[str, str]:
         """Kernel and readers, for the attributes of an answer."""
-        from earthspin.engine.run import version
-
         return {
             "ephemeris": self.ephemeris.name,
             "ephemeris_sha256": self.ephemeris.sha256,
@@ -132,10 +132,6 @@ class Sky:
         UndefinedError
             If one comes into the body: torques on the bulge hold outside alone.
         """
-        import numpy as np
-
-        from earthspin.errors import UndefinedError
-
         targets = self.targets if targets is None else targets
         found = self.ephemeris.positions(targets, self.centre, days)
         for name, place in found.items():
@@ -171,7 +167,6 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
 @part
 def sky(ephemeris: str, places: Places) -> Sky:
     """Open the kernel and find the bodies in it."""
-    from earthspin.errors import SceneError
     from earthspin.sky.ephemeris import open_ephemeris
 
     kernel = open_ephemeris(ephemeris)
@@ -186,8 +181,6 @@ def sky(ephemeris: str, places: Places) -> Sky:
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
     """The span asked for, if the kernel covers it, or all that the kernel covers."""
-    import numpy as np
-
     codes = {*sky.targets.values(), sky.centre}
     if span is None:
         return Stretch(*sky.ephemeris.coverage(codes))

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
+import numpy as np
+
 from earthspin.dates import Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.engine.question import key
+from earthspin.errors import SceneError
 from earthspin.parts.sky import Pulled
 from earthspin.units import FloatArray, Numbers
 
@@ -40,8 +43,6 @@ def epochs(span: Span, step: float, times: TimeList | None) -> TimeGrid | TimeLi
 @part
 def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
     """The times of the motion, s from its start."""
-    import numpy as np
-
     return np.linspace(0.0, duration, points) if times is None else times
 
 
@@ -52,8 +53,6 @@ def refuse_what_does_not_fit(epochs: TimeGrid | TimeList, remedy: str) -> None:
     ------
     SceneError
     """
-    from earthspin.errors import SceneError
-
     if epochs.size > LONGEST_IN_MEMORY:
         raise SceneError(
             "step",

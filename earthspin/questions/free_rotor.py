@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
+
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build
@@ -37,6 +39,7 @@ class Moments:
     differences: bool = False
 
     words = 'three values like "8.01e37 kg m2", or a table of "A", "B-A" and "C-A"'
+    hint = "Values | Mapping[str, Value]"
 
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:
@@ -99,7 +102,7 @@ class FreeRotor(
     >>> import earthspin
     >>> racket = earthspin.free_rotor([1, 2, 2.8], [0.01, 1, 0], [0, 10, 20])
     >>> print(racket.omega_body.sel(component="y").round(2).values)
-    [1.   0.98 0.47]
+    [ 1.    0.53 -1.  ]
     """
 
     exclusive = (("times",), ("duration", "points"))
@@ -192,8 +195,6 @@ ADVANCE = {"herpolhode_advance": Variable((), "rad", "turn of the herpolhode per
 @part(gives=POINSOT, unless=several_starts)
 def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dataset:
     """Ellipsoids, polhode and herpolhode of a free rotor."""
-    import numpy as np
-
     from earthspin.rotor import poinsot as p
     from earthspin.rotor.euler import axis_stability
 

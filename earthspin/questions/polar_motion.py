@@ -7,21 +7,22 @@ from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from earthspin.bodies import EARTH, Body
-from earthspin.dates import Span
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import EARTH, IAU_2006, Body
+from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
+from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error
+from earthspin.engine.labels import Variable, build, si, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.errors import SceneError, Where
-from earthspin.parts.reasons import no_iau_model
 from earthspin.units import Days, FloatArray, Number, Numbers, kind_of
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray as xr
-    from numpy.typing import NDArray
 
     from earthspin.wobble.observed import WobbleFit
 
@@ -36,7 +37,7 @@ _MJD = 51544.5
 class TableFile:
     """Kind of a table of polar motion: a known one, or a local file."""
 
-    words = '"c04" or the path of a file'
+    words, hint = '"c04" or the path of a file', "str | PathLike[str]"
 
     def read(self, given: object, where: Where) -> str:
         """Take a word or a path."""
@@ -69,12 +70,14 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     >>> import earthspin
     >>> pole = earthspin.polar_motion(span=("1970-01-01", "2000-01-01"))
     >>> print(pole.x.attrs["references"])
-    IERS C04
+    IERS c04
     """
 
     body: Body = key(EARTH, doc="whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[str, TableFile()] = setting("c04", doc="the daily table of the IERS that astropy carries, or a local file")
+    file: Annotated[str, TableFile()] = setting(
+        "c04", doc="the daily table of the IERS that astropy carries, or a local file"
+    )
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="what sort of table it is; told from the file if not given"
     )
@@ -94,12 +97,14 @@ OBSERVED = {
 }
 
 
-@part(gives=OBSERVED, unless=no_iau_model)
-def observed_pole(
-    body: Body, span: Span | None, file: str, kind: str | None
-) -> xr.Dataset:
+def not_observed(body: Body) -> str | None:
+    """Leave out a body whose pole no table holds."""
+    return None if body.pole == IAU_2006 else f"no polar motion of {body.name} is kept"
+
+
+@part(gives=OBSERVED, unless=not_observed)
+def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) -> xr.Dataset:
     """Observed polar motion from a table of the IERS."""
-    from earthspin.constants import NORMAL_95
     from earthspin.sky.eop import read_polar_motion
 
     series = read_polar_motion(file, kind)
@@ -156,9 +161,6 @@ QUALITY = {
 @part(gives=CHANDLER)
 def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr.Dataset:
     """Period, quality factor and amplitude of the free wobble in the observed pole."""
-    import numpy as np
-
-    from earthspin.constants import DAY, MAS
     from earthspin.wobble import observed
 
     time, p = complex_pole(observed_pole)
@@ -205,12 +207,6 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
     SceneError
         If it has no x and y with units along time, or its days repeat or go back.
     """
-    import numpy as np
-
-    from earthspin.constants import ARCSEC, MAS
-    from earthspin.dates import days
-    from earthspin.engine.labels import si
-
     _need_series(pole, ("x", "y"), ("arcsec", "mas"))
     for name in ("x", "y"):
         largest = float(abs(si(pole[name])).max())
@@ -235,7 +231,9 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
 def _need_series(given: object, names: tuple[str, str], units: tuple[str, ...]) -> None:
     """Refuse what is no Dataset with two series along time that say their units."""
     if not hasattr(given, "data_vars"):
-        raise SceneError("series", type(given).__name__, f"give a Dataset with {' and '.join(names)}")
+        raise SceneError(
+            "series", type(given).__name__, f"give a Dataset with {' and '.join(names)}"
+        )
     for name in names:
         if name not in given or given[name].dims != ("time",):  # type: ignore[operator, index]
             raise SceneError(
@@ -248,7 +246,6 @@ def _need_series(given: object, names: tuple[str, str], units: tuple[str, ...]) 
 
 
 def _stamps(days: FloatArray) -> NDArray[np.datetime64]:
-    from earthspin.dates import datetime64
 
     return datetime64(days)
 
@@ -335,7 +332,6 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     EarthspinError
         If the series is uneven or has no numbers.
     """
-    from earthspin.constants import MAS
     from earthspin.wobble import resonance as ex
 
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
@@ -384,11 +380,6 @@ def polar_motion_from(
     EarthspinError
         If the series is uneven or has no numbers, or the free wobble is not known.
     """
-    import numpy as np
-
-    from earthspin.constants import MAS
-    from earthspin.dates import days
-    from earthspin.engine.labels import si
     from earthspin.wobble import resonance as ex
 
     _need_series(chi, ("chi1", "chi2"), ("mas",))
@@ -441,8 +432,6 @@ def read_excitation(path: str | Path) -> xr.Dataset:
 
 def _even_step(time: FloatArray) -> float:
     """Spacing of even times, d."""
-    import numpy as np
-
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > 1e-6):
         raise SceneError(

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from earthspin.bodies import IAU_2006, Body
 from earthspin.choosing.promises import promise, refuse_unkept, report
-from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.constants import DAY
+from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, si
 from earthspin.engine.neglected import Neglected
@@ -36,9 +39,9 @@ if TYPE_CHECKING:
 class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the axes under the torques, in the GCRS.
 
-    The body starts from its pole at J2000.0; the Earth from that of IAU 2006/2000A. Of the effects,
-    `geodesic` needs the Sun among the perturbers and turns a sphere, too; `nonrigid` is the response
-    of the Earth's inside, fitted to IAU 2000A.
+    The body starts from its pole at J2000.0; the Earth from that of IAU 2006/2000A. Of the
+    effects, `geodesic` needs the Sun among the perturbers and turns a sphere, too; `nonrigid` is
+    the response of the Earth's inside, fitted to IAU 2000A.
 
     Returns
     -------
@@ -113,10 +116,6 @@ def axes(
     response: Shift | None = None,
 ) -> xr.Dataset:
     """Directions of angular-momentum, rotation and figure axis at every time."""
-    import numpy as np
-
-    from earthspin.constants import DAY
-    from earthspin.dates import datetime64
     from earthspin.motion.axes import AXES, error_of_input
 
     now = epochs.days(0, epochs.size)
@@ -181,8 +180,6 @@ ANGLES = {
 @part(gives=ANGLES, unless=no_longitude)
 def pole_angles(axes: xr.Dataset, body: Body) -> xr.Dataset:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
-    import numpy as np
-
     from earthspin.compare.angles import on_fixed_ecliptic
     from earthspin.sky.equator import ecliptic_axes
 
@@ -208,9 +205,11 @@ def pole_accuracy(axes: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     )
 
 
-@part(unless=no_iau_model)
-def neglected(effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
+@part
+def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
+    if no_iau_model(body) or not body.is_as_named:
+        return Neglected(what=f"sizes were measured for the Earth, not for this {body.name}")
     from earthspin.motion.neglected import SOURCE, size_of_effect
 
     reach = max(abs(day) for day in epochs.span())

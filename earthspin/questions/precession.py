@@ -5,25 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from earthspin.bodies import Body, all_of
 from earthspin.choosing.promises import promise, refuse_unkept, report
-from earthspin.constants import PUBLISHED_EFFECTS
-from earthspin.dates import Span
+from earthspin.constants import DAY, PUBLISHED_EFFECTS
+from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.errors import UndefinedError
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import no_accuracy, no_moon, not_sun_and_moon
+from earthspin.parts.reasons import no_accuracy, no_moon, not_sun_and_moon, not_the_iaus_earth
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky, stretch
 from earthspin.units import Relative
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray as xr
-    from numpy.typing import NDArray
 
     from earthspin.choosing.averages import Averaging
     from earthspin.choosing.choice import Choice
@@ -63,10 +65,13 @@ class Precession(Pulled, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    span: Span | None = key(None, doc="dates to average between; all that the kernel covers if not given")
+    span: Span | None = key(
+        None, doc="dates to average between; all that the kernel covers if not given"
+    )
     accuracy: Relative | None = key(
-        None, doc="largest relative error of the rate by all perturbers; the cheapest settings "
-        "that keep it are chosen"
+        None,
+        doc="largest relative error of the rate by all perturbers; the cheapest settings "
+        "that keep it are chosen",
     )
 
 
@@ -110,9 +115,6 @@ def torque_samples(
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
     """Torque of each perturber through the window that converges fastest."""
-    import numpy as np
-
-    from earthspin.constants import DAY
     from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
     from earthspin.torque.average import best_window, precessing_push
     from earthspin.torque.gravity import torque_from_position
@@ -183,10 +185,8 @@ def mean_rates(
     chosen_average: Choice[Averaging] | None = None,
 ) -> MeanRates:
     """Averages over orbits: rate, period, mean torque, with errors."""
-    import numpy as np
     import xarray as xr
 
-    from earthspin.constants import DAY
     from earthspin.mass.inertia import moment_difference
     from earthspin.torque import rates
     from earthspin.torque.average import window_mean_and_error
@@ -242,8 +242,6 @@ def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, None]:
     """Errors of push and torque of each perturber as measured for a choice, s-2."""
-    import numpy as np
-
     if choice is None:
         return None, None
     of_push = [choice.settings.push_errors[p.name] for p in perturbers]
@@ -252,8 +250,6 @@ def _measured_errors(
 
 def _check_accuracy(asked: float | None, rate: Estimate) -> None:
     """Refuse a relative accuracy that the total does not reach, and say what takes most of it."""
-    from earthspin.errors import UndefinedError
-
     if asked is None:
         return
     if not (rate.value.isel(perturber=-1) != 0).all():
@@ -300,10 +296,6 @@ RATES = {
 @part(gives=RATES)
 def precession_rates(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
     """Rates, periods and torques by perturber, each with its error."""
-    import numpy as np
-
-    from earthspin.constants import DAY
-    from earthspin.dates import datetime64
     from earthspin.torque import rates
 
     rate, torque = mean_rates.rate, mean_rates.torque
@@ -355,7 +347,6 @@ CONVERGENCE = {
 @part(gives=CONVERGENCE)
 def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
     """Averaged rate against the length of the window, plain mean and tapers."""
-    import numpy as np
     import xarray as xr
 
     from earthspin.torque import rates
@@ -380,7 +371,7 @@ def no_figure(body: Body) -> str | None:
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{body.name} has no {missing[0]}"
-    if not all_of((body.flattening > -1) & (body.flattening < 1)):
+    if not all_of(abs(body.needed("flattening")) < 1):
         return "McCullough's formula needs a flattening between -1 and 1"
     if not all_of(body.needed("dynamical_flattening") != 0):
         return "with H = 0 the polar moment does not follow from J2"
@@ -490,7 +481,6 @@ SEASONS = {
 def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Dataset:
     """General precession, years a degree, drift of the calendar."""
     from earthspin.compare import seasons as s
-    from earthspin.constants import DAY
     from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
 
@@ -522,11 +512,10 @@ IAU_2006 = {
 }
 
 
-@part(gives=IAU_2006, unless=not_sun_and_moon)
+@part(gives=IAU_2006, unless=not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
     """IAU 2006 precession beside ours, and what closes the difference."""
     from earthspin.compare.budget import closure
-    from earthspin.constants import DAY
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -555,9 +544,6 @@ STANDSTILLS = {
 @part(gives=STANDSTILLS, unless=no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     """Major and minor standstills of the moon: dates and extreme declinations."""
-    import numpy as np
-
-    from earthspin.dates import datetime64
     from earthspin.sky.equator import equator_of_date, rotate, spherical
     from earthspin.sky.standstill import find_standstills
 
@@ -587,9 +573,12 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     )
 
 
-@part(unless=not_sun_and_moon)
-def neglected(body: Body) -> Neglected:
+@part
+def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
+    unknown = not_the_iaus_earth(body, perturbers)
+    if unknown:
+        return Neglected(what=f"sizes are published for the Earth, Sun and Moon alone: {unknown}")
     from earthspin.compare.budget import published_effects
 
     return Neglected(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
+
 from earthspin.bodies import EARTH, Body, all_of
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
@@ -41,7 +43,7 @@ class Spheroid(
     >>> import earthspin
     >>> field = earthspin.spheroid_field(["7000 km", "0 km", "0 km"])
     >>> print(field.attraction.sel(component="x").round(3).values, "m/s2")
-    [-8.145] m/s2
+    [-8.148] m/s2
     """
 
     body: Body = key(EARTH, doc="whose mass and figure the spheroid has")
@@ -99,20 +101,13 @@ def field_accuracy(field: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     return closed_form(PROMISE, accuracy, CLOSED_FORM_ERROR, "exact closed form", points)
 
 
-def no_j2(body: Body) -> str | None:
-    """Leave the size out where the body's own J2 is not known."""
-    if body.labelled:
-        return "sizes are given for one body at a time"
-    return f"{body.name} has no j2 to compare with" if body.j2 is None else None
-
-
-@part(unless=no_j2)
+@part
 def neglected(body: Body, position: FloatArray) -> Neglected:
     """What the even density leaves out: the body is denser inside and has a smaller J2."""
-    import numpy as np
-
     from earthspin.mass.figure import eccentricity_squared
 
+    if body.labelled or body.j2 is None:
+        return Neglected(what=f"this {body.name} has no single J2 to compare with")
     nearest = float(np.min(np.linalg.norm(position, axis=-1)))
     # (C - A)/(M a2) of an even density is a fifth of e2
     excess = float(eccentricity_squared(body.number("flattening"))) / 5 - body.number("j2")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
+
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build
@@ -63,7 +65,9 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")
     points: Annotated[int, Whole()] = setting(401, doc="how many times, evenly spaced")
-    transverse_moment: Moment = setting(doc="I1, about an axis through the pivot square to the axis")
+    transverse_moment: Moment = setting(
+        doc="I1, about an axis through the pivot square to the axis"
+    )
     axial_moment: Moment = setting(doc="I3, about the axis; no body has more than 2 I1")
     weight_moment: Annotated[float, Number("N m", "0.04 N m")] = setting(
         doc="m g r, weight times the distance from the pivot to the centre of mass"
@@ -171,8 +175,6 @@ POTENTIAL = {
 @part(gives=POTENTIAL)
 def potential(heavy_top_start: HeavyTop) -> xr.Dataset:
     """The effective potential of the inclination."""
-    import numpy as np
-
     from earthspin.top.turning import effective_potential
 
     inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]

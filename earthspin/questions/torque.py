@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from earthspin.bodies import Body
 from earthspin.choosing.promises import promise, refuse_unkept, report
-from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, si, with_error
 from earthspin.engine.neglected import Neglected
@@ -20,18 +23,14 @@ from earthspin.parts.times import DATES, Series, epochs, refuse_what_does_not_fi
 from earthspin.units import AngleError
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray as xr
-    from numpy.typing import NDArray
 
     from earthspin.choosing.choice import Choice
     from earthspin.choosing.nutation import NutationNodes
     from earthspin.sky.iau import Nutation
 
 
-class Torque(
-    Series, word="torque", call="torque_series", positional=("start", "stop", "step")
-):
+class Torque(Series, word="torque", call="torque_series", positional=("start", "stop", "step")):
     """Declination, distance and torque of each perturber in time (I.8.7).
 
     Returns
@@ -51,7 +50,7 @@ class Torque(
     >>> import earthspin
     >>> year = earthspin.torque_series("2000-01-01", "2001-01-01", "1 d")
     >>> print(year.declination.sel(perturber="sun").max().round(3).values)
-    23.438
+    23.439
     """
 
     span: Span = key(
@@ -114,10 +113,8 @@ def torques(
     block: Block | None = None,
 ) -> xr.Dataset:
     """Declination, distance and torque of each perturber at every time."""
-    import numpy as np
     import xarray as xr
 
-    from earthspin.dates import datetime64
     from earthspin.mass.inertia import moment_difference
     from earthspin.sky.equator import equator_of_date, rotate, spherical
     from earthspin.torque.gravity import torque_error, torque_from_declination
@@ -182,9 +179,7 @@ def torques(
     return result
 
 
-def _equator_words(
-    nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
-) -> str:
+def _equator_words(nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None) -> str:
     """How the equator was found, for people."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
@@ -203,16 +198,13 @@ def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     )
 
 
-def not_one_body(body: Body) -> str | None:
-    """Leave sizes out for arrays of bodies."""
-    return "sizes are given for one body at a time" if body.labelled else None
-
-
-@part(unless=not_one_body)
+@part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Largest torque of each part of the figure beyond the bulge, at the nearest distance."""
     from earthspin.torque.neglected import largest_torque_on_figure
 
+    if body.labelled:
+        return Neglected(what="sizes are given for one body at a time")
     nearest = torques.distance.min("time")
     pulls = [(p.gm, float(nearest.sel(perturber=p.name))) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from earthspin.bodies import EARTH, Body, all_of
+import numpy as np
+
+from earthspin.bodies import EARTH, Body, Numeric, all_of
+from earthspin.constants import DAY
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.neglected import Neglected
@@ -132,7 +135,6 @@ class Inside:
 
     def label(self, value: FloatArray) -> xr.DataArray:
         """Give back their names to arrays of the body's own dimensions."""
-        import numpy as np
         import xarray as xr
 
         array = np.asarray(value)
@@ -188,18 +190,17 @@ LADDER = {
 @part(gives=LADDER)
 def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     """Free wobble, from a formula of flattening to a body that yields."""
-    import numpy as np
     import xarray as xr
 
     from earthspin.wobble import ladder
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
-    turns = {
+    turns: dict[str, Numeric] = {
         "flattening": ladder.turns_from_flattening(body.needed("flattening")),
         "rigid": ladder.turns_rigid(h),
         "triaxial": ladder.turns_triaxial(h, j2, body.triaxiality),
     }
-    quality = dict.fromkeys(turns, np.inf)
+    quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
     if inside is not None:
@@ -228,8 +229,6 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
 
 def _sampled(inside: Inside) -> dict[str, FloatArray]:
     """95 % half-widths of the upper rungs, by sampling the inputs."""
-    import numpy as np
-
     from earthspin.wobble import ladder
 
     bodies = np.asarray(inside.spin.gm).size
@@ -240,10 +239,8 @@ def _sampled(inside: Inside) -> dict[str, FloatArray]:
     return {name: (high - low) / 2 for name, (low, high) in ends.items()}
 
 
-def _rigid_spread(body: Body, turns: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
     """95 % half-widths of the rigid rungs: relative errors of f and of H."""
-    import numpy as np
-
     from earthspin.rotor.axisymmetric import free_wobble_error
 
     u = body.relative_uncertainty
@@ -259,7 +256,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, FloatArray]) -> dict[str, Floa
 
 
 def _along(
-    values: Mapping[str, FloatArray],
+    values: Mapping[str, Numeric],
     dim: str,
     label: Callable[[FloatArray], xr.DataArray] | None = None,
 ) -> xr.DataArray:
@@ -291,8 +288,6 @@ INTERIOR = {
 @part(gives=INTERIOR, unless=not_layered)
 def interior_response(body: Body) -> xr.Dataset:
     """Love numbers and moments of the layered interior, by integration."""
-    import numpy as np
-
     from earthspin.wobble.interior import equilibrium
     from earthspin.wobble.named import elastic, global_ocean
 
@@ -319,20 +314,13 @@ SENSITIVITY = {
     "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
     "input_value": Variable(("input",), "1", "value of the input"),
     "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
-    "days_from_input": Variable(
-        ("input",), "d", "95 % half-width of the last rung from the input"
-    ),
+    "days_from_input": Variable(("input",), "d", "95 % half-width of the last rung from the input"),
 }
 
 
 @part(gives=SENSITIVITY)
 def sensitivity(inside: Inside) -> xr.Dataset:
     """Days of the last rung per unit of each input."""
-    from dataclasses import fields
-
-    import numpy as np
-
-    from earthspin.constants import DAY
     from earthspin.wobble import ladder
 
     settings = (inside.spin, inside.interior, inside.ocean)
@@ -345,7 +333,7 @@ def sensitivity(inside: Inside) -> xr.Dataset:
     if "anelastic" in ladder.climb(inside.inputs, *settings).turns:
         half["anelastic_exponent"] = np.asarray((high - low) / 2)
 
-    def stack(parts: Mapping[str, FloatArray]) -> xr.DataArray:
+    def stack(parts: Mapping[str, Numeric]) -> xr.DataArray:
         return _along(parts, "input", inside.label)
 
     return build(
@@ -372,13 +360,12 @@ CORE_NUTATION = {
 @part(gives=CORE_NUTATION)
 def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
     """The system's other root: the free core nutation, by the shape of the core."""
-    from dataclasses import replace
-
     from earthspin.wobble import ladder
 
     shapes = {"hydrostatic": inside.inputs}
     observed = inside.interior.observed_core_ellipticity
-    if observed is not None:
+    # observed in the body itself, not in one that has been changed
+    if observed is not None and body.observed_wobble is not None:
         shapes["observed"] = replace(inside.inputs, core_ellipticity=observed.value)
     settings = (inside.spin, inside.interior, inside.ocean)
     turns = {

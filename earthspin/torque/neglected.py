@@ -47,5 +47,3 @@ def largest_torque_on_figure(
     }
     found["triaxiality"] = sum(1.5 * gm / r**3 * moment * triaxiality for gm, r in pulls)
     return {effect: size for effect, size in found.items() if size}
-
-

@@ -5,13 +5,13 @@ from __future__ import annotations
 import xarray as xr
 
 from earthspin.checks.gauntlet import PARTS, tally
-from earthspin.views.tables import Table
+from earthspin.views.table import Table
 
 HEADERS = ("case", "measured", "bound", "unit", "verdict")
 
 
 def verdict_tables(result: xr.Dataset) -> list[Table]:
-    """One table for each part of the house that has cases in the result.
+    """One table for each part of the package that has cases in the result.
 
     Parameters
     ----------

@@ -1,34 +1,42 @@
-"""The precession report: several scenes that share their parts, one page, one file."""
+"""The two reports: precession, with rotors and tops beside it, and the wobble."""
 
 from __future__ import annotations
 
 from contextlib import ExitStack
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin import storage
+from earthspin._version import __version__
+from earthspin.engine import store
 from earthspin.progress import progress
-from earthspin.scene.running import Session, run
-from earthspin.scene.spec import load_scene
+from earthspin.rotor.axisymmetric import SymmetricRotor
+from earthspin.scenes import load_scene, run, run_tree
+from earthspin.views import free_rotor, top, torque
+from earthspin.views.of_question import drawings_for, page_of
+from earthspin.views.page import page
+from earthspin.views.reading import answer_of, body_of, needed
+from earthspin.views.table import measured
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
-    from earthspin.scene.spec import Scene
     from earthspin.views.drawing import Drawing
+    from earthspin.views.solids import Solid
 
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
+MONTH = 27.32  # d
 
 
 def write_report(
-    folder: str | Path, *, ephemeris: Any = "de421", figures: bool = True
-) -> tuple[xr.Dataset, list[Path]]:
-    """Run the scenes of the report and write the page and the data.
+    folder: str | Path, *, ephemeris: str | PathLike[str] = "de421", figures: bool = True
+) -> tuple[xr.DataTree, list[Path]]:
+    """Run the scenes of the precession report and write the pages and the data.
 
     Parameters
     ----------
@@ -41,7 +49,7 @@ def write_report(
 
     Returns
     -------
-    result : Dataset
+    tree : DataTree
         Of the scene ``precession``.
     written : list of Path
 
@@ -50,76 +58,129 @@ def write_report(
     EarthspinError
         Whatever is wrong; the folder's old files are then as they were.
     """
-    from earthspin.views.page import precession_page, solids_page
-    from earthspin.views.rotor_solids import gallery
-
-    place = storage.check_writable(folder)
-    session = Session()
+    place = store.check_writable(folder)
     with progress("report", 4) as advance:
-        result = run(load_scene("precession", {"ephemeris": ephemeris}), session=session)
+        tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
         advance(1)
-        drawn = _draw(result, ephemeris, session, advance) if figures else []
-        pages = {"index.html": precession_page(result, drawn)}
+        drawings = _torques(tree, advance) + drawings_for(tree) if figures else []
+        title = answer_of(tree).attrs["title"]
+        pages = {"index.html": page_of(tree, title=title, drawings=drawings)}
         if figures:
-            pages["rotors.html"] = solids_page(*gallery())
-    with ExitStack() as together:
-        for name, text in pages.items():
-            draft = together.enter_context(storage.replacing(place / name))
-            draft.write_text(text, encoding="utf-8")
-        storage.write_netcdf(
-            result, together.enter_context(storage.replacing(place / "precession.nc"))
-        )
-    return result, [*(place / name for name in pages), place / "precession.nc"]
+            pages["rotors.html"] = gallery_page()
+        advance(1)
+    return tree, _write(place, pages, {"precession.nc": tree})
 
 
-def _draw(result: xr.Dataset, ephemeris: Any, session: Session, advance: Any) -> list[Any]:
-    """Run the scenes behind the figures and draw them."""
-    from earthspin.views import figures
+def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
+    """Torques through a year and through a turn of the Moon's node, about the reference epoch."""
+    epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
+    kernel = load_scene(tree).keys()["ephemeris"]
 
-    epoch = np.datetime64(result.reference_epoch.values, "D")
-
-    def series(half_span: np.timedelta64, step: str) -> Scene:
+    def series(half_span: np.timedelta64, step: str) -> xr.Dataset:
+        # Inside the window that has just been averaged over, so the kernel has it.
         span = str(epoch - half_span), str(epoch + half_span)
-        return load_scene("torque", {"ephemeris": ephemeris, "span": span, "step": step})
+        return run(load_scene("torque", {"ephemeris": kernel, "span": span, "step": step}))
 
-    # Both spans lie inside the window that has just been averaged over, so the kernel has them.
-    year = series(HALF_A_YEAR, "6 h")
-    cycle = series(HALF_A_NODE_CYCLE, "1 d")
-    through_year = run(year, session=session)
-    through_cycle = run(cycle, session=session)
+    year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
-    drawn = [
-        figures.torque_through(through_year, "A year of declination and torque"),
-        figures.torque_through(through_cycle, "A turn of the Moon's node", smooth_days=27.32),
+    drawings = [
+        torque.through(year, "A year of declination and torque"),
+        torque.through(cycle, "A turn of the Moon's node", smooth_days=MONTH),
     ]
     advance(1)
-    drawn += [figures.convergence_of_windows(result), figures.circle_of_pole(result)]
-    advance(1)
-    return drawn
+    return drawings
 
 
-def scene_views(result: xr.Dataset) -> str:
-    """Page of one scene: its tables, figures and, where there are any, its solids."""
-    from earthspin.views import figures, pole_figures, rotor_solids, wobble_figures
-    from earthspin.views.page import precession_page, scene_page
+def gallery() -> list[Solid]:
+    """Solids of the page of rotors and tops."""
+    prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
+    oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
+    tops = ("top-wave", "top-cusp", "top-loop")
+    return [
+        *free_rotor.solids(run_tree("poinsot", ["poinsot"])),
+        free_rotor.rolling_cones(prolate, "Rolling cones, prolate"),
+        free_rotor.rolling_cones(oblate, "Rolling cones, oblate"),
+        *(top.path_of_top(run_tree(name, ["turning"])) for name in tops),
+    ]
 
-    question = result.attrs["compute"]
-    if question == "precession":
-        return precession_page(result, [figures.convergence_of_windows(result)])
-    if question == "free-rotor":
-        solids = rotor_solids.of_free_rotor(result) if "polhode" in result else []
-        return scene_page(result, figures.free_rotor_drawings(result), solids)
-    if question == "top":
-        return scene_page(result, figures.top_drawings(result), [rotor_solids.path_of_top(result)])
-    draw: dict[str, Callable[[], list[Drawing]]] = {
-        "torque": lambda: [figures.torque_through(result, "Declination and torque")],
-        "pole": lambda: pole_figures.pole_drawings(result),
-        "iau": lambda: pole_figures.iau_drawings(result),
-        "wobble": lambda: [wobble_figures.rungs(result)],
-        "polar-motion": lambda: [
-            wobble_figures.amplitude_and_phase(result),
-            wobble_figures.spectra(result),
-            wobble_figures.polhode(result),
-        ],
-    }
-    return scene_page(result, draw[question]() if question in draw else [])
+
+def gallery_page() -> str:
+    """Page of rotors and tops that comes with the report."""
+    return page(
+        "Rotors and tops",
+        solids=gallery(),
+        lead="How bodies turn without torque (I.5, I.6), and how a heavy top moves (I.7). "
+        "Every picture can be turned with the mouse and played in time.",
+        footer=f"earthspin {__version__}.",
+    )
+
+
+def write_wobble_report(
+    folder: str | Path, *, file: str = "c04", method: str = "burg", figures: bool = True
+) -> tuple[list[xr.DataTree], list[Path]]:
+    """Run the scenes ``wobble`` and ``polar-motion`` and write a page and the data.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Gets ``wobble.html``, ``wobble.nc`` and ``polar-motion.nc``.
+    file : str
+        Table of polar motion.
+    method : str
+        As of `earthspin.fit_chandler`.
+    figures : bool
+        Without them nothing is drawn.
+
+    Returns
+    -------
+    trees : list of DataTree
+        Ladder and polar motion.
+    written : list of Path
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong; the folder's old files are then as they were.
+    """
+    place = store.check_writable(folder)
+    settings = {"polar_motion.file": file, "polar_motion.method": method}
+    with progress("wobble report", 3) as advance:
+        ladder = run_tree("wobble")
+        advance(1)
+        pole = run_tree(load_scene("polar-motion", settings))
+        advance(1)
+        text = page_of(
+            ladder,
+            pole,
+            title="The free wobble, explained and observed",
+            lead=_explained_and_observed(ladder, pole),
+            drawings=None if figures else (),
+        )
+        advance(1)
+    written = _write(place, {"wobble.html": text}, {"wobble.nc": ladder, "polar-motion.nc": pole})
+    return [ladder, pole], written
+
+
+def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
+    """The sentence at the head of the wobble report."""
+    answer = answer_of(ladder)
+    rigid, last = (
+        measured(of, "period_solar", "days")
+        for of in (answer.sel(rung="rigid"), answer.isel(rung=-1))
+    )
+    return (
+        f"Rigid, the {body_of(answer)} would wobble in {rigid}; as it yields, with its core and "
+        f"its seas, in {last}. Observed: "
+        f"{measured(needed(pole, 'chandler'), 'chandler_period', 'days')}."
+    )
+
+
+def _write(place: Path, pages: Mapping[str, str], data: Mapping[str, xr.DataTree]) -> list[Path]:
+    """Write pages and data, all or none of them."""
+    with ExitStack() as together:
+        for name, text in pages.items():
+            draft = together.enter_context(store.replacing(place / name))
+            draft.write_text(text, encoding="utf-8")
+        for name, tree in data.items():
+            store.write_netcdf(tree, together.enter_context(store.replacing(place / name)))
+    return [place / name for name in (*pages, *data)]

@@ -138,6 +138,13 @@ def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> 
     return np.stack([a * u for a, u in zip(semi_axes, unit, strict=True)], axis=-1)
 
 
+def circle(angle: float, points: int = 91) -> FloatArray:
+    """Points of the unit sphere at an angle (rad) from the third axis, shape (points, 3)."""
+    turn = np.linspace(0, 2 * np.pi, points)
+    level = np.full(points, np.cos(angle))
+    return np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), level], axis=-1)
+
+
 def cone(half_angle: float, length: float, columns: int = 41) -> FloatArray:
     """Points on a cone about the third axis with its tip at the centre, shape (2, columns, 3).
 
@@ -148,15 +155,7 @@ def cone(half_angle: float, length: float, columns: int = 41) -> FloatArray:
     length : float
         Along the surface.
     """
-    azimuth = np.linspace(0, 2 * np.pi, columns)
-    rim = length * np.stack(
-        [
-            np.sin(half_angle) * np.cos(azimuth),
-            np.sin(half_angle) * np.sin(azimuth),
-            np.full(columns, np.cos(half_angle)),
-        ],
-        axis=-1,
-    )
+    rim = length * circle(half_angle, columns)
     return np.stack([np.zeros_like(rim), rim])
 
 

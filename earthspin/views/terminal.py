@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table as RichTable
 
 if TYPE_CHECKING:
-    from earthspin.views.tables import Table
+    from earthspin.views.table import Table
 
 #: Columns where the output goes to a file or a pipe.
 WIDTH = 100
@@ -27,7 +27,7 @@ class Terminal(Console):
         raise BrokenPipeError
 
     def print_table(self, table: Table) -> None:
-        """Print a table and its note."""
+        """Print a table, its note and its cost."""
         shown = RichTable(
             title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
         )
@@ -36,5 +36,5 @@ class Terminal(Console):
         for row in table.rows:
             shown.add_row(*row)
         self.print(shown)
-        if table.note:
-            self.print(table.note, style="dim", markup=False)
+        for words in filter(None, (table.note, table.cost)):
+            self.print(words, style="dim", markup=False)

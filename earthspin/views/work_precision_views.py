@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from earthspin import storage
 from earthspin.checks.work_precision import duration, plain, shown_unit
-from earthspin.views.tables import Table
+from earthspin.engine import store
+from earthspin.views.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from earthspin.views.drawing import Drawing
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008), and markers.
 _COLOURS = (
@@ -123,9 +125,9 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     """
     from matplotlib.ticker import LogLocator
 
-    from earthspin.views.figures import _axes
+    from earthspin.views.drawing import axes
 
-    ax = _axes(ax, figsize=(7.5, 4.4))
+    ax = axes(ax, 7.5, 4.4)
     unit = _unit(result)
     for number, name in enumerate(result["method"].values):
         one = result.isel(method=number, rung=slice(0, int(result.settings[number])))
@@ -184,32 +186,22 @@ def _draw_front(result: xr.Dataset, ax: Axes) -> None:
 
 
 def accuracy_figure(result: xr.Dataset) -> Figure:
-    """Figure of a quantity in the house's style, to be saved."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    from earthspin.views.figures import STYLE
-
-    with rc_context(STYLE):
-        ax = plot_accuracy(result)
-        ax.set_title(_figure_title(result), loc="left")
-        assert isinstance(ax.figure, Figure)
-        return ax.figure
-
-
-def _figure_title(result: xr.Dataset) -> str:
-    return _capital(result.attrs["quantity"].replace("-", " "))
+    """Figure of a quantity in the package's style, to be saved."""
+    return _drawing(result).figure
 
 
 def svg_of(result: xr.Dataset) -> str:
     """Figure of a quantity as the text of an SVG."""
-    from matplotlib import rc_context
+    return _drawing(result).svg
 
-    from earthspin.views.figures import STYLE, _svg
 
-    figure = accuracy_figure(result)
-    with rc_context(STYLE):
-        return _svg(figure)
+def _drawing(result: xr.Dataset) -> Drawing:
+    from earthspin.views.drawing import drawn, style
+
+    with style():
+        ax = plot_accuracy(result)
+        ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
+        return drawn(result.attrs["quantity"], result.attrs["sentence"], ax)
 
 
 # --- files -------------------------------------------------------------------------------------
@@ -233,18 +225,18 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
     OutputError
         If the folder cannot be written to.
     """
-    place = storage.check_writable(folder)
+    place = store.check_writable(folder)
     drawn = [svg_of(result) for result in results]
     page = accuracy_page(results, drawn)
     names = [f"accuracy-{result.attrs['quantity']}" for result in results]
     written = [place / "accuracy.html"]
     with ExitStack() as together:
-        draft = together.enter_context(storage.replacing(written[0]))
+        draft = together.enter_context(store.replacing(written[0]))
         draft.write_text(page, encoding="utf-8")
         for name, result, svg in zip(names, results, drawn, strict=True):
             data, picture = place / f"{name}.nc", place / f"{name}.svg"
-            storage.write_netcdf(result, together.enter_context(storage.replacing(data)))
-            sketch = together.enter_context(storage.replacing(picture))
+            store.write_netcdf(result, together.enter_context(store.replacing(data)))
+            sketch = together.enter_context(store.replacing(picture))
             sketch.write_text(svg, encoding="utf-8")
             written += [data, picture]
     return written
@@ -264,21 +256,18 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
     str
         HTML, self-contained.
     """
-    from earthspin.views.page import _render
+    from earthspin.views.page import page
 
-    tables: list[tuple[Table, str]] = [
-        (replace(accuracy_table(result), figure=svg), result.attrs["sentence"])
+    tables = [
+        replace(accuracy_table(result), figure=svg, cost=result.attrs["sentence"])
         for result, svg in zip(results, drawn, strict=True)
     ]
-    return _render(
-        title="Error against run time",
+    return page(
+        "Error against run time",
+        tables,
         lead="What each way to a number costs, and how wrong it then is.",
         note="Under each table stands what to use. Filled markers are this package's methods, open "
         "ones what one would do by hand or with a peer; the front joins the points that no other "
         "beats in both.",
         footer=f"{results[0].attrs['source']}.",
-        tables=tables,
-        drawings=[],
-        solids=[],
-        parts=[],
     )

@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 from earthspin.constants import G
 from earthspin.errors import UndefinedError
@@ -313,6 +312,8 @@ def _carry(matrix: Callable[[float], Array], start: float, stop: float, y: Array
 
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(matrix(r) @ flat.reshape(y.shape)).ravel()
+
+    from scipy.integrate import solve_ivp  # late: plans read layers and integrate nothing
 
     solution = solve_ivp(
         slope, (start, stop), y.ravel(), "DOP853", rtol=_RTOL, atol=1e-12, t_eval=[stop]

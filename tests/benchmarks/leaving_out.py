@@ -1,7 +1,8 @@
 """What leaving out saves: each shipped scene in a process of its own, against running them all.
 
 Run it with `python tests/benchmarks/leaving_out.py`; it prints the table of docs/accuracy.md. Parts
-and modules are counted, time and memory are those of whole processes, medians of several.
+and modules are counted, time and memory are those of whole processes, medians of several. Scenes
+run with all their sections; beside that stands what the answer alone takes.
 """
 
 from __future__ import annotations
@@ -13,8 +14,7 @@ import sys
 import time
 from typing import Any
 
-from earthspin.scene.parts import PARTS
-from earthspin.scene.spec import shipped_scenes
+from earthspin.scenes import QUESTIONS, shipped_scenes
 
 RUNS = 3
 
@@ -22,9 +22,10 @@ BARE = "import numpy, scipy, xarray; ran = set()"
 SCENES = """
 import earthspin
 ran = set()
-for name in sys.argv[1:]:
-    result = earthspin.run(name)
-    ran |= {str(p) for p, s in zip(result.part.values, result.part_status.values) if s == "ran"}
+sections, *names = sys.argv[1:]
+for name in names:
+    answer = earthspin.run_tree(name, sections) if sections else earthspin.run(name)
+    ran |= {(one.__module__, one.name) for one in earthspin.plan(name, sections or ()).parts}
 """
 TELL = """
 print(json.dumps({
@@ -54,20 +55,29 @@ def process(work: str, *words: str) -> dict[str, Any]:
 def main() -> None:
     """Print the table, as Markdown."""
     scenes = list(shipped_scenes())
+    graphs = [question.graph for question in QUESTIONS.values()]
+    parts = len({id(part) for graph in graphs for part in graph.parts.values()})
     rows = {"none: numpy, scipy and xarray alone": process(BARE)}
-    rows |= {f"`{name}`": process(SCENES, name) for name in scenes}
-    rows["all of them"] = everything = process(SCENES, *scenes)
+    rows |= {f"`{name}`": process(SCENES, "all", name) for name in scenes}
+    rows["all of them"] = everything = process(SCENES, "all", *scenes)
+    answers = {f"`{name}`": process(SCENES, "", name) for name in scenes}
+    answers["all of them"] = process(SCENES, "", *scenes)
     print(
-        f"| scene | parts run, of {len(PARTS)} | modules of ours | modules in all | beside numpy, "
-        "scipy, xarray | time | of all | memory |"
+        f"| scene | parts run, of {parts} | modules of ours | modules in all | beside numpy, "
+        "scipy, xarray | time | of all | memory | the answer alone: parts | time |"
     )
-    print("|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for name, row in rows.items():
         print(
             f"| {name} | {row['parts']} | {row['own']} | {row['modules']} | "
             f"{', '.join(row['heavy']) or 'none'} | {row['seconds']:.2f} s | "
-            f"{row['seconds'] / everything['seconds']:.0%} | {row['memory']:.0f} MB |"
+            f"{row['seconds'] / everything['seconds']:.0%} | {row['memory']:.0f} MB | "
+            f"{_alone(answers.get(name))} |"
         )
+
+
+def _alone(row: dict[str, Any] | None) -> str:
+    return "| " if row is None else f"{row['parts']} | {row['seconds']:.2f} s"
 
 
 if __name__ == "__main__":

@@ -14,11 +14,11 @@ import xarray as xr
 
 import earthspin
 from data_tools.stability import BEGIN, END, PAGE, with_tables
-from earthspin import storage
 from earthspin.checks import gauntlet
 from earthspin.checks.case import Case, Cases, judge
 from earthspin.checks.gauntlet import PARTS, all_cases, chosen_cases, labelled, tally
 from earthspin.cli import main
+from earthspin.engine import store
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.views.gauntlet_views import markdown, tally_line, verdict_tables
 
@@ -233,7 +233,7 @@ def test_the_dataset_is_as_promised(quick: xr.Dataset) -> None:
 
 
 def test_it_comes_back_from_disk(quick: xr.Dataset, tmp_path: Path) -> None:
-    xr.testing.assert_identical(storage.read(storage.write(quick, tmp_path / "s.nc")), quick)
+    xr.testing.assert_identical(store.read(store.write(quick, tmp_path / "s.nc")), quick)
 
 
 def test_only_some() -> None:

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import earthspin
-from earthspin import storage
 from earthspin.checks import stored, work_precision
 from earthspin.checks.ladders import (
     model_sky,
@@ -43,7 +42,8 @@ from earthspin.checks.work_precision import (
 )
 from earthspin.cli import main
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
-from earthspin.dataset import FROM_SI
+from earthspin.engine import store
+from earthspin.engine.labels import FROM_SI
 from earthspin.views.work_precision_views import (
     accuracy_table,
     plot_accuracy,
@@ -134,7 +134,7 @@ def test_figure_has_ours_filled_and_the_others_open(result: xr.Dataset) -> None:
 
 def test_it_goes_to_disk_and_back(result: xr.Dataset, tmp_path: object) -> None:
     paths = write_accuracy([result], str(tmp_path))
-    again = storage.read(next(path for path in paths if path.suffix == ".nc"))
+    again = store.read(next(path for path in paths if path.suffix == ".nc"))
     assert np.array_equal(again.pareto.values.astype(bool), result.pareto.values)
     assert np.array_equal(again.error.values, result.error.values)
     page = next(path for path in paths if path.suffix == ".html").read_text()

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from data_tools import error_models
+from data_tools import error_models, neglected
 from data_tools.__main__ import main
 from data_tools.kernels import largest_differences
 from data_tools.windows import rates, scatter
 from earthspin.bodies import EARTH, MARS, MOON, SUN
+from earthspin.choosing.choice import models
 from earthspin.constants import DAY
-from earthspin.scene.choosing import models
+from earthspin.motion.neglected import MEASURED, SIZES
 from earthspin.sky.ephemeris import Ephemeris
 
 
@@ -81,3 +82,43 @@ def test_means_sampled_sparsely_are_as_stored(de421: Ephemeris) -> None:
     off = np.subtract(found["in_plane"], stored["in_plane"])
     assert off.max() < 0.3
     assert abs(off[0, -1]) < 0.5
+
+
+@pytest.mark.parametrize("bent", [False, True])
+def test_the_tightest_bound_touches_what_it_bounds(bent: bool) -> None:
+    years = np.linspace(-99.0, 50.0, 700)
+    growth = 2.8e-4 * years**2 if bent else 0.125 * np.abs(years)
+    moved = growth + 0.2 * np.abs(np.sin(years))
+    found = neglected.tightest(years, moved, bent=bent)
+    bound = neglected.bound(found, years)
+    assert np.all(bound >= moved)
+    assert found.swing == pytest.approx(0.2, rel=0.02)
+    assert (found.bend if bent else found.rate) == pytest.approx(
+        2.8e-4 if bent else 0.125, rel=0.01
+    )
+
+
+def test_numbers_are_rounded_up() -> None:
+    assert [neglected.rounded_up(x) for x in (0.0, 7.6377, 0.1230001, 2.76e-4)] == [
+        0.0,
+        7.64,
+        0.124,
+        2.76e-4,
+    ]
+
+
+def test_the_table_of_what_is_neglected_holds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On a coarse grid; what stands is measured on a fine one."""
+    monkeypatch.setattr(neglected, "STEP", "29.9 d")
+    assert main(["neglected"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[1:]]
+    assert {row[0] for row in rows} == set(SIZES)
+    for name, swing, rate, bend, worst in rows:
+        stands = SIZES[name]
+        assert 0.8 < float(worst) <= 1
+        reach = MEASURED / 365.25
+        claimed = stands.swing + stands.rate * reach + stands.bend * reach**2
+        found = float(swing) + float(rate) * reach + float(bend) * reach**2
+        assert found == pytest.approx(claimed, rel=0.1)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from earthspin.views.tables import rates
+from earthspin.views.precession import rates
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 
@@ -22,7 +22,7 @@ def test_the_table_is_the_one_that_is_printed(precession_result: xr.Dataset) -> 
 def test_the_python_runs_and_gives_the_same_numbers() -> None:
     (program,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
     lines = [line for line in program.splitlines() if line.strip()]
-    assert len(lines) == 6
+    assert len(lines) == 8
     out = subprocess.run(
         [sys.executable, "-c", program], check=True, capture_output=True, text=True
     ).stdout

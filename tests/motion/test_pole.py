@@ -123,8 +123,7 @@ def test_any_obliquity(obliquity: float) -> None:
     assert np.isfinite(result.X).all()
     assert ("psi" in result) == (obliquity == 90)
     if obliquity != 90:
-        reason = str(result.part_reason.sel(part="pole-angles").values)
-        assert "not defined" in reason
+        assert "not defined" in result.earthspin.plan.left_out["pole-angles"]
 
 
 def test_other_bodies() -> None:
@@ -144,7 +143,7 @@ def test_what_is_refused() -> None:
         EARTH.replace(dynamical_flattening=0.51)
     with pytest.raises(earthspin.AccuracyError):
         earthspin.run(earthspin.load_scene("pole", {"accuracy": "1 uas"}))
-    with pytest.raises(earthspin.SceneError, match="give an angle"):
+    with pytest.raises(earthspin.SceneError, match="with its unit"):
         earthspin.run(earthspin.load_scene("pole", {"accuracy": 1e-6}))
     with pytest.raises(earthspin.SceneError, match="do not fit"):
         earthspin.pole("1950-01-01", "2050-01-01", "1 s")

@@ -36,8 +36,8 @@ def tally(findings: Sequence[Finding], seconds: float) -> str:
 
 def page(findings: Sequence[Finding], seconds: float) -> str:
     """A page in Markdown."""
-    rooms = Counter(room(finding.mutant.file) for finding in findings)
-    caught = Counter(room(finding.mutant.file) for finding in findings if finding.caught)
+    planted = Counter(package(finding.mutant.file) for finding in findings)
+    caught = Counter(package(finding.mutant.file) for finding in findings if finding.caught)
     lines = [
         "# Planted errors, as measured",
         "",
@@ -46,9 +46,9 @@ def page(findings: Sequence[Finding], seconds: float) -> str:
         "",
         f"**{sum(caught.values())} of {len(findings)} caught**, in {seconds / 60:.0f} minutes.",
         "",
-        "| room | planted | caught |",
+        "| package | planted | caught |",
         "|---|---|---|",
-        *(f"| `{name}` | {count} | {caught[name]} |" for name, count in sorted(rooms.items())),
+        *(f"| `{name}` | {count} | {caught[name]} |" for name, count in sorted(planted.items())),
         "",
         "| planted error | kind | file | caught by | s |",
         "|---|---|---|---|---|",
@@ -58,14 +58,15 @@ def page(findings: Sequence[Finding], seconds: float) -> str:
     return "\n".join(lines)
 
 
-def room(file: str) -> str:
-    """Room, or module at the door, that a file belongs to."""
+def package(file: str) -> str:
+    """Package, or module beside the packages, that a file belongs to."""
     return file.split("/")[1]
 
 
 def _row(finding: Finding) -> tuple[str, ...]:
     mutant = finding.mutant
     witness = finding.witness.removeprefix("tests/") if finding.caught else "SURVIVED"
+    witness = " ".join(witness.split())  # names of cases may run over lines
     return (
         mutant.name,
         mutant.kind,

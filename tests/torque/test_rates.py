@@ -114,9 +114,11 @@ def test_mars_under_the_sun() -> None:
 
 def test_ten_thousand_bodies_are_one_call() -> None:
     h = xr.DataArray(EARTH.dynamical_flattening * np.linspace(0.9, 1.1, 10_000), dims="draw")
-    result = earthspin.precession(body=EARTH.replace(dynamical_flattening=h))
+    scene = earthspin.load_scene("precession").replace(body=EARTH.replace(dynamical_flattening=h))
+    tree = earthspin.run_tree(scene, "figure_models")
+    result = tree.to_dataset()
     assert result.precession_rate.dims == ("perturber", "draw")
-    assert result.period_by_model.dims == ("earth_model", "draw")
+    assert tree["figure_models/period_by_model"].dims == ("earth_model", "draw")
     total = result.precession_rate.sel(perturber="total")
     assert np.allclose(total / total[0], h / h[0], rtol=1e-14, atol=0)
 

@@ -10,8 +10,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from earthspin.views.page import solids_page
-from earthspin.views.rotor_solids import gallery
+from earthspin.views.report import gallery, gallery_page
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = (
@@ -33,7 +32,7 @@ def browser() -> str:
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("page") / "rotors.html"
-    path.write_text(solids_page(*gallery()), encoding="utf-8")
+    path.write_text(gallery_page(), encoding="utf-8")
     return path
 
 
@@ -52,7 +51,7 @@ def test_every_picture_is_painted_and_the_console_is_clean(
     browser: str, page: Path, tmp_path: Path
 ) -> None:
     html, log = opened(browser, page, tmp_path, "--dump-dom")
-    assert html.count('data-painted="yes"') == len(gallery()[2]) == 7
+    assert html.count('data-painted="yes"') == len(gallery()) == 7
     assert "CONSOLE" not in log, log
 
 

@@ -8,7 +8,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
-from earthspin.views import figures
+from earthspin.views import precession, torque
+from earthspin.views.stars import STARS
 
 
 @pytest.fixture(scope="module")
@@ -17,34 +18,34 @@ def year() -> xr.Dataset:
 
 
 def test_pyplot_is_not_needed(year: xr.Dataset) -> None:
-    figures.plot_torque(year)
+    torque.plot_torque(year)
     assert "matplotlib.pyplot" not in sys.modules
 
 
-def test_axes_are_labelled_with_units(year: xr.Dataset, precession_result: xr.Dataset) -> None:
-    assert figures.plot_declination(year).get_ylabel() == "declination (deg)"
-    assert "N m" in figures.plot_torque(year).get_ylabel()
-    assert "mas per century" in figures.plot_convergence(precession_result).get_ylabel()
+def test_axes_are_labelled_with_units(year: xr.Dataset, precession_tree: xr.DataTree) -> None:
+    assert torque.plot_declination(year).get_ylabel() == "declination (deg)"
+    assert "N m" in torque.plot_torque(year).get_ylabel()
+    assert "mas per century" in precession.plot_convergence(precession_tree).get_ylabel()
 
 
 def test_given_axes_are_used(year: xr.Dataset) -> None:
     ax = Figure().subplots()
-    assert figures.plot_declination(year, ax=ax) is ax
+    assert torque.plot_declination(year, ax=ax) is ax
 
 
-def test_the_pole_passes_the_stars_that_it_should(precession_result: xr.Dataset) -> None:
+def test_the_pole_passes_the_stars_that_it_should(precession_tree: xr.DataTree) -> None:
     """Thuban was the pole star of 2800 BC (within 10 arcmin), Polaris is at 0.7 degrees now."""
-    obliquity = np.radians(float(precession_result.obliquity))
+    obliquity = np.radians(float(precession_tree.obliquity))
     radius = np.degrees(obliquity)
-    rate = float(precession_result.precession_rate[-1]) / 3600
+    rate = float(precession_tree.precession_rate[-1]) / 3600
 
     def pole(year: float) -> np.ndarray:
         back = np.radians(rate * (year - 2000))
         return radius * np.array([-np.sin(back), np.cos(back)])
 
     stars = {
-        name: np.array(figures._on_the_chart(np.radians(ra), np.radians(dec), obliquity))
-        for name, ra, dec, _ in figures.STARS
+        name: np.array(precession.on_the_chart(np.radians(ra), np.radians(dec), obliquity))
+        for name, ra, dec, _ in STARS
     }
     assert abs(np.linalg.norm(pole(2000) - stars["Polaris"]) - 0.74) < 0.05
     years = np.arange(-4000, 14001, 10)

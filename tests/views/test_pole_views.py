@@ -8,8 +8,9 @@ import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import earthspin
-from earthspin.views import pole_figures
-from earthspin.views.tables import tables_for
+from earthspin.views import iau as of_iau
+from earthspin.views import pole as of_pole
+from earthspin.views.of_question import tables_for
 
 
 @pytest.fixture(scope="module")
@@ -18,8 +19,9 @@ def pole() -> xr.Dataset:
 
 
 @pytest.fixture(scope="module")
-def iau() -> xr.Dataset:
-    return earthspin.compare_iau("1990-01-01", "2010-01-01", "20 d")
+def iau() -> xr.DataTree:
+    changes = {"span": ["1990-01-01", "2010-01-01"], "step": "20 d"}
+    return earthspin.run_tree(earthspin.load_scene("iau", changes))
 
 
 def test_table_of_the_path(pole: xr.Dataset) -> None:
@@ -28,7 +30,7 @@ def test_table_of_the_path(pole: xr.Dataset) -> None:
     assert float(table.rows[2][3]) == pytest.approx(float(pole.psi[0, 2]), abs=1e-6)
 
 
-def test_tables_of_the_comparison(iau: xr.Dataset) -> None:
+def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
     titles = [table.title for table in tables_for(iau)]
     assert titles == [
         "Rates at J2000.0, effect by effect",
@@ -44,21 +46,21 @@ def test_tables_of_the_comparison(iau: xr.Dataset) -> None:
     assert len(tables_for(iau)[2].rows) == 30
 
 
-def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.Dataset) -> None:
-    path = pole_figures.plot_pole_path(pole)
+def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:
+    path = of_pole.plot_pole_path(pole)
     drawn = path.collections[0].get_offsets()
     assert len(drawn) == pole.sizes["time"]
     # The nutation is an ellipse of 6.9 by 9.2 arcsec.
     assert 6 < np.max(np.abs(drawn[:, 0])) < 9
     assert 8 < np.max(np.abs(drawn[:, 1])) < 12
 
-    three = pole_figures.plot_pole_residuals(iau)
+    three = of_iau.plot_pole_residuals(iau)
     assert len(three.axes) == 3
     line = three.axes[1].lines[0].get_ydata()
-    assert np.array_equal(line, iau.dpsi_sineps)
+    assert np.array_equal(line, iau["residuals"].dpsi_sineps)
 
-    ratio = pole_figures.plot_nutation_ratio(iau)
-    budget = pole_figures.plot_budget(iau)
+    ratio = of_iau.plot_nutation_ratio(iau)
+    budget = of_iau.plot_budget(iau)
     for ax in (path, ratio, budget):
         FigureCanvasAgg(ax.figure)
         ax.figure.draw_without_rendering()

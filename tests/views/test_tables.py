@@ -6,7 +6,8 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH
-from earthspin.views.tables import run_times, tables_for, with_error
+from earthspin.views.of_question import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.table import with_error
 
 
 @pytest.mark.parametrize(
@@ -26,8 +27,8 @@ def test_digits(value: float, error: float, text: str) -> None:
     assert with_error(value, error) == text
 
 
-def test_tables_of_each_question(precession_result: xr.Dataset) -> None:
-    titles = [table.title for table in tables_for(precession_result)]
+def test_tables_of_each_question(precession_tree: xr.DataTree) -> None:
+    titles = [table.title for table in tables_for(precession_tree)]
     assert titles == [
         "Precession",
         "What it means in the sky",
@@ -36,18 +37,22 @@ def test_tables_of_each_question(precession_result: xr.Dataset) -> None:
         "Beside IAU 2006",
         "Lunar standstills",
     ]
-    assert [t.title for t in tables_for(earthspin.run("wobble"))] == [
+    assert [t.title for t in tables_for(earthspin.run_tree("wobble"))] == [
         "Free wobble, rung by rung",
         "What the last rung depends on",
     ]
     assert [t.title for t in tables_for(earthspin.run("torque"))] == ["Torque"]
 
 
-def test_rows_match_headers_and_parts_are_named(precession_result: xr.Dataset) -> None:
-    for table in tables_for(precession_result):
+def test_rows_match_headers_and_what_ran_is_named(precession_tree: xr.DataTree) -> None:
+    (ran,) = what_ran(precession_tree)
+    for table in [*tables_for(precession_tree), ran]:
         assert table.rows
         assert all(len(row) == len(table.headers) for row in table.rows)
-        assert "ms" in run_times(precession_result, table.parts)
+    cost = {row[0]: row[2] for row in ran.rows}
+    assert float(cost["torque-samples"]) > 0
+    assert cost["rate-accuracy"] == ""
+    assert float(ran.cost.split()[0]) > 0
 
 
 def test_the_first_of_many_bodies_is_shown() -> None:
@@ -55,3 +60,50 @@ def test_the_first_of_many_bodies_is_shown() -> None:
     result = earthspin.precession(body=EARTH.replace(dynamical_flattening=h))
     table = tables_for(result)[0]
     assert "none (no motion)" in table.rows[0]
+
+
+def test_a_plain_answer_has_the_tables_of_no_section(precession_tree: xr.DataTree) -> None:
+    answer = precession_tree.to_dataset()
+    (table,) = tables_for(answer)
+    assert table == tables_for(precession_tree)[0]
+    assert what_ran(answer) == []
+
+
+def test_what_is_left_out_stands_under_the_first_table() -> None:
+    for word in ("precession", "torque", "wobble", "free-rotor", "polar-motion"):
+        answer = earthspin.run(word)
+        *_, last = tables_for(answer)[0].note.splitlines()
+        assert last == f"Left out: {answer.attrs['neglected']}."
+
+
+def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
+    first, second = tables_for(
+        earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
+    )
+    assert (first.title, second.title) == ("Accuracy", "Torque")
+    assert first.headers[1] == "asked, mas"
+    assert first.rows[0][1] == "10"
+
+
+def test_another_earth_says_so_and_shows_nothing_observed() -> None:
+    slow = earthspin.run_tree(earthspin.load_scene("precession", {"body.spin_period": "12 h"}))
+    tables = {table.title: table for table in tables_for(slow)}
+    for title in ("Precession", "Free wobble"):
+        assert "earth with spin_period = 43200.0 s" in tables[title].note
+    assert len(tables["Free wobble"].rows) == 1
+    page = scene_page(slow)
+    assert "The axis of the Earth with spin_period = 43200.0 s goes once round" in page
+    assert "observed (" not in page
+    ours = scene_page(earthspin.run_tree("precession"))
+    assert "43200" not in ours
+    assert "observed (" in ours
+
+
+def test_another_ladder_says_so_and_has_no_band() -> None:
+    slow = earthspin.run_tree(earthspin.load_scene("wobble", {"body.spin_period": "20 h"}))
+    assert "earth with spin_period = 72000.0 s" in tables_for(slow)[0].note
+    (drawing,) = drawings_for(slow)
+    assert "band" not in drawing.caption
+    assert "72000.0 s" in drawing.caption
+    (ours,) = drawings_for(earthspin.run_tree("wobble"))
+    assert "the band is the observed period" in ours.caption

@@ -1,1 +1,1 @@
-"""The stiff and extreme cases, by part of the house."""
+"""The stiff and extreme cases, by part of the package."""

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.compare.angles import on_fixed_ecliptic, pole_from, precession_angles
 from earthspin.compare.budget import contributions
 from earthspin.compare.nutation import MULTIPLES, FrequencyAnalysis
 from earthspin.compare.response import Response, fit_response
 from earthspin.compare.seasons import general_precession, tropical_year
 from earthspin.constants import ARCSEC, DAY, SIDEREAL_YEAR
-from earthspin.scene.spec import Scene
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
 
@@ -92,7 +92,7 @@ def _faint_line() -> float:
     bound=1e-9,
 )
 def _resonance() -> float:
-    body = Scene(compute="pole").body
+    body = default_body()
     h, spin = float(body.needed("dynamical_flattening")), float(body.spin_rate)
     true = Response(
         h, spin, -1.0025 + 1e-6j, np.array([-0.14 + 0.03j, -0.93 + 0.07j, 0.049, 2.8e-4])

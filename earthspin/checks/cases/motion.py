@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import BarycentricInterpolator
 
 from earthspin.bodies import BODIES, MOON, SUN
-from earthspin.calls import pole
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.compare.angles import on_fixed_ecliptic
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
@@ -24,9 +24,9 @@ from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
-from earthspin.scene.parts.averaging import Samples, sample_torques
-from earthspin.scene.parts.kernel import open_sky
-from earthspin.scene.spec import Scene
+from earthspin.parts.sky import Stretch, places, sky, stretch
+from earthspin.questions.pole import pole
+from earthspin.questions.precession import Samples, torque_samples
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.equator import pole_at
 from earthspin.sky.iau import fixed_ecliptic
@@ -39,7 +39,7 @@ CASES = Cases("motion")
 
 UAS = 1e-6 * ARCSEC
 YEAR = JULIAN_YEAR
-BODY = Scene(compute="pole").body
+BODY = default_body()
 H, SPIN = float(BODY.needed("dynamical_flattening")), float(BODY.spin_rate)
 TRIAXIALITY = float(BODY.triaxiality) * H / float(BODY.needed("j2"))
 GM = {"sun": float(SUN.gm), "moon": float(MOON.gm)}
@@ -67,7 +67,7 @@ def _forces(
     gm: Mapping[str, float] = GM,
     places: Callable[[FloatArray], dict[str, FloatArray]] = _places,
 ) -> Forces:
-    """Sun and Moon on the round body that scenes start from."""
+    """Sun and Moon on the round body that questions are about."""
     return Forces(figure=body or _figure(), gm=gm, positions=places)
 
 
@@ -195,12 +195,12 @@ def _average_and_pole() -> float:
 
 def _samples(cycles: float | None = None) -> Samples:
     """Daily torques of Sun and Moon over a number of turns of the node, or all that there are."""
-    scene = Scene(compute="precession")
-    sky = open_sky(scene, {})
-    if cycles is not None:
-        half = cycles * MOON.cycle / DAY / 2 + 1e-3
-        sky = type(sky)(sky.ephemeris, sky.centre, sky.targets, (-half, half))
-    return sample_torques(scene, {"ephemeris": sky})
+    both = BODY, (SUN, MOON)
+    above = sky("de421", places(*both))
+    if cycles is None:
+        return torque_samples(above, stretch(above, None), *both)
+    half = cycles * MOON.cycle / DAY / 2 + 1e-3
+    return torque_samples(above, Stretch(-half, half), *both)
 
 
 def _psi(vectors: FloatArray) -> FloatArray:

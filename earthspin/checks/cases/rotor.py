@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.constants import ARCSEC, JULIAN_YEAR
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.rotor import quaternion
@@ -19,7 +20,6 @@ from earthspin.rotor.elliptic import jacobi, landen_descent
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.moments import principal_moments
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
-from earthspin.scene.spec import Scene
 
 FloatArray = NDArray[np.float64]
 
@@ -252,7 +252,7 @@ def _unit() -> float:
     bound=7e-8,
 )
 def _polhode() -> float:
-    moments, spin = _default_body()
+    moments, spin = _moments_and_spin()
     start = np.array([1e-6, 0.0, 1.0]) * spin
     period = float(jacobi_motion(moments, start).period)
     rounds = np.arange(0, int(60 * JULIAN_YEAR / period) + 1)
@@ -260,9 +260,9 @@ def _polhode() -> float:
     return float(np.max(np.abs(found - start)) / spin / UAS)
 
 
-def _default_body() -> tuple[dict[str, float], float]:
-    """Moments in units of A, and spin, of the body that scenes start from."""
-    body = Scene(compute="wobble").body
+def _moments_and_spin() -> tuple[dict[str, float], float]:
+    """Moments in units of A, and spin, of the body that questions are about."""
+    body = default_body()
     h, j2 = float(body.needed("dynamical_flattening")), float(body.needed("j2"))
     polar = j2 / h  # C/(M a2)
     equatorial = polar - j2 - float(body.triaxiality) / 2

@@ -8,11 +8,14 @@ import sys
 import numpy as np
 
 from earthspin.bodies import MOON
-from earthspin.calls import free_rotor, heavy_top, spheroid_field, torque_series
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.errors import UndefinedError
-from earthspin.scene.running import run, run_blocks
-from earthspin.scene.spec import Scene, scene_from_table
+from earthspin.questions.free_rotor import free_rotor
+from earthspin.questions.spheroid import spheroid_field
+from earthspin.questions.top import heavy_top
+from earthspin.questions.torque import torque_series
+from earthspin.scenes import Scene, run, run_blocks
 
 CASES = Cases("scene")
 
@@ -20,7 +23,7 @@ CASES = Cases("scene")
 _GROWTH = """
 import sys
 import earthspin
-from earthspin.scene.running import run_blocks
+from earthspin.scenes import run_blocks
 
 scene = earthspin.load_scene("torque")
 
@@ -184,10 +187,10 @@ def _unknown_perturber() -> None:
 @CASES.refuse(
     "a key that does not exist",
     because="a key that is overlooked changes the answer without a word",
-    saying="unknown key",
+    saying="has no such key; did you mean 'step'",
 )
 def _unknown_key() -> None:
-    scene_from_table({"compute": "torque", "steps": "1 h"})
+    Scene(compute="torque", steps="1 h")
 
 
 @CASES.refuse(
@@ -205,7 +208,7 @@ def _nan_mass() -> None:
     saying="it must be a finite number",
 )
 def _infinite_radius() -> None:
-    Scene(compute="torque").body.replace(radius=float("inf"))
+    default_body().replace(radius=float("inf"))
 
 
 @CASES.refuse(
@@ -223,7 +226,7 @@ def _largest_mass() -> None:
     saying="at most 0.5",
 )
 def _too_flat() -> None:
-    Scene(compute="torque").body.replace(dynamical_flattening=0.5 + 1e-9, j2=0.1)
+    default_body().replace(dynamical_flattening=0.5 + 1e-9, j2=0.1)
 
 
 @CASES.refuse(
@@ -232,7 +235,7 @@ def _too_flat() -> None:
     saying="it has the sign of",
 )
 def _mixed_signs() -> None:
-    Scene(compute="torque").body.replace(dynamical_flattening=-1e-3, j2=1e-3)
+    default_body().replace(dynamical_flattening=-1e-3, j2=1e-3)
 
 
 @CASES.refuse(

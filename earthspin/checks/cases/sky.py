@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import BODIES, MARS, MOON
-from earthspin.calls import torque_series
 from earthspin.checks.case import Cases, without_folder
+from earthspin.checks.default_body import default_body
 from earthspin.constants import DAY, J2000_JD
-from earthspin.scene.spec import Scene
+from earthspin.questions.torque import torque_series
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.equator import fixed_equator, spherical
 from earthspin.sky.iau import Nutation, mean_equator
@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 
 CASES = Cases("sky")
 
-BODY = Scene(compute="torque").body
+BODY = default_body()
 CENTRE = BODY.naif[0]
 SECOND = 1 / DAY
 

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from earthspin import storage
 from earthspin.checks.case import Cases, without_folder
-from earthspin.dataset import Variable, build
+from earthspin.engine import store
+from earthspin.engine.labels import Variable, build
 
 CASES = Cases("storage")
 
@@ -46,7 +46,7 @@ class _HalfWayError(Exception):
 )
 def _far_epochs() -> float:
     with _folder() as folder:
-        back = storage.read(storage.write(_small(), folder / "r.nc"))
+        back = store.read(store.write(_small(), folder / "r.nc"))
     return float(np.max(np.abs((back.time.values - TIMES).astype(np.int64))))
 
 
@@ -60,7 +60,7 @@ def _odd_numbers() -> float:
     wrong = 0
     for value in (np.inf, 5e-324, 9.969209968386869e36, 1.7976931348623157e308):
         with _folder() as folder:
-            back = storage.read(storage.write(_small(value), folder / "r.nc"))
+            back = store.read(store.write(_small(value), folder / "r.nc"))
         wrong += int(np.sum(back.x.values != value))
     return float(wrong)
 
@@ -73,15 +73,15 @@ def _odd_numbers() -> float:
 )
 def _half_netcdf() -> float:
     with _folder() as folder:
-        path = storage.write(_small(1.0), folder / "r.nc")
+        path = store.write(_small(1.0), folder / "r.nc")
         try:
-            with storage.replacing(path) as draft:
+            with store.replacing(path) as draft:
                 draft.write_bytes(path.read_bytes()[:100])
                 raise _HalfWayError
         except _HalfWayError:
             pass
         left = {p.name for p in folder.iterdir()} ^ {"r.nc"}
-        return float(len(left) + np.sum(storage.read(path).x.values != 1.0))
+        return float(len(left) + np.sum(store.read(path).x.values != 1.0))
 
 
 @CASES.hold(
@@ -96,7 +96,7 @@ def _half_zarr() -> float:
         old.mkdir()
         (old / ".zgroup").write_text("old")
         try:
-            with storage.replacing(old) as draft:
+            with store.replacing(old) as draft:
                 draft.mkdir()
                 (draft / ".zgroup").write_text("new")
                 raise _HalfWayError
@@ -112,7 +112,7 @@ def _half_zarr() -> float:
     saying="has no value here",
 )
 def _hole() -> None:
-    build("gauntlet", {"x": Variable(("n",), "m", "a length")}, {"x": np.array([1.0, np.nan])})
+    build({"x": Variable(("n",), "m", "a length")}, {"x": np.array([1.0, np.nan])})
 
 
 @CASES.refuse(
@@ -122,10 +122,10 @@ def _hole() -> None:
 )
 def _cut_file() -> None:
     with _folder() as folder:
-        whole = storage.write(_small(), folder / "r.nc").read_bytes()
+        whole = store.write(_small(), folder / "r.nc").read_bytes()
         (folder / "cut.nc").write_bytes(whole[: len(whole) // 2])
         with without_folder(folder / "cut.nc"):
-            storage.read(folder / "cut.nc")
+            store.read(folder / "cut.nc")
 
 
 @CASES.refuse(
@@ -137,7 +137,7 @@ def _blocked() -> None:
     with _folder() as folder:
         (folder / "file").write_text("in the way")
         with without_folder(folder / "file"):
-            storage.write(_small(), folder / "file" / "r.nc")
+            store.write(_small(), folder / "file" / "r.nc")
 
 
 @CASES.refuse(
@@ -147,4 +147,4 @@ def _blocked() -> None:
 )
 def _other_ending() -> None:
     with _folder() as folder, without_folder(folder / "r.txt"):
-        storage.write(_small(), folder / "r.txt")
+        store.write(_small(), folder / "r.txt")

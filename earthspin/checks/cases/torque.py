@@ -12,12 +12,18 @@ from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.calls import pole, precession, torque_series
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.constants import DAY, JULIAN_YEAR, G
-from earthspin.scene.parts.averaging import mean_rates, sample_torques
-from earthspin.scene.parts.kernel import open_sky
-from earthspin.scene.spec import Scene
+from earthspin.parts.sky import places, sky, stretch
+from earthspin.questions.pole import pole
+from earthspin.questions.precession import (
+    mean_rates,
+    precession,
+    precession_rates,
+    torque_samples,
+)
+from earthspin.questions.torque import torque_series
 from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_push
@@ -35,17 +41,16 @@ EPS = float(np.finfo(float).eps)
 
 
 def _body(**changes: Any) -> Body:
-    """The body that scenes start from, changed."""
-    found: Body = Scene(compute="torque").body
-    return found.replace(**changes)
+    """The body that questions are about, changed."""
+    return default_body().replace(**changes)
 
 
 def _rate(body: Body | None = None, perturber: Body = SUN) -> xr.Dataset:
     """Averaged rates as `precession` gives them, without all that stands beside them."""
-    scene = Scene(compute="precession", body=body or _body(), perturbers=(perturber,))
-    given: dict[str, Any] = {"ephemeris": open_sky(scene, {})}
-    given["torque-samples"] = sample_torques(scene, given)
-    return mean_rates(scene, given)
+    both = body or _body(), (perturber,)
+    above = sky("de421", places(*both))
+    samples = torque_samples(above, stretch(above, None), *both)
+    return precession_rates(mean_rates(samples, *both, None), samples)
 
 
 @lru_cache

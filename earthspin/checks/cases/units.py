@@ -6,13 +6,30 @@ import datetime as dt
 from fractions import Fraction
 
 import numpy as np
+import xarray as xr
 
-from earthspin import units
+from earthspin import dates
 from earthspin.checks.case import Cases
+from earthspin.checks.default_body import default_body
 from earthspin.constants import DAY
-from earthspin.scene.spec import Scene
+from earthspin.errors import Where
+from earthspin.questions.free_rotor import free_rotor
+from earthspin.questions.polar_motion import excitation, polar_motion, polar_motion_from
+from earthspin.scenes import Scene
+from earthspin.units import FloatArray
 
 CASES = Cases("units")
+
+
+def _days(times: object) -> FloatArray:
+    """Days from J2000.0 TDB of a list of times in any form."""
+    return dates.days(times, Where("times"))
+
+
+def _grid(first: object, last: object, step: object) -> dates.TimeGrid:
+    """Evenly spaced times between two dates, both as they would be typed."""
+    span = dates.Span.read([first, last], Where("span"))
+    return dates.TimeGrid.over(span, dates.Spacing().read(step, Where("step")))
 
 
 def _time(values: object, scale: str) -> object:
@@ -30,7 +47,7 @@ def _time(values: object, scale: str) -> object:
 )
 def _leap_second() -> float:
     stamps = [f"2016-12-31T23:59:{s}" for s in ("58", "59", "60")] + ["2017-01-01T00:00:00"]
-    found = units.days(_time(stamps, "utc"))
+    found = _days(_time(stamps, "utc"))
     return float(np.max(np.abs(np.diff(found) * DAY - 1)))
 
 
@@ -48,8 +65,8 @@ def _all_leap_seconds() -> float:
     worst = 0.0
     for year in (int(y) for y in years if int(y) in steps):
         stamp = f"{year}-01-01T00:00:00"
-        utc = float(units.days(_time(stamp, "utc"))[0])
-        tdb = float(units.days([stamp])[0])
+        utc = float(_days(_time(stamp, "utc"))[0])
+        tdb = float(_days([stamp])[0])
         worst = max(worst, abs((utc - tdb) * DAY - 32.184 - steps[year]))
     return worst
 
@@ -62,9 +79,9 @@ def _all_leap_seconds() -> float:
     bound=0.0,
 )
 def _reform() -> float:
-    dates = ["1582-10-04", "1582-10-15", "0001-01-01", "1600-02-29", "1900-03-01", "9999-12-31"]
-    found = units.days(dates)
-    exact = [dt.date.fromisoformat(d).toordinal() - dt.date(2000, 1, 1).toordinal() for d in dates]
+    known = ["1582-10-04", "1582-10-15", "0001-01-01", "1600-02-29", "1900-03-01", "9999-12-31"]
+    found = _days(known)
+    exact = [dt.date.fromisoformat(d).toordinal() - dt.date(2000, 1, 1).toordinal() for d in known]
     return float(np.max(np.abs(found - (np.array(exact) - 0.5))))
 
 
@@ -78,7 +95,7 @@ def _reform() -> float:
 def _leap_day() -> float:
     worst = 0.0
     for year in (1600, 2000, 2400):
-        around = units.days([f"{year}-02-28", f"{year}-02-29", f"{year}-03-01"])
+        around = _days([f"{year}-02-28", f"{year}-02-29", f"{year}-03-01"])
         worst = max(worst, float(np.max(np.abs(np.diff(around) - 1))))
     return worst
 
@@ -89,7 +106,7 @@ def _leap_day() -> float:
     saying="there is no such date",
 )
 def _no_leap_day() -> None:
-    units.days(["1900-02-29"])
+    _days(["1900-02-29"])
 
 
 @CASES.refuse(
@@ -98,7 +115,7 @@ def _no_leap_day() -> None:
     saying="years run from 1 to 9999",
 )
 def _year_zero() -> None:
-    units.days(["0000-06-01"])
+    _days(["0000-06-01"])
 
 
 @CASES.refuse(
@@ -107,7 +124,7 @@ def _year_zero() -> None:
     saying="write a date like",
 )
 def _negative_year() -> None:
-    units.days(["-0044-03-15"])
+    _days(["-0044-03-15"])
 
 
 @CASES.refuse(
@@ -116,7 +133,7 @@ def _negative_year() -> None:
     saying="years run from 1 to 9999",
 )
 def _year_ten_thousand() -> None:
-    units.days(np.array(["10000-01-01"], dtype="M8[us]"))
+    _days(np.array(["10000-01-01"], dtype="M8[us]"))
 
 
 @CASES.refuse(
@@ -125,7 +142,7 @@ def _year_ten_thousand() -> None:
     saying="NaT is no date",
 )
 def _nat() -> None:
-    units.days(np.array(["2000-01-01", "NaT"], dtype="M8[us]"))
+    _days(np.array(["2000-01-01", "NaT"], dtype="M8[us]"))
 
 
 @CASES.hold(
@@ -136,9 +153,9 @@ def _nat() -> None:
     bound=3.0,
 )
 def _microseconds() -> float:
-    dates = np.array(["1550-01-01T00:00:00.000001", "2650-12-31T23:59:59.999999"], dtype="M8[us]")
-    back = units.datetime64(units.days(dates))
-    return float(np.max(np.abs((back - dates).astype(np.int64))))
+    known = np.array(["1550-01-01T00:00:00.000001", "2650-12-31T23:59:59.999999"], dtype="M8[us]")
+    back = dates.datetime64(_days(known))
+    return float(np.max(np.abs((back - known).astype(np.int64))))
 
 
 @CASES.hold(
@@ -148,11 +165,11 @@ def _microseconds() -> float:
     unit="us",
     bound=0.5,
 )
-def _grid() -> float:
-    grid = units.time_grid("1950-01-01", "2050-01-01", 0.333333)
-    last = Fraction(grid.start + grid.step * (grid.size - 1), units.MICROSECONDS_PER_DAY)
+def _thirds() -> float:
+    grid = _grid("1950-01-01", "2050-01-01", 0.333333)
+    last = Fraction(grid.start + grid.step * (grid.size - 1), dates.MICROSECONDS_PER_DAY)
     found = Fraction(float(grid.days(grid.size - 1)[0]))
-    return float(abs(found - last) * units.MICROSECONDS_PER_DAY)
+    return float(abs(found - last) * dates.MICROSECONDS_PER_DAY)
 
 
 @CASES.hold(
@@ -163,8 +180,8 @@ def _grid() -> float:
 )
 def _one_time() -> float:
     grids = [
-        units.time_grid("2000-01-01", "2000-01-01", "1 h"),
-        units.time_grid("2000-01-01", "2000-01-02", "9999 yr"),
+        _grid("2000-01-01", "2000-01-01", "1 h"),
+        _grid("2000-01-01", "2000-01-02", "9999 yr"),
     ]
     return float(sum(abs(grid.size - 1) + abs(grid.days()[0] + 0.5) for grid in grids))
 
@@ -175,7 +192,7 @@ def _one_time() -> float:
     saying="greater than zero",
 )
 def _nan_step() -> None:
-    units.time_grid("2000-01-01", "2001-01-01", float("nan"))
+    _grid("2000-01-01", "2001-01-01", float("nan"))
 
 
 @CASES.refuse(
@@ -184,7 +201,7 @@ def _nan_step() -> None:
     saying="ends before it starts",
 )
 def _backward_span() -> None:
-    units.time_grid("2001-01-01", "2000-01-01", "1 d")
+    _grid("2001-01-01", "2000-01-01", "1 d")
 
 
 @CASES.refuse(
@@ -202,4 +219,128 @@ def _wrong_unit() -> None:
     saying="a microsecond or more",
 )
 def _no_step() -> None:
-    units.time_grid("2000-01-01", "2001-01-01", 1e-9)
+    _grid("2000-01-01", "2001-01-01", 1e-9)
+
+
+@CASES.hold(
+    "an index of dates that says UTC, over New Year 2017",
+    because="an index that says its zone looks like one that means TDB, 69 s away",
+    against="the same times as a Time in UTC",
+    unit="us",
+    bound=1.0,
+)
+def _index_in_utc() -> float:
+    import pandas as pd
+
+    index = pd.date_range("2016-12-31T22:00", "2017-01-01T02:00", freq="37min", tz="UTC")
+    plain = index.tz_localize(None).to_numpy().astype("datetime64[us]").astype(str)
+    off = _days(index) - _days(_time(list(plain), "utc"))
+    return float(np.max(np.abs(off)) * dates.MICROSECONDS_PER_DAY)
+
+
+# --- times and numbers of a motion ---------------------------------------------------------------
+
+_RACKET = {"moments": [1.0, 2.0, 2.5], "omega": [0.1, 1.0, 0.1]}
+
+
+@CASES.hold(
+    "times of a free rotor in hours",
+    because="an array with a unit is an array, and 1 h would be taken for 1 s",
+    against="the same times in seconds, bit for bit",
+    bound=0.0,
+)
+def _hours() -> float:
+    import astropy.units as u
+
+    hours, seconds = (
+        free_rotor(**_RACKET, times=times) for times in ([0.0, 1.0] * u.hour, [0.0, 3600.0])
+    )
+    off = [abs(hours[name].values - seconds[name].values).max() for name in seconds.data_vars]
+    return float(max(off) + abs(hours.time.values - seconds.time.values).max())
+
+
+@CASES.hold(
+    "a wobble of 1.2 years",
+    because="the number is fine, and days are what a number would mean",
+    against="a wobble of 438.3 d over five years, bit for bit",
+    unit="arcsec",
+    bound=0.0,
+)
+def _years() -> float:
+    import astropy.units as u
+
+    chi = excitation(polar_motion(span=("1990-01-01", "1995-01-01")))
+    found, same = (polar_motion_from(chi, period=period) for period in (1.2 * u.yr, 438.3))
+    return float(max(abs(found[name].values - same[name].values).max() for name in ("x", "y")))
+
+
+@CASES.refuse(
+    "times in kilograms",
+    because="the number is fine",
+    saying="is not a value in units of s",
+)
+def _kilograms() -> None:
+    import astropy.units as u
+
+    free_rotor(**_RACKET, times=[0.0, 1.0] * u.kg)
+
+
+@CASES.refuse(
+    "a lapse of time that is none",
+    because="NaT is a whole number inside, -292 billion years in microseconds",
+    saying="is not a value in units of s",
+)
+def _lapse_of_nothing() -> None:
+    free_rotor(**_RACKET, times=np.array([0, "NaT"], dtype="m8[us]"))
+
+
+@CASES.refuse(
+    "a masked number among good ones",
+    because="what is under the mask is a number, too",
+    saying="give numbers that are all known",
+)
+def _masked_number() -> None:
+    free_rotor(**_RACKET, times=np.ma.masked_array([0.0, 1.0], [False, True]))
+
+
+@CASES.refuse(
+    "a masked date among good ones",
+    because="what is under the mask is a date, too",
+    saying="give times that are all known",
+)
+def _masked_date() -> None:
+    listed = np.array(["2000-01-01", "2000-01-02"], dtype="M8[us]")
+    _days(np.ma.masked_array(listed, [False, True]))
+
+
+@CASES.refuse(
+    "a top without numbers",
+    because="a default would be answered as if it had been asked",
+    saying="give it",
+)
+def _no_top() -> None:
+    Scene(compute="top", top={"times": [0.0, 1.0]})
+
+
+@CASES.refuse(
+    "members whose labels do not align",
+    because="arrays that share no label multiply to nothing, after every check",
+    saying="they differ from those of j2",
+)
+def _not_aligned() -> None:
+    numbers = {"j2": ("ab", [1.0e-3, 1.1e-3]), "dynamical_flattening": ("bc", [3.0e-3, 3.1e-3])}
+    default_body().replace(
+        **{
+            name: xr.DataArray(values, {"member": list(labels)}, ("member",))
+            for name, (labels, values) in numbers.items()
+        }
+    )
+
+
+@CASES.refuse(
+    "a key of another question",
+    because="a step means nothing to an average, and would change nothing",
+    saying="has no such key",
+)
+def _key_of_another() -> None:
+    Scene(compute="precession", step="1 h")

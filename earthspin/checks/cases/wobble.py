@@ -10,9 +10,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.calls import excitation, fit_chandler, polar_motion, polar_motion_from, wobble_ladder
 from earthspin.checks.case import Cases, without_folder
 from earthspin.constants import ARCSEC
+from earthspin.questions.polar_motion import (
+    excitation,
+    fit_chandler,
+    polar_motion,
+    polar_motion_from,
+)
+from earthspin.questions.wobble import wobble_ladder
 from earthspin.rotor.axisymmetric import free_wobble_period
 from earthspin.sky.eop import c04_path, read_polar_motion
 from earthspin.wobble import resonance

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.default_body import default_body
 from earthspin.checks.ladders import taylor
-from earthspin.checks.ladders.sky import CODES, GM, body, centre, kernel
+from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting, plain
 from earthspin.constants import ARCSEC, DAY, J2000_JD
@@ -21,7 +22,8 @@ UAS = 1e-6 * ARCSEC
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-H, SPIN = float(body().needed("dynamical_flattening")), float(body().spin_rate)
+_BODY = default_body()
+H, SPIN = float(_BODY.needed("dynamical_flattening")), float(_BODY.spin_rate)
 #: What the stored reference hangs on.
 INPUTS = {
     "h": H,

@@ -6,9 +6,9 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from earthspin.bodies import MOON, SUN
+from earthspin.checks.default_body import default_body
 
 if TYPE_CHECKING:
-    from earthspin.bodies import Body
     from earthspin.sky.ephemeris import Ephemeris
 
 #: What pulls.
@@ -16,17 +16,9 @@ GM = {"sun": SUN.gm, "moon": MOON.gm}
 CODES = {"sun": SUN.naif[0], "moon": MOON.naif[0]}
 
 
-def body() -> Body:
-    """What is pulled: the body that a scene has by default."""
-    from earthspin.scene.spec import Scene
-
-    default: Body = Scene(compute="pole").body
-    return default
-
-
 def centre() -> int:
-    """Its NAIF code."""
-    return body().naif[0]
+    """NAIF code of what is pulled: the body that a question has by default."""
+    return default_body().naif[0]
 
 
 @cache

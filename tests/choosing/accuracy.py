@@ -1,4 +1,4 @@
-"""Accuracy on request over random scenes: ``python -m tests.scene.accuracy [scenes of a kind]``.
+"""Accuracy on request over random scenes: ``python -m tests.choosing.accuracy [scenes of a kind]``.
 
 For each scene: what was asked, what was claimed, how far off the result truly is, how many
 evaluations the choice cost, and what the cheapest setting of the menu that truly meets the request
@@ -15,15 +15,24 @@ import numpy as np
 from numpy.random import Generator
 
 import earthspin
-from earthspin import Body, Scene
+from earthspin import Body
+from earthspin.choosing.choice import models
+from earthspin.choosing.nutation import nutation_choices
 from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
-from earthspin.scene.choosing import models, nutation_choices
-from earthspin.scene.parts import PARTS
-from earthspin.scene.parts.axes_in_time import pole_times
-from earthspin.scene.parts.choices import averages_on_offer, windows_on_offer
-from earthspin.scene.parts.pulls import forces_of, start_of
+from earthspin.parts.choices import averages_on_offer, chosen_average, windows_on_offer
+from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
+from earthspin.parts.sky import Pulled, Sky, places, sky, stretch
+from earthspin.parts.times import epochs
+from earthspin.questions.pole import Pole
+from earthspin.questions.precession import (
+    Precession,
+    mean_rates,
+    rate_accuracy,
+    torque_samples,
+)
+from earthspin.questions.torque import Torque
 from earthspin.sky.equator import rotate
 from earthspin.sky.iau import Nutation
 from earthspin.torque.average import Window
@@ -74,19 +83,29 @@ def random_span(rng: Generator, longest: float) -> tuple[str, str]:
     return tuple(str(epoch + np.timedelta64(int(d * 86400), "s")) for d in (first, first + length))  # type: ignore[return-value]
 
 
-def true_axes(scene: Scene, window: float, order: int) -> np.ndarray:
-    """Axes of a scene on windows of one's own, shape (time, axis, 3)."""
-    given: dict[str, Any] = {"ephemeris": PARTS["ephemeris"].run(scene, {})}
-    pulls = PARTS["pulls"].run(scene, given)
-    times = pole_times(scene)
+def sky_of(question: Pulled) -> Sky:
+    """The sky of a question."""
+    return sky(question.ephemeris, places(question.body, question.perturbers))
+
+
+def pulls_of(question: Pole) -> Pulls:
+    """What turns the axis of a question."""
+    body, perturbers = question.body, question.perturbers
+    return pulls(sky_of(question), body, perturbers, question.effects)
+
+
+def true_axes(question: Pole, window: float, order: int) -> np.ndarray:
+    """Axes of a question on windows of one's own, shape (time, axis, 3)."""
+    turned_by = pulls_of(question)
+    times = epochs(question.span, question.step, question.times)
     first, last = times.span()
-    axis, epoch = start_of(scene, pulls)
+    axis, epoch = start_of(question.body, turned_by)
     path = axis_path(
-        forces_of(scene, pulls, scene.effects or ()),
+        forces_of(question.body, turned_by, question.effects),
         axis,
         epoch,
         (first * DAY, last * DAY),
-        limits=pulls.limits,
+        limits=turned_by.limits,
         window=window,
         order=order,
     )
@@ -97,33 +116,32 @@ def true_axes(scene: Scene, window: float, order: int) -> np.ndarray:
 def pole_outcome(rng: Generator) -> Outcome:
     """Ask for a path of the pole; nine decades of accuracy."""
     body = random_body(rng)
-    pulls = ["sun"]
+    perturbers = ["sun"]
     if body.name == "earth":
-        pulls = [["sun", "moon"], ["sun"], ["moon"]][rng.choice(3, p=[0.7, 0.2, 0.1])]
+        perturbers = [["sun", "moon"], ["sun"], ["moon"]][rng.choice(3, p=[0.7, 0.2, 0.1])]
     asked = 10 ** rng.uniform(-0.7, 8.3)  # uas
-    scene = Scene(
-        compute="pole",
+    question = Pole(
         body=body,
-        perturbers=pulls,
+        perturbers=perturbers,
         effects=None if rng.random() < 0.3 else ["second-order"],
         span=random_span(rng, 40),
         step="7.3 d",
         accuracy=f"{asked} uarcsec",
     )
-    result = earthspin.run(scene)
-    given: dict[str, Any] = {"ephemeris": PARTS["ephemeris"].run(scene, {})}
-    given["pulls"] = PARTS["pulls"].run(scene, given)
-    truth = true_axes(scene, 4 * DAY, 16)
+    result = earthspin.run(question)
+    truth = true_axes(question, 4 * DAY, 16)
 
     def off(found: np.ndarray) -> float:
         return float(np.linalg.norm(found - truth, axis=-1).max() / UAS)
 
     cost, cheapest = int(result.evaluations), int(result.evaluations)
-    for choice in sorted(windows_on_offer(scene, given), key=lambda c: c.evaluations):
+    times = epochs(question.span, question.step, question.times)
+    menu = windows_on_offer(body, question.perturbers, question.effects, pulls_of(question), times)
+    for choice in sorted(menu, key=lambda c: c.evaluations):
         if choice.evaluations >= cheapest or choice.error > HOPELESS * asked * UAS:
             continue
         try:
-            if off(true_axes(scene, **choice.settings)) <= asked:
+            if off(true_axes(question, choice.settings.window, choice.settings.order)) <= asked:
                 cheapest = choice.evaluations
         except UndefinedError:
             continue
@@ -138,22 +156,22 @@ def pole_outcome(rng: Generator) -> Outcome:
 def rate_outcome(rng: Generator) -> Outcome:
     """Ask for a rate of precession."""
     if rng.random() < 0.5:
-        body, pulls = earthspin.EARTH, ["sun", "moon"]
+        body, perturbers = earthspin.EARTH, ["sun", "moon"]
     elif rng.random() < 0.5:
-        body, pulls = earthspin.EARTH, ["sun"]
+        body, perturbers = earthspin.EARTH, ["sun"]
     else:
-        body, pulls = earthspin.MARS, ["sun"]
+        body, perturbers = earthspin.MARS, ["sun"]
     h = 10 ** rng.uniform(-5, -2)
     changes: dict[str, Any] = {"j2": 0.35 * h, "dynamical_flattening": h}
     if body is earthspin.MARS:
         changes["pole"] = rng.uniform(0, 2 * np.pi), np.arcsin(rng.uniform(-1, 1))
     asked = 10 ** rng.uniform(-5.7, 0)
-    scene = Scene(
-        compute="precession", body=body.replace(**changes), perturbers=pulls, accuracy=asked
-    )
-    given: dict[str, Any] = {"ephemeris": PARTS["ephemeris"].run(scene, {})}
-    samples = PARTS["torque-samples"].run(scene, given)  # daily, on the widest window
-    push = samples.push.sum(axis=1) if len(pulls) == 1 else samples.push[:, :2].sum(axis=1)
+    question = Precession(body=body.replace(**changes), perturbers=perturbers, accuracy=asked)
+    body, pulling = question.body, question.perturbers
+    above = sky_of(question)
+    within = stretch(above, question.span)
+    samples = torque_samples(above, within, body, pulling)  # daily, on the widest window
+    push = samples.push.sum(axis=1) if len(pulling) == 1 else samples.push[:, :2].sum(axis=1)
     truth = samples.window.mean(samples.times, push)
 
     def off(cycles: float, step: float) -> float:
@@ -162,24 +180,23 @@ def rate_outcome(rng: Generator) -> Outcome:
         picked = push[np.rint((times - samples.times[0]) / DAY).astype(int)]
         return float(abs(window.mean(times, picked) / truth - 1))
 
-    given["chosen-average"] = PARTS["chosen-average"].run(scene, given)
-    given["torque-samples"] = PARTS["torque-samples"].run(scene, given)
-    given["mean-rates"] = PARTS["mean-rates"].run(scene, given)
-    report = PARTS["rate-accuracy"].run(scene, given)
+    choice = chosen_average(body, pulling, within, asked)
+    fewer = torque_samples(above, within, body, pulling, choice)
+    rates = mean_rates(fewer, body, pulling, asked, choice)
+    report = rate_accuracy(rates, asked)
     cost = cheapest = int(report.evaluations)
-    for choice in sorted(averages_on_offer(scene, given), key=lambda c: c.evaluations):
-        if choice.evaluations < cheapest and off(**choice.settings) <= asked:
-            cheapest = choice.evaluations
-    rate = given["mean-rates"].precession_rate.values[-1]
-    full = dict(given)
-    del full["chosen-average"]
-    full["torque-samples"] = samples
-    best = PARTS["mean-rates"].run(scene.replace(accuracy=None), full).precession_rate.values[-1]
+    menu = averages_on_offer(body, pulling, within)
+    for one in sorted(menu, key=lambda c: c.evaluations):
+        if one.evaluations < cheapest and off(one.settings.cycles, one.settings.step) <= asked:
+            cheapest = one.evaluations
+    rate, best = (
+        float(of.rate.value[-1]) for of in (rates, mean_rates(samples, body, pulling, None))
+    )
     return Outcome(
         str(report.method_chosen.values),
         asked,
         float(report.error_estimated),
-        float(abs(rate / best - 1)),
+        abs(rate / best - 1),
         cost,
         cheapest,
     )
@@ -190,27 +207,26 @@ def rate_outcome(rng: Generator) -> Outcome:
 
 def series_outcome(rng: Generator) -> Outcome:
     """Ask for declinations at the true equator."""
-    pulls = ["sun", "moon"] if rng.random() < 0.5 else ["sun"]
+    perturbers = ["sun", "moon"] if rng.random() < 0.5 else ["sun"]
     asked = 10 ** rng.uniform(0.9, 5.5)  # mas
     span = random_span(rng, 20)
     step = float(10 ** rng.uniform(-0.5, 1.5))
-    scene = Scene(
-        compute="torque",
-        perturbers=pulls,
+    question = Torque(
+        perturbers=perturbers,
         equator="true",
         span=span,
         step=f"{step} d",
         accuracy=f"{asked} mas",
     )
-    result = earthspin.run(scene)
-    sky = PARTS["ephemeris"].run(scene, {})
-    days = PARTS["times"].run(scene, {})
+    result = earthspin.run(question)
+    above = sky_of(question)
+    days = epochs(question.span, question.step, question.times)
     now = days.days(0, days.size)
     first, last = days.span()
     exact = Nutation(first, last, 0)
-    place = sky.ephemeris.positions(sky.targets, sky.centre, now)
+    place = above.ephemeris.positions(above.targets, above.centre, now)
     directions = {n: p / np.linalg.norm(p, axis=1, keepdims=True) for n, p in place.items()}
-    kernel = max(sky.ephemeris.error(code)[0] for code in sky.targets.values()) / ARCSEC * 1e3
+    kernel = max(above.ephemeris.error(code)[0] for code in above.targets.values()) / ARCSEC * 1e3
 
     def off(equator: np.ndarray) -> float:
         best = exact.true_equator(now)
@@ -219,11 +235,17 @@ def series_outcome(rng: Generator) -> Outcome:
 
     from earthspin.sky import iau
 
-    cost = cheapest = int(result.evaluations) - now.size * len(pulls)
+    cost = cheapest = int(result.evaluations) - now.size * len(perturbers)
     for choice in nutation_choices(first, last, now.size):
         if choice.evaluations < cheapest:
             equator = (
-                Nutation(first, last, now.size, **choice.settings).true_equator(now)
+                Nutation(
+                    first,
+                    last,
+                    now.size,
+                    model=choice.settings.model,
+                    spacing=choice.settings.spacing,
+                ).true_equator(now)
                 if choice.settings
                 else iau.mean_equator(now)
             )
@@ -234,15 +256,15 @@ def series_outcome(rng: Generator) -> Outcome:
     best = exact.true_equator(now)
     true = max(
         float(np.linalg.norm(seen[:, i] - rotate(best, directions[name]), axis=1).max())
-        for i, name in enumerate(pulls)
+        for i, name in enumerate(perturbers)
     )
     return Outcome(
         str(result.method_chosen.values),
         asked,
         float(result.error_estimated),
         true / ARCSEC * 1e3 + kernel,
-        cost + now.size * len(pulls),
-        cheapest + now.size * len(pulls),
+        cost + now.size * len(perturbers),
+        cheapest + now.size * len(perturbers),
     )
 
 

@@ -1,0 +1,75 @@
+"""The signatures of the public calls, for editors and type checkers.
+
+``python -m data_tools signatures`` writes earthspin/__init__.pyi from the classes of the questions.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import earthspin
+from earthspin.engine.asking import arguments_of
+from earthspin.engine.question import Key, Question
+from earthspin.scenes import QUESTIONS
+
+FILE = Path(earthspin.__file__).with_name("__init__.pyi")
+
+_HEAD = '''"""Signatures of the public names, written by `python -m data_tools signatures`."""
+
+import datetime as dt
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from astropy.time import Time
+from astropy.units import Quantity
+from numpy.typing import ArrayLike
+from skyfield.jpllib import SpiceKernel
+
+Value = str | float | Quantity | dt.timedelta | np.timedelta64
+Pure = float | Quantity
+Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
+Date = str | dt.date | np.datetime64 | Time
+Dates = Time | ArrayLike | xr.DataArray | Sequence[Date]
+'''
+
+
+def signatures() -> str:
+    """Text of the file."""
+    calls = {question.call: question for question in QUESTIONS.values()}
+    lines = [_HEAD]
+    for module, names in vars(earthspin)["_HOME"].items():
+        lines += [f"from {module} import {name} as {name}" for name in names if name not in calls]
+    lines += ["from earthspin._version import __version__ as __version__", ""]
+    for question in calls.values():
+        lines += ["", *_definition(question)]
+    lines += ["", f"__all__ = {list(earthspin.__all__)!r}", ""]
+    return "\n".join(lines)
+
+
+def _definition(question: type[Question]) -> list[str]:
+    """A call with its arguments, each with what may be given."""
+    lines = [f"def {question.call}("]
+    named = False
+    for name, one in arguments_of(question).items():
+        if name not in question.positional and not named:
+            named = True
+            lines.append("    *,")
+        lines.append(f"    {name}: {_hint(name, one)},")
+    return [*lines, ") -> xr.Dataset: ..."]
+
+
+def _hint(name: str, one: Key | None) -> str:
+    if one is None:
+        return "Date | None = ..."
+    return one.kind.hint if one.required else f"{one.kind.hint} | None = ..."
+
+
+def main(given: argparse.Namespace) -> int:
+    """Write the file."""
+    FILE.write_text(signatures(), encoding="utf-8")
+    print(f"wrote {FILE.name}")
+    return 0

@@ -1,0 +1,223 @@
+"""Signatures of the public names, written by `python -m data_tools signatures`."""
+
+import datetime as dt
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from astropy.time import Time
+from astropy.units import Quantity
+from numpy.typing import ArrayLike
+from skyfield.jpllib import SpiceKernel
+
+Value = str | float | Quantity | dt.timedelta | np.timedelta64
+Pure = float | Quantity
+Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
+Date = str | dt.date | np.datetime64 | Time
+Dates = Time | ArrayLike | xr.DataArray | Sequence[Date]
+
+from earthspin.bodies import BODIES as BODIES
+from earthspin.bodies import EARTH as EARTH
+from earthspin.bodies import MARS as MARS
+from earthspin.bodies import MOON as MOON
+from earthspin.bodies import SUN as SUN
+from earthspin.bodies import Body as Body
+from earthspin.questions.polar_motion import excitation as excitation
+from earthspin.questions.polar_motion import fit_chandler as fit_chandler
+from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
+from earthspin.questions.polar_motion import read_excitation as read_excitation
+from earthspin.checks.gauntlet import stability as stability
+from earthspin.checks.work_precision import accuracy as accuracy
+from earthspin.errors import AccuracyError as AccuracyError
+from earthspin.errors import BodyError as BodyError
+from earthspin.errors import CoverageError as CoverageError
+from earthspin.errors import EarthspinError as EarthspinError
+from earthspin.errors import KernelError as KernelError
+from earthspin.errors import MissingExtraError as MissingExtraError
+from earthspin.errors import OutputError as OutputError
+from earthspin.errors import SceneError as SceneError
+from earthspin.errors import SeriesError as SeriesError
+from earthspin.errors import UndefinedError as UndefinedError
+from earthspin.errors import UnitsError as UnitsError
+from earthspin.scenes import Scene as Scene
+from earthspin.scenes import VersionWarning as VersionWarning
+from earthspin.scenes import load_scene as load_scene
+from earthspin.scenes import plan as plan
+from earthspin.scenes import run as run
+from earthspin.scenes import run_tree as run_tree
+from earthspin.scenes import write_series as write_series
+from earthspin.engine.store import open as open
+from earthspin.engine.store import read as read
+from earthspin.engine.store import write as write
+from earthspin._version import __version__ as __version__
+
+def precession(
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | Sequence[Body | str | Mapping[str, Any]]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    span: tuple[Date, Date] | None = ...,
+    accuracy: Pure | None = ...,
+) -> xr.Dataset: ...
+def torque_series(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | Sequence[Body | str | Mapping[str, Any]]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    times: Dates | None = ...,
+    equator: Literal["mean", "true"] | None = ...,
+    accuracy: Value | None = ...,
+) -> xr.Dataset: ...
+def pole(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | Sequence[Body | str | Mapping[str, Any]]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    times: Dates | None = ...,
+    effects: Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    accuracy: Value | None = ...,
+) -> xr.Dataset: ...
+def compare_iau(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | Sequence[Body | str | Mapping[str, Any]]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    times: Dates | None = ...,
+    effects: Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+) -> xr.Dataset: ...
+def wobble_ladder(
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    ocean: Literal["real", "global", "none"] | None = ...,
+    anelastic_exponent: Value | None = ...,
+) -> xr.Dataset: ...
+def polar_motion(
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    span: tuple[Date, Date] | None = ...,
+    file: str | PathLike[str] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
+    method: Literal["burg", "likelihood", "least-squares"] | None = ...,
+    window: Value | None = ...,
+) -> xr.Dataset: ...
+def free_rotor(
+    moments: Values | Mapping[str, Value],
+    omega: Values,
+    times: Values | None = ...,
+    *,
+    duration: Value | None = ...,
+    points: int | None = ...,
+    accuracy: Pure | None = ...,
+) -> xr.Dataset: ...
+def heavy_top(
+    times: Values | None = ...,
+    *,
+    duration: Value | None = ...,
+    points: int | None = ...,
+    transverse_moment: Value,
+    axial_moment: Value,
+    weight_moment: Value,
+    theta: Value,
+    spin: Value,
+    phi_rate: Value | None = ...,
+    theta_rate: Value | None = ...,
+    phi: Value | None = ...,
+    psi: Value | None = ...,
+    accuracy: Pure | None = ...,
+) -> xr.Dataset: ...
+def spheroid_field(
+    position: Values,
+    *,
+    body: Body | str | Mapping[str, Any] | None = ...,
+    point_mass: Value | None = ...,
+    accuracy: Pure | None = ...,
+) -> xr.Dataset: ...
+
+__all__ = [
+    "__version__",
+    "AccuracyError",
+    "BODIES",
+    "Body",
+    "BodyError",
+    "CoverageError",
+    "EARTH",
+    "EarthspinError",
+    "KernelError",
+    "MARS",
+    "MOON",
+    "MissingExtraError",
+    "OutputError",
+    "SUN",
+    "Scene",
+    "SceneError",
+    "SeriesError",
+    "UndefinedError",
+    "UnitsError",
+    "VersionWarning",
+    "accuracy",
+    "compare_iau",
+    "excitation",
+    "fit_chandler",
+    "free_rotor",
+    "heavy_top",
+    "load_scene",
+    "open",
+    "plan",
+    "polar_motion",
+    "polar_motion_from",
+    "pole",
+    "precession",
+    "read",
+    "read_excitation",
+    "run",
+    "run_tree",
+    "spheroid_field",
+    "stability",
+    "torque_series",
+    "wobble_ladder",
+    "write",
+    "write_series",
+]

@@ -1,0 +1,238 @@
+"""A body without torque: constants of its motion, the herpolhode, Poinsot's solids."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.rotor.quaternion import multiply, rotate
+from earthspin.views.drawing import CYCLE, Drawing, axes, drawn, legend_above, style
+from earthspin.views.reading import Result, answer_of, needed, of_sections, section
+from earthspin.views.solids import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    RED,
+    FloatArray,
+    Solid,
+    arrow,
+    cone,
+    ellipsoid,
+    line,
+    mesh,
+    moving_arrow,
+    square,
+)
+from earthspin.views.table import Table, along, listed
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from earthspin.rotor.axisymmetric import SymmetricRotor
+
+#: Sections that the figures stand on.
+DRAWN = ("poinsot",)
+
+
+def tables(tree: Result) -> list[Table]:
+    """Constants of a free rotor's motion."""
+    answer, poinsot = answer_of(tree), section(tree, "poinsot")
+    momentum = float(np.linalg.norm(answer.angular_momentum_body.isel(time=0)))
+    rows = [
+        ("kinetic energy, J", f"{float(answer.energy.isel(time=0)):.10g}"),
+        ("angular momentum, kg m2/s", f"{momentum:.10g}"),
+    ]
+    if poinsot is not None:
+        inner, outer = poinsot.herpolhode_radius.values
+        advance = (
+            f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
+            if "herpolhode_advance" in poinsot
+            else "none (no round ends)"
+        )
+        rows += [
+            ("period of the polhode, s", f"{float(poinsot.polhode_period):.10g}"),
+            ("invariable plane, rad/s", f"{float(poinsot.invariable_plane_distance):.10g}"),
+            ("herpolhode between, rad/s", f"{inner:.8g} and {outer:.8g}"),
+            ("turn of the herpolhode per round, deg", advance),
+            ("growth rate about x, y, z, 1/s", listed(poinsot.growth_rate.values)),
+        ]
+    table = Table(
+        "Free rotor",
+        ("", "value"),
+        rows,
+        "Constants of the motion; the growth rate is that of a small tilt off each axis, 0 where "
+        "the axis is stable.",
+    )
+    return [table]
+
+
+# --- figures -------------------------------------------------------------------------------------
+
+
+@style()
+def drawings(tree: Result) -> list[Drawing]:
+    """Angular velocity in the body in time, and the herpolhode."""
+    caption = "Components along the principal axes."
+    shown = drawn("Angular velocity in the body", caption, plot_components(tree))
+    return [shown, *of_sections(tree, {"poinsot": _herpolhode})]
+
+
+def _herpolhode(tree: Result) -> Drawing:
+    poinsot = needed(tree, "poinsot")
+    returns = "It does not come back to where it was."
+    if "herpolhode_advance" in poinsot:
+        turned = float(np.degrees(poinsot.herpolhode_advance))
+        period = float(poinsot.polhode_period)
+        returns = f"A round of the polhode, {period:.4g} s, turns it by {turned:.4f} deg."
+    return drawn(
+        "Herpolhode",
+        "The tip of the angular velocity in the invariable plane, between its bounds (dashed). "
+        f"{returns}",
+        plot_herpolhode(tree),
+        square=True,
+    )
+
+
+def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Angular velocity along the principal axes in time.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``free-rotor``.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    ax = axes(ax, 8, 3.4)
+    answer = answer_of(result)
+    for colour, (component, of) in zip(CYCLE, along(answer, "component"), strict=False):
+        ax.plot(answer.time, of.omega_body, color=colour, lw=1.2, label=component)
+    ax.set_xlabel("time (s)")
+    ax.set_ylabel("angular velocity (rad/s)")
+    legend_above(ax)
+    return ax
+
+
+def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Path of the angular velocity in the invariable plane, and its two bounds.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``free-rotor``; without the section ``poinsot`` it is run again.
+    ax : Axes, optional
+    """
+    poinsot = needed(result, "poinsot")
+    ax = axes(ax, 5, 5)
+    turn = np.linspace(0, 2 * np.pi, 181)
+    for radius in poinsot.herpolhode_radius.values:
+        ax.plot(radius * np.cos(turn), radius * np.sin(turn), color="0.5", lw=0.8, ls="--")
+    x, y = poinsot.herpolhode.transpose("in_plane", ...).values
+    ax.plot(x, y, color=RED, lw=1.0)
+    ax.set_aspect("equal")
+    ax.set_xlabel("rad/s")
+    ax.set_ylabel("rad/s")
+    return ax
+
+
+# --- solids --------------------------------------------------------------------------------------
+
+
+def solids(tree: Result) -> list[Solid]:
+    """Poinsot's pictures of one free rotor."""
+    makers = (ellipsoids_with_polhodes, rolling_ellipsoid)
+    return [solid for make in makers for solid in of_sections(tree, {"poinsot": make})]
+
+
+def ellipsoids_with_polhodes(tree: Result) -> Solid:
+    """Inertia ellipsoid and momentum ellipsoid, meeting in the polhode (I.5.1 to I.5.5)."""
+    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    inertia, momentum = poinsot.inertia_ellipsoid.values, poinsot.momentum_ellipsoid.values
+    polhode = poinsot.polhode.values
+    return Solid(
+        title="Two ellipsoids and a polhode",
+        caption="In the body: the angular velocity stays on the inertia ellipsoid (blue, constant "
+        "energy) and on the momentum ellipsoid (red), so it runs along the curve in which they "
+        "meet, and along its mirror image for the opposite start.",
+        items=[
+            mesh(ellipsoid(inertia), BLUE),
+            mesh(ellipsoid(momentum), RED, opacity=0.12),
+            line(polhode, BLACK, width=3),
+            line(-polhode, GREY, width=2),
+            moving_arrow(answer.omega_body.values, GREEN, "ω"),
+        ],
+        radius=float(1.15 * max(inertia.max(), momentum.max())),
+        times=answer.time.values,
+        attitude=[[1.0, 0.0, 0.0, 0.0]] * answer.time.size,
+    )
+
+
+def rolling_ellipsoid(tree: Result) -> Solid:
+    """Poinsot: the inertia ellipsoid rolls on the invariable plane (I.5.8, I.5.9)."""
+    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    to_plane = _turn_to_z(answer.angular_momentum_body.values[0])
+    attitude = np.array([multiply(to_plane, q) for q in answer.attitude.values])
+    omega = rotate(attitude, answer.omega_body.values)
+    height = float(poinsot.invariable_plane_distance)
+    semi_axes = poinsot.inertia_ellipsoid.values
+    outer = float(poinsot.herpolhode_radius.sel(bound="outer"))
+    half = 1.15 * max(outer, float(semi_axes.max()))
+    return Solid(
+        title="The ellipsoid rolls on the invariable plane",
+        caption="In space, with the angular momentum upright: the inertia ellipsoid touches a "
+        "fixed plane at the tip of the angular velocity and rolls on it without slipping. It is "
+        "marked along the polhode (black), the plane along the herpolhode (red).",
+        items=[
+            mesh(ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
+            line(poinsot.polhode.values, BLACK, width=2.5, frame="body"),
+            mesh(square(half, height), GREY, opacity=0.1),
+            line(omega, RED, width=2, grows=True),
+            moving_arrow(omega, GREEN, "ω"),
+            arrow(np.array([0, 0, 1.25 * height]), BLACK, "L"),
+        ],
+        radius=float(1.6 * max(half, height)),
+        times=answer.time.values,
+        attitude=attitude,
+        tilt=0.2,
+    )
+
+
+def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid:
+    """Body cone on space cone (I.6.30, I.6.31)."""
+    period = 2 * np.pi / float(rotor.precession_rate)
+    times = np.linspace(0, 2 * period, points)
+    omega = rotor.omega_inertial(times)
+    speed = float(np.linalg.norm(omega[0]))
+    axis = rotor.figure_axis(times)
+    inside = float(rotor.theta) < float(rotor.alpha)
+    roll = "inside out around" if inside else "around the outside of"
+    between = (
+        "Oblate: the angular momentum lies between the axis and the angular velocity."
+        if inside
+        else "Prolate: the angular velocity lies between the angular momentum and the axis."
+    )
+    return Solid(
+        title=title,
+        caption="The body cone (red), fixed in the body about its axis, rolls "
+        f"{roll} the space cone (blue) about the angular momentum. They touch along the angular "
+        f"velocity (green). {between}",
+        items=[
+            mesh(cone(abs(float(rotor.space_cone)), speed), BLUE, opacity=0.2),
+            mesh(cone(float(rotor.alpha), speed), RED, frame="body", opacity=0.2),
+            moving_arrow(omega, GREEN, "ω"),
+            moving_arrow(1.15 * speed * axis, RED, "axis"),
+            arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
+        ],
+        radius=float(1.3 * speed),
+        times=times,
+        attitude=rotor.attitude(times),
+    )
+
+
+def _turn_to_z(vector: FloatArray) -> FloatArray:
+    """Quaternion of the shortest turn that brings a vector to the third axis."""
+    unit = vector / np.linalg.norm(vector)
+    half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
+    return np.asarray(half / np.linalg.norm(half))

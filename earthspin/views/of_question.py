@@ -1,0 +1,190 @@
+"""From an answer to the views of its question, which stand in the file of its word."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+import xarray as xr
+
+from earthspin.engine.plan import NOT_ASKED
+from earthspin.scenes import plan, run_tree
+from earthspin.views.reading import Result, answer_of, changes_of, section
+from earthspin.views.table import Table, along
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from earthspin.views.drawing import Drawing
+    from earthspin.views.solids import Solid
+
+
+def tables_for(tree: Result) -> list[Table]:
+    """Tables of an answer and its sections, in the order in which they are read.
+
+    Parameters
+    ----------
+    tree : Dataset or DataTree
+        As `run` or `run_tree` give it; of sections that are not there, nothing is shown.
+    """
+    answer = answer_of(tree)
+    tables: list[Table] = _view(tree).tables(tree)
+    if "error_asked" in answer:
+        tables = [_accuracy(answer), *tables]
+    first, *others = [table for table in tables if table.rows]
+    left_out = f"Left out: {answer.attrs['neglected']}."
+    note = "\n".join(filter(None, [first.note, *changes_of(answer), left_out]))
+    return [replace(first, note=note), *others]
+
+
+def drawings_for(tree: Result) -> list[Drawing]:
+    """Figures of an answer and of the sections that are there, with captions."""
+    view = _view(tree)
+    drawings: list[Drawing] = view.drawings(tree) if hasattr(view, "drawings") else []
+    return drawings
+
+
+def solids_for(tree: Result) -> list[Solid]:
+    """Pictures of an answer that can be turned and played, where there are any."""
+    view = _view(tree)
+    solids: list[Solid] = view.solids(tree) if hasattr(view, "solids") else []
+    return solids
+
+
+def figures_of(answer: xr.Dataset) -> list[Figure]:
+    """Draw the figures that belong to the question of an answer.
+
+    Parameters
+    ----------
+    answer : Dataset
+        Sections that its figures stand on are run for it.
+
+    Raises
+    ------
+    SceneError
+        If it does not carry the scene that made it.
+    """
+    there = plan(answer, "all").sections
+    applies = [name for name in getattr(_view(answer), "DRAWN", ()) if name in there]
+    more = run_tree(answer, applies) if applies else xr.DataTree()
+    nodes = {name: _alike(more[name].to_dataset(), answer) for name in applies}
+    tree = xr.DataTree.from_dict({"/": answer, **nodes})
+    return [drawing.figure for drawing in drawings_for(tree)]
+
+
+def _alike(section: xr.Dataset, answer: xr.Dataset) -> xr.Dataset:
+    """A section with the labels of an answer that may be a slice."""
+    return section.sel({dim: answer[dim] for dim in section.indexes if dim in answer.indexes})
+
+
+def print_tables(tree: Result) -> None:
+    """Print the tables of an answer, and what ran for it, to the terminal."""
+    from earthspin.views.terminal import Terminal
+
+    console = Terminal()
+    for table in [*tables_for(tree), *what_ran(tree)]:
+        console.print_table(table)
+        console.print()
+
+
+def scene_page(tree: Result) -> str:
+    """Page of an answer: its tables, figures and solids, and what ran for it.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    return page_of(tree, title=answer_of(tree).attrs["title"])
+
+
+def page_of(
+    *trees: Result, title: str, lead: str | None = None, drawings: Sequence[Drawing] | None = None
+) -> str:
+    """Page of several answers together.
+
+    Parameters
+    ----------
+    *trees : Dataset or DataTree
+    title : str
+    lead : str, optional
+        A sentence at the head; that of the first question by default.
+    drawings : sequence of Drawing, optional
+        Those of the answers by default.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    from earthspin.views.page import page
+
+    if lead is None:
+        says = getattr(_view(trees[0]), "lead", None)
+        lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
+    return page(
+        title,
+        [table for tree in trees for table in tables_for(tree)],
+        [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
+        [solid for tree in trees for solid in solids_for(tree)],
+        lead=lead,
+        note="Every error is the half-width of a 95 % interval.",
+        last=what_ran(*trees),
+        footer=_footer(answer_of(trees[0])),
+    )
+
+
+def what_ran(*trees: Result) -> list[Table]:
+    """What ran for some answers and, of one answer, what was left out and why.
+
+    Returns
+    -------
+    list of Table
+        One, or none if the answers do not carry their plans.
+    """
+    plans = [found for found in (section(tree, "plan") for tree in trees) if found is not None]
+    rows, total = [], 0.0
+    for part, of in (row for found in plans for row in along(found, "part")):
+        reason, ran = of.reason.item(), of.status.item() == "ran"
+        total += float(of.run_time)
+        if ran:
+            rows.append((part, reason, f"{float(of.run_time) * 1e3:.1f}"))
+        elif len(trees) == 1 and reason != NOT_ASKED:
+            rows.append((part, f"left out: {reason}", ""))
+    title = "What ran, and what was left out" if len(trees) == 1 else "What ran"
+    table = Table(title, ("part", "", "ms"), rows, words=(0, 1), cost=f"{total:.2f} s in all")
+    return [table] if plans else []
+
+
+def _view(tree: Result) -> ModuleType:
+    """File of the question of an answer."""
+    word = str(tree.attrs["compute"]).replace("-", "_")
+    return import_module(f"earthspin.views.{word}")
+
+
+def _accuracy(answer: xr.Dataset) -> Table:
+    """What was asked for, what is claimed, and the settings that it took."""
+    unit = answer.error_asked.attrs["units"]
+    shown = "" if unit == "1" else f", {unit}"
+    row = (
+        answer.method_chosen.item(),
+        f"{float(answer.error_asked):.3g}",
+        f"{float(answer.error_estimated):.3g}",
+        f"{int(answer.evaluations):,}",
+    )
+    headers = ("chosen", f"asked{shown}", f"claimed{shown}", "evaluations")
+    return Table("Accuracy", headers, [row])
+
+
+def _footer(answer: xr.Dataset) -> str:
+    """What made an answer."""
+    attrs = answer.attrs
+    words = f"{attrs['source']}."
+    if "ephemeris" in attrs:
+        words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
+    if attrs["references"]:
+        words += f" Numbers of the bodies: {attrs['references']}."
+    return words

@@ -1,0 +1,309 @@
+"""Observed polar motion: the path of the pole, its spectra, the free wobble in it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from earthspin.constants import MAS
+from earthspin.views.drawing import (
+    BLUE,
+    GREEN,
+    GREY,
+    RED,
+    Drawing,
+    axes,
+    drawn,
+    empty,
+    note,
+    style,
+)
+from earthspin.views.reading import Result, answer_of, needed, of_sections
+from earthspin.views.table import Table, date, measured, with_error
+from earthspin.wobble.observed import YEAR, spectrum
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Sections that the figures stand on.
+DRAWN = ("chandler",)
+
+
+# --- tables --------------------------------------------------------------------------------------
+
+
+def tables(tree: Result) -> list[Table]:
+    """The series, the wobble observed in it, and what the text says of it."""
+    return [
+        series(tree),
+        *of_sections(tree, {"chandler": observed}),
+        *of_sections(tree, {"chandler": statements}),
+    ]
+
+
+def series(tree: Result) -> Table:
+    """What the table of polar motion holds."""
+    answer = answer_of(tree)
+    first, last = date(answer.time[0]), date(answer.time[-1])
+    return Table(
+        "Polar motion",
+        ("arcsec", "least", "largest", "last"),
+        [
+            (
+                name,
+                f"{float(answer[name].min()):+.6f}",
+                f"{float(answer[name].max()):+.6f}",
+                measured(answer.isel(time=-1), name),
+            )
+            for name in ("x", "y")
+        ],
+        f"{answer.time.size} days from {first} to {last}, {answer.x.attrs['references']}.",
+    )
+
+
+def observed(tree: Result) -> Table:
+    """Period, quality factor and present amplitude of the observed wobble."""
+    found = needed(tree, "chandler")
+    rows = [("period, d", measured(found, "chandler_period"))]
+    if "chandler_quality_factor" in found:
+        low, high = (float(found[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
+        ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
+        rows.append(("quality factor", f"{float(found.chandler_quality_factor):.0f} ({ends})"))
+    size = found.chandler_amplitude.values
+    for words, at in (("largest", size.argmax()), ("smallest", size.argmin()), ("last", -1)):
+        of = found.isel(middle=at)
+        year = date(of.middle, "Y")
+        rows.append((f"{words} amplitude, mas, {year}", measured(of, "chandler_amplitude")))
+    annual = f"{float(found.annual_amplitude.median()):.1f}"
+    return Table(
+        "The observed wobble",
+        ("", "value"),
+        [*rows, ("annual, prograde, mas (median)", annual)],
+        f"By {found.chandler_period.attrs['method']}; 95 % intervals. Amplitudes in windows of "
+        "one beat of the free and the annual wobble, by the year of the window's middle.",
+    )
+
+
+def statements(tree: Result) -> Table:
+    """What the source text says of the wobble, and when it was true."""
+    found, metres = needed(tree, "chandler"), _metres(answer_of(tree))
+    period, error = float(found.chandler_period), float(found.chandler_period_error)
+    amplitude = found.chandler_amplitude
+    rows = [
+        (
+            words,
+            f"{float(amplitude.min()) * scale:{shown}} to {float(amplitude.max()) * scale:{shown}}",
+            _years_near(amplitude, size / scale),
+        )
+        for words, size, scale, shown in (
+            ("circle of 6 m", 6.0, metres, ".1f"),
+            ("cone of 0.2 arcsec", 0.2, 1e-3, ".3f"),
+        )
+        if scale
+    ]
+    within = "within the error" if abs(434 - period) <= error else "outside the error"
+    return Table(
+        "The text's statements (I.6)",
+        ("statement", "observed", "true (within a quarter)"),
+        [*rows, ("period of 434 days", with_error(period, error), within)],
+        "The free wobble alone; the annual one comes on top of it.",
+    )
+
+
+def _metres(answer: xr.Dataset) -> float:
+    """Metres on the ground for a milliarcsecond; 0 if the radius is not known."""
+    return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
+
+
+def _years_near(amplitude: xr.DataArray, size: float) -> str:
+    """First and last year in which an amplitude is within a quarter of a size."""
+    near = abs(amplitude.values / size - 1) <= 0.25
+    if not near.any():
+        return "never"
+    times = amplitude.middle.values[near]
+    return f"{date(times[0], 'Y')} to {date(times[-1], 'Y')}, {near.mean():.0%} of the time"
+
+
+# --- figures -------------------------------------------------------------------------------------
+
+
+@style()
+def drawings(tree: Result) -> list[Drawing]:
+    """Amplitude and phase, spectra, and the path of the pole."""
+    return [*of_sections(tree, {"chandler": amplitude_and_phase}), spectra(tree), path(tree)]
+
+
+@style()
+def amplitude_and_phase(tree: Result) -> Drawing:
+    """Amplitude above, phase below."""
+    figure = empty(7.5, 5.2)
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    plot_amplitude(tree, ax=upper)
+    plot_phase(tree, ax=lower)
+    middles = needed(tree, "chandler").middle.values
+    low = np.datetime64("2018-01-01")
+    died = (
+        " The free wobble all but died near 2018 and came back with another phase."
+        if middles[0] < low < middles[-1]
+        else ""
+    )
+    caption = f"In windows of one beat.{died}"
+    return Drawing("Amplitude and phase in time", caption, figure)
+
+
+@style()
+def spectra(tree: Result) -> Drawing:
+    """The spectra."""
+    return drawn(
+        "Prograde and retrograde",
+        "The free wobble turns one way only, with the spin; the year is nearly so.",
+        plot_spectra(tree),
+    )
+
+
+@style()
+def path(tree: Result, years: float | None = 6.0) -> Drawing:
+    """The path of the pole."""
+    return drawn(
+        "The path of the pole",
+        "Annual and free wobble beat every 6.4 years; the spiral's middle drifts.",
+        plot_polhode(tree, years=years),
+    )
+
+
+def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
+    """Path of the pole in milliarcseconds, and in metres on the far sides.
+
+    The prime meridian points up and 90 degrees west to the right: the ground as seen from
+    above, where the spin and the free wobble turn counter-clockwise.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        `x`, `y` over `time`; `polar_radius` for metres.
+    years : float, optional
+        The last so many; all with None. For any other window select it before:
+        ``result.sel(time=slice("1990", "1996"))``.
+    ax : Axes, optional
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    ax = axes(ax, 7.6, 6)
+    answer = answer_of(result)
+    if years is not None:
+        first = answer.time.values[-1] - np.timedelta64(round(years * 365.25), "D")
+        answer = answer.sel(time=slice(first, None))
+    x, y = _in_mas(answer)
+    when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
+    ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
+    dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
+    ax.plot(y[-1], x[-1], "o", color=RED, ms=6, zorder=3)
+    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=RED)
+    ax.set_aspect("equal")
+    ax.set_ylabel("x, towards the prime meridian (mas)")
+    ax.set_xlabel("y, towards 90° west (mas)")
+    if metres := _metres(answer):
+        ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("m")
+        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
+    bar = ax.figure.colorbar(dots, ax=ax, pad=0.05, aspect=35, format="%.0f")
+    bar.locator = MaxNLocator(8, integer=True)
+    return ax
+
+
+def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Amplitude spectra of polar motion, prograde and retrograde over each other.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        `x`, `y` over `time`, evenly spaced.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.8)
+    answer = answer_of(result)
+    x, y = _in_mas(answer)
+    days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
+    frequency, amplitude = spectrum(days, x - 1j * y)
+    for sign, colour, words in ((1, BLUE, "prograde"), (-1, RED, "retrograde")):
+        inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
+        ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
+    for period, words, side, by in (
+        (433.0, "free wobble", "right", -4), (YEAR, "year", "left", 4),
+        (YEAR / 2, "half a year", "left", 4),
+    ):  # fmt: skip
+        at = 365.25 / period
+        ax.axvline(at, color="0.7", lw=0.7, zorder=0)
+        where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
+        note(ax, words, (at, 0.97), (by, 0), color=GREY, **where)
+    ax.set_ylim(0.05, None)
+    ax.set_xlabel("frequency (cycles per year)")
+    ax.set_ylabel("amplitude (mas)")
+    ax.legend(loc="upper right", bbox_to_anchor=(1, 0.9))
+    return ax
+
+
+def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Amplitude of free and annual wobble in time, with the free one's 95 % band.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``polar-motion``, which is run again without its section ``chandler``, or
+        of `fit_chandler`.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.4)
+    found, time, size, half = _free_wobble(result)
+    ax.fill_between(time, np.maximum(size - half, 0), size + half, color=BLUE, alpha=0.2, lw=0)
+    ax.plot(time, size, color=BLUE, lw=1.4, label="free")
+    ax.plot(time, found.annual_amplitude, color=GREEN, lw=1, label="annual")
+    ax.axhline(200, color=GREY, lw=0.8, ls="--")
+    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=GREY)
+    ax.set_ylim(0, 235)
+    ax.set_ylabel("amplitude (mas)")
+    if metres := _metres(answer_of(result)):
+        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
+    ax.legend(loc="lower left", ncols=2)
+    return ax
+
+
+def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Phase of the free wobble against a steady one of the fitted period.
+
+    Where the amplitude is below twice its error the phase is drawn faintly.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        As of `plot_amplitude`.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 2.6)
+    found, time, size, half = _free_wobble(result)
+    phase = found.chandler_phase.values
+    ax.plot(time, phase, color=BLUE, lw=1, alpha=0.35)
+    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=BLUE, lw=1.6)
+    ax.set_ylabel("phase (deg)")
+    return ax
+
+
+def _free_wobble(result: Result) -> tuple[xr.Dataset, np.ndarray, np.ndarray, np.ndarray]:
+    """What was found, the middles of its windows, the amplitude and its error."""
+    found = result if "chandler_amplitude" in result else needed(result, "chandler")
+    assert isinstance(found, xr.Dataset)
+    time = found[found.chandler_amplitude.dims[0]].values
+    return found, time, found.chandler_amplitude.values, found.chandler_amplitude_error.values
+
+
+def _in_mas(answer: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
+    return answer.x.values * scale, answer.y.values * scale
+
+
+def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """A scale and its inverse, for a second axis."""
+    return lambda v: v * factor, lambda v: v / factor

@@ -1,0 +1,77 @@
+"""The path of the axes: where they stand, and how the pole nods."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.constants import DAY, MOON_NODE_PERIOD
+from earthspin.views.drawing import Drawing, axes, drawn, style
+from earthspin.views.reading import Result, answer_of
+from earthspin.views.table import Table, along, date
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def tables(tree: Result) -> list[Table]:
+    """Where the axes stand at the ends of the path."""
+    answer = answer_of(tree)
+    angles = ["psi", "eps"] if "psi" in answer else []
+    rows = []
+    for _, at in along(answer.isel(time=[0, -1]), "time"):
+        for axis, of in along(at, "axis"):
+            place = [f"{float(of[name]):+.12f}" for name in ("X", "Y")]
+            place += [f"{float(of[name]):.6f}" for name in angles]
+            rows.append((f"{date(at.time, 's')} {axis.replace('_', ' ')}", *place))
+    method, given = (
+        f"{float(answer[f'direction_error_{share}'].max()):.2g}" for share in ("method", "input")
+    )
+    table = Table(
+        "The axes in the GCRS",
+        ("TDB, axis", "X", "Y", *(f"{name}, arcsec" for name in angles)),
+        rows,
+        f"{answer.time.size} times. The method is good to {method} uas; the uncertainty of H moves "
+        f"the axes by up to {given} uas on this span (95 %).",
+    )
+    return [table]
+
+
+@style()
+def drawings(tree: Result) -> list[Drawing]:
+    """The path of the figure axis, where it has a longitude."""
+    if "psi" not in answer_of(tree):
+        return []
+    caption = (
+        "The figure axis among the stars: precession carries it along, nutation makes it swing."
+    )
+    return [drawn("The path of the pole", caption, plot_pole_path(tree))]
+
+
+def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
+    """Nutation of an axis about its own precession, psi sin(eps) against eps.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``pole``; some years of it, with psi and eps.
+    axis : str
+        Which of the three.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 6.4, 5.0)
+    of = answer_of(result).sel(axis=axis)
+    days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
+    angles = np.stack([of.psi * np.sin(np.radians(of.eps / 3600)), of.eps], axis=1)
+    turn = 2 * np.pi * days * DAY / MOON_NODE_PERIOD.value
+    design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
+    line = np.linalg.lstsq(design, angles, rcond=None)[0]
+    x, y = (angles - design[:, :2] @ line[:2]).T
+    dots = ax.scatter(x, y, c=days / 365.25, s=2, cmap="viridis")
+    ax.figure.colorbar(dots, ax=ax, label="years from the start")
+    ax.set_aspect("equal")
+    ax.set_xlabel("psi sin(eps), arcsec, straight line removed")
+    ax.set_ylabel("eps, arcsec, straight line removed")
+    ax.set_title(f"{axis.replace('_', ' ')} axis")
+    return ax

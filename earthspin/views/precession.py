@@ -1,0 +1,323 @@
+"""Precession: rates by perturber, what they mean, and how the average converges."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
+from earthspin.engine.labels import si
+from earthspin.views.drawing import CYCLE, GREY, RED, Drawing, axes, drawn, note, style
+from earthspin.views.reading import (
+    Result,
+    answer_of,
+    body_of,
+    changes_of,
+    needed,
+    of_sections,
+    section,
+)
+from earthspin.views.stars import STARS
+from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Sections that the figures stand on.
+DRAWN = ("convergence", "seasons")
+
+
+def lead(tree: Result) -> str:
+    """The sentence at the head of the page."""
+    answer = answer_of(tree)
+    period = measured(answer.isel(perturber=-1), "precession_period", "years")
+    pullers = " and ".join(name.capitalize() for name in answer.attrs["perturbers"].split())
+    return (
+        f"The axis of the {body_of(answer)} goes once round in {period} under the pull of "
+        f"{pullers} on its bulge."
+    )
+
+
+# --- tables --------------------------------------------------------------------------------------
+
+
+def tables(tree: Result) -> list[Table]:
+    """Rates, and a table for each section that is there."""
+    makers = {
+        "seasons": sky_and_calendar,
+        "figure_models": models,
+        "free_wobble": free_wobble,
+        "iau_2006": iau,
+        "standstills": standstills,
+    }
+    return [rates(tree), *of_sections(tree, makers)]
+
+
+def rates(tree: Result) -> Table:
+    """Rates, periods and torques by perturber."""
+    answer = answer_of(tree)
+    first = str(answer.perturber.values[0])
+    method, given = (
+        f"{float(answer[f'precession_rate_error_{share}'][-1]) * MAS_PER_CENTURY:.2g}"
+        for share in ("method", "input")
+    )
+    return Table(
+        "Precession",
+        ("pulled by", "rate, arcsec/yr", "period, yr", "mean torque, N m", f"rate / {first}"),
+        [
+            (
+                label,
+                measured(of, "precession_rate"),
+                measured(of, "precession_period"),
+                measured(of, "mean_torque"),
+                f"{float(of.rate_ratio):.5f}",
+            )
+            for label, of in along(answer, "perturber")
+        ],
+        "In longitude along the fixed orbit, referred to "
+        f"{date(answer.reference_epoch, 'm')} TDB; obliquity {float(answer.obliquity):.6f} deg. "
+        f"Averaged with the {answer.precession_rate.attrs['window']}. Errors are 95 % half-widths; "
+        f"of the rate's last one, averaging has {method} mas/cy, the given numbers {given}.",
+    )
+
+
+def sky_and_calendar(tree: Result) -> Table:
+    """What the rate means in the sky and in the calendar."""
+    of = needed(tree, "seasons")
+    tropical = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
+    return Table(
+        "What it means in the sky",
+        ("", "ours", "for comparison"),
+        [
+            (
+                "general precession, arcsec/yr",
+                measured(of, "general_precession"),
+                f"{P_A_RATE.value:.5f} (IAU 2006)",
+            ),
+            ("once round, yr", measured(of, "general_precession_period"), "25,800 (I.8)"),
+            ("years per degree", f"{float(of.time_per_degree):.3f}", "72 (I.8)"),
+            ("tropical year, d", f"{float(of.tropical_year):.6f}", tropical),
+            (
+                "years per day of calendar drift",
+                f"{float(of.time_per_day_of_drift):.2f}",
+                "129.4 (I.8)",
+            ),
+        ],
+        "Ours less the motion of the ecliptic (IAU 2006). A calendar of 365.25 days drifts against "
+        "the tropical year, which already holds the precession; the text's 129.4 divides the turn "
+        "among the stars by the days of the year.",
+    )
+
+
+_MODELS = {
+    "mccullough": "flattening stands for (I3-I1)/I1",
+    "homogeneous": "J2, with C = 0.4 M a2",
+    "measured": "H as measured",
+}
+
+
+def models(tree: Result) -> Table:
+    """Three ways to H."""
+    figure = needed(tree, "figure_models")
+    return Table(
+        "Three models of the figure",
+        ("model", "H = (C-A)/C", "precession, yr", "wobble, d"),
+        [
+            (
+                f"{model}: {_MODELS[model]}",
+                f"{float(of.h_by_model):.7f}",
+                f"{float(of.period_by_model):,.0f}",
+                f"{float(of.wobble_by_model):.2f}",
+            )
+            for model, of in along(figure, "earth_model")
+        ],
+        f"C - A = {float(figure.moment_difference):.5e} kg m2 from J2 (and back: "
+        f"{float(figure.j2_from_moment_difference):.7e}); C = "
+        f"{float(figure.polar_moment_factor):.6f} M a2. Both formulas for an even density fail a "
+        "body that is denser inside.",
+    )
+
+
+def free_wobble(tree: Result) -> Table:
+    """The rigid wobble beside the observed one, where this very body was observed."""
+    of = needed(tree, "free_wobble")
+    sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
+    rows = [("rigid body, A/(C-A)", measured(of, "free_wobble_period"), sidereal)]
+    if "observed_period" in of:
+        rows.append(("observed (Nastula & Gross 2015)", measured(of, "observed_period"), ""))
+    return Table(
+        "Free wobble",
+        ("", "days of 86400 s", "sidereal days"),
+        rows,
+        " ".join(
+            [
+                "A rigid body; the real one yields, has a fluid core and oceans.",
+                *changes_of(answer_of(tree), "body"),
+            ]
+        ),
+    )
+
+
+def iau(tree: Result) -> Table:
+    """IAU 2006 beside ours."""
+    of, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
+    rows = [
+        ("ours", measured(answer.isel(perturber=-1), "precession_rate")),
+        ("IAU 2006, psi_A", f"{float(of.iau_rate):.8f}"),
+        ("difference", measured(of, "difference_from_iau")),
+    ]
+    if left_out is not None:
+        rows += [
+            (f"  left out: {effect}", f"{float(one.neglected_effect):+.6f}")
+            for effect, one in along(left_out, "effect")
+        ]
+    rows.append(("difference after the published effects", measured(of, "closure")))
+    return Table(
+        "Beside IAU 2006",
+        (f"rate at {date(answer.reference_epoch)}", "arcsec/yr"),
+        rows,
+        "Published sizes: Capitaine, Wallace & Chapront 2003, table 3. H itself comes from "
+        "observed precession, so the closure tests consistency, not the theory: what is left is "
+        f"{abs(float(of.closure / of.iau_rate)) * 1e6:.1f} millionths of the rate.",
+    )
+
+
+def standstills(tree: Result) -> Table:
+    """Lunar standstills, two to a row of text."""
+    found = needed(tree, "standstills")
+    text = {"major": "28.58", "minor": "18.30"}
+    error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
+    return Table(
+        "Lunar standstills",
+        ("date (TDB)", "kind", "extreme declination, deg", "I.8, deg"),
+        [
+            (
+                date(of.standstill),
+                of.standstill_kind.item(),
+                f"{float(of.standstill_declination):+.4f}",
+                text[of.standstill_kind.item()],
+            )
+            for _, of in along(found, "standstill")
+        ],
+        "Extremes of single months, from the centre of the body. The text adds 5.14 to 23.44 "
+        "degrees; the Sun swings the orbit's tilt between 5.0 and 5.3, so the widest month reaches "
+        f"28.7 and the narrowest stays near 18.1. Errors: at most {error:.0e} deg, the kernel's.",
+    )
+
+
+# --- figures -------------------------------------------------------------------------------------
+
+
+def drawings(tree: Result) -> list[Drawing]:
+    """How the average converges, and the circle of the pole where the sky is ours."""
+    return of_sections(tree, {"convergence": convergence, "seasons": circle_of_pole})
+
+
+@style()
+def convergence(tree: Result) -> Drawing:
+    """Convergence of the average with the length of the window."""
+    return drawn(
+        "How the average converges",
+        "Distance of the averaged rate from the adopted one. A plain mean misses by whole "
+        "arcseconds a century wherever it stops; a taper on a whole number of turns, three or "
+        "more, is within a few thousandths of one.",
+        plot_convergence(tree),
+    )
+
+
+def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Distance of the averaged rate from the adopted one, against the window's length.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``precession``; without the section ``convergence`` it is run again.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
+    ax = axes(ax)
+    for colour, (window, of) in zip(CYCLE, along(curve, "window"), strict=False):
+        off = abs(of.rate_by_window - total.precession_rate) * MAS_PER_CENTURY
+        ax.semilogy(curve.window_cycles, np.maximum(off, 1e-3), color=colour, lw=1.2, label=window)
+    error = float(total.precession_rate_error_method) * MAS_PER_CENTURY
+    ax.axhline(error, color="0.3", lw=0.9, ls="--")
+    words = f"error claimed for averaging, {error:.2g} mas/cy"
+    note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
+    ax.set_xlabel("length of the window (turns of the slowest cycle)")
+    ax.set_ylabel("off by (mas per century)")
+    ax.set_ylim(3e-2, None)
+    ax.legend(loc="upper right", ncols=2)
+    return ax
+
+
+@style()
+def circle_of_pole(tree: Result) -> Drawing:
+    """The circle of the pole through the stars."""
+    return drawn(
+        "The pole's circle through the stars",
+        "The sky from inside, centred on the pole of the ecliptic, at the present rate and "
+        "obliquity; stars where they stand today.",
+        plot_pole_circle(tree),
+        square=True,
+    )
+
+
+def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Path of the celestial pole among the stars through one turn of precession.
+
+    The sky from inside, centred on the pole of the ecliptic, the present pole on top; the
+    obliquity is held at its present value.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``precession``.
+    ax : Axes, optional
+    """
+    total = answer_of(result).isel(perturber=-1)
+    obliquity = float(np.radians(total.obliquity))
+    radius = np.degrees(obliquity)
+    ax = axes(ax, 6.4, 6.4)
+    ax.grid(visible=False)
+    turn = np.linspace(0, 2 * np.pi, 361)
+    ax.plot(radius * np.sin(turn), radius * np.cos(turn), color=RED, lw=1.4)
+    ax.plot(0, 0, marker="+", color="0.3", ms=9)
+    note(ax, "pole of the ecliptic", (0, 0), (6, 6))
+    _draw_stars(ax, obliquity)
+    rate = float(si(total.precession_rate))
+    for year in (*range(-9999, 1, 2000), 1, *range(2000, 14001, 2000)):
+        back = rate * (year - 2000) * JULIAN_YEAR  # the pole's longitude falls: to the left
+        at = -radius * np.sin(back), radius * np.cos(back)
+        ax.plot(*at, "o", color=RED, ms=4)
+        label = f"{year}" if year > 0 else f"{1 - year} BC"
+        by = 20 * np.sin(back), -11 * np.cos(back)
+        note(ax, label, at, by, ha="center", va="center", color=RED)
+    ax.set_title(f"once round in {float(total.precession_period):,.0f} years")
+    ax.set_aspect("equal")
+    ax.set_xlim(-34, 34)
+    ax.set_ylim(-34, 34)
+    ax.set_xlabel("degrees from the pole of the ecliptic")
+    ax.set_ylabel("degrees")
+    return ax
+
+
+def _draw_stars(ax: Axes, obliquity: float) -> None:
+    """Stars, named on the side where the circle does not run."""
+    for name, ra, dec, magnitude in STARS:
+        x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
+        ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
+        outside = np.hypot(x, y) > np.degrees(obliquity)
+        by, side = ((5, 3), "left") if (x > -1) == outside else ((-5, 3), "right")
+        note(ax, name, (x, y), by, ha=side, color=GREY)
+
+
+def on_the_chart(ra: float, dec: float, obliquity: float) -> tuple[float, float]:
+    """Place of a star on the chart, degrees: distance from the ecliptic pole, longitude."""
+    x = np.cos(dec) * np.cos(ra)
+    y = np.cos(obliquity) * np.cos(dec) * np.sin(ra) + np.sin(obliquity) * np.sin(dec)
+    z = -np.sin(obliquity) * np.cos(dec) * np.sin(ra) + np.cos(obliquity) * np.sin(dec)
+    away, longitude = np.degrees(np.arctan2(np.hypot(x, y), z)), np.arctan2(y, x)
+    # The present pole has longitude 90 degrees. Longitude grows clockwise, seen from inside.
+    return float(away * np.sin(longitude - np.pi / 2)), float(away * np.cos(longitude - np.pi / 2))

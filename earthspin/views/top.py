@@ -1,0 +1,116 @@
+"""The heavy top: what it does, its effective potential, the path of its tip."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.views.drawing import BLUE, Drawing, axes, empty, style
+from earthspin.views.reading import Result, answer_of, needed, of_sections, section
+from earthspin.views.solids import (
+    BLACK,
+    GREY,
+    RED,
+    Solid,
+    circle,
+    ellipsoid,
+    line,
+    mesh,
+    moving_arrow,
+)
+from earthspin.views.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Sections that the figures stand on.
+DRAWN = ("turning", "potential")
+
+
+def tables(tree: Result) -> list[Table]:
+    """What a heavy top does."""
+    answer, turning = answer_of(tree), section(tree, "turning")
+    rows = [
+        ("pattern", answer.pattern.item()),
+        ("period of nutation, s", f"{float(answer.nutation_period):.10g}"),
+        ("mean precession, rad/s", f"{float(answer.mean_precession_rate):.10g}"),
+    ]
+    if turning is not None:
+        upper, lower = np.degrees(turning.turning_angle.values)
+        rows.insert(1, ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"))
+    return [Table("Heavy top", ("", "value"), rows)]
+
+
+def drawings(tree: Result) -> list[Drawing]:
+    """Effective potential, and inclination in time."""
+    return of_sections(tree, {"potential": _potential_and_nutation})
+
+
+@style()
+def _potential_and_nutation(tree: Result) -> Drawing:
+    answer, figure = answer_of(tree), empty(8, 3.4)
+    left, right = figure.subplots(1, 2)
+    plot_effective_potential(tree, ax=left)
+    right.plot(answer.time, np.degrees(answer.theta), color=BLUE, lw=1.2)
+    right.set_xlabel("time (s)")
+    right.set_ylabel("inclination (deg)")
+    return Drawing(
+        "Effective potential and nutation",
+        "Left: the effective potential of the inclination and the top's own energy "
+        "(dashed); it swings where the energy lies above. Right: the inclination in time.",
+        figure,
+    )
+
+
+def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Effective potential of a top against its inclination, with the level of its energy.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``top``; without the sections ``potential`` and ``turning`` it is run
+        again.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    potential = needed(result, "potential").effective_potential
+    ax = axes(ax, 4, 3.4)
+    turning = np.degrees(needed(result, "turning").turning_angle.values)
+    level = float(np.interp(turning, potential.inclination, potential).max())
+    lowest = float(potential.min())
+    reach = max(level - lowest, 0.05 * abs(lowest), 1e-9)
+    ax.plot(potential.inclination, potential, color=BLUE, lw=1.2)
+    ax.axhline(level, color="0.4", lw=0.9, ls="--")
+    ax.set_ylim(lowest - 0.2 * reach, level + 2 * reach)
+    ax.set_xlabel("inclination (deg)")
+    ax.set_ylabel("effective potential (rad$^2$/s$^2$)")
+    return ax
+
+
+def solids(tree: Result) -> list[Solid]:
+    """The path of the tip."""
+    return of_sections(tree, {"turning": path_of_top})
+
+
+def path_of_top(tree: Result) -> Solid:
+    """Tip of the top's axis on a sphere (I.7.19)."""
+    answer = answer_of(tree)
+    theta, phi = answer.theta.values, answer.phi.values
+    tip = np.stack(
+        [np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1
+    )
+    bounds = [circle(float(angle)) for angle in needed(tree, "turning").turning_angle.values]
+    return Solid(
+        title=f"{answer.attrs['title']}: {answer.pattern.item()}",
+        caption="The tip of the axis (red) runs between two circles (grey), the turning points.",
+        items=[
+            mesh(ellipsoid((1.0, 1.0, 1.0), 19, 37), BLUE, opacity=0.06),
+            *(line(bound, GREY, width=1.2) for bound in bounds),
+            line(tip, RED, width=2.5, grows=True),
+            moving_arrow(tip, BLACK, "axis"),
+        ],
+        radius=1.15,
+        times=answer.time.values,
+        attitude=answer.attitude.values,
+    )

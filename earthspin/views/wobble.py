@@ -1,0 +1,129 @@
+"""The free wobble, from a formula of flattening to a body that yields."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.views.drawing import BLUE, RED, Drawing, axes, drawn, note, style
+from earthspin.views.reading import Result, answer_of, changes_of, needed, of_sections, section
+from earthspin.views.table import Table, along, measured, with_error
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Sections that the figures stand on.
+DRAWN = ("observed",)
+
+
+def tables(tree: Result) -> list[Table]:
+    """The ladder, and what its last rung depends on."""
+    return [ladder(tree), *of_sections(tree, {"sensitivity": sensitivity})]
+
+
+def ladder(tree: Result) -> Table:
+    """The wobble ladder."""
+    answer, observed = answer_of(tree), section(tree, "observed")
+    rows = [
+        (
+            name,
+            measured(of, "period_solar"),
+            f"{float(of.period_sidereal):.3f}",
+            f"{float(of.factor):.6f}",
+            f"{q:.0f}" if math.isfinite(q := float(of.quality_factor)) else "",
+        )
+        for name, of in along(answer, "rung")
+    ]
+    notes = ["Each factor is over the rung before; the steps do not commute."]
+    if "anelastic" in answer.rung.values:
+        notes.append(
+            "The exponent of the loss is a free choice: the last rung is a check of consistency, "
+            "not a prediction."
+        )
+    left_out = answer.rung.attrs.get("left_out", "none")
+    if left_out != "none":
+        notes.append(f"Rungs left out: {left_out}.")
+    if observed is not None:
+        rows.append(("observed", measured(observed, "observed_period"), "", "", ""))
+        notes.append(f"{observed.observed_period.attrs.get('references', '')}.")
+    return Table(
+        "Free wobble, rung by rung",
+        ("rung", "days of 86400 s", "sidereal days", "factor", "Q"),
+        rows,
+        " ".join(notes),
+    )
+
+
+def sensitivity(tree: Result) -> Table:
+    """What the last rung depends on."""
+    roots = section(tree, "core_nutation")
+    shown = (
+        ""
+        if roots is None
+        else ", ".join(
+            f"{float(of.free_core_nutation):.1f} d ({shape} core)"
+            for shape, of in along(roots, "core_shape")
+        )
+    )
+    return Table(
+        "What the last rung depends on",
+        ("input", "value", "days per unit", "days from its error"),
+        [
+            (
+                name.replace("_", " "),
+                with_error(of.input_value, of.input_half_width),
+                f"{float(of.days_per_unit):.4g}",
+                f"{float(of.days_from_input):.2g}",
+            )
+            for name, of in along(needed(tree, "sensitivity"), "input")
+            if float(of.input_value) != 0
+        ],
+        shown and f"The system's other root is the free core nutation; among the stars: {shown}.",
+    )
+
+
+@style()
+def drawings(tree: Result) -> list[Drawing]:
+    """The ladder."""
+    band = "; the band is the observed period" if section(tree, "observed") is not None else ""
+    caption = " ".join(
+        [
+            f"Period of the free wobble, rung by rung, with 95 % errors from sampled inputs{band}.",
+            *changes_of(answer_of(tree), "body"),
+        ]
+    )
+    return [drawn("From the rigid to the yielding body", caption, plot_ladder(tree))]
+
+
+def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Period of each rung in days, the observed one as a band where its section is there.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``wobble``.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    answer, observed = answer_of(result), section(result, "observed")
+    ax = axes(ax, 7.5, 4)
+    if observed is not None:
+        seen, half = float(observed.observed_period), float(observed.observed_period_error)
+        ax.axhspan(seen - half, seen + half, color=RED, alpha=0.3, lw=0)
+        note(ax, f"observed, {seen:.1f} d", (-0.4, seen), (0, 5), color=RED, fontsize=9)
+    place, period = np.arange(answer.rung.size), answer.period_solar.values
+    ax.step(place, period, where="mid", color=BLUE, lw=1, alpha=0.5)
+    error = answer.period_solar_error.values
+    ax.errorbar(place, period, error, fmt="o", color=BLUE, ms=6, capsize=3, lw=1.2)
+    for at, value, factor in zip(place, period, answer.factor.values, strict=True):
+        below = at == place[-1] or factor < 1
+        words = f"{value:.1f} d" + (f"\n× {factor:.4f}" if at else "")
+        by, side = ((0, -12), "top") if below else ((0, 10), "bottom")
+        note(ax, words, (at, value), by, ha="center", va=side)
+    ax.set_xticks(place, [str(r) for r in answer.rung.values])
+    ax.set_ylabel("period of the free wobble (d)")
+    ax.margins(x=0.08, y=0.2)
+    ax.grid(axis="x", visible=False)
+    return ax

@@ -1,0 +1,152 @@
+"""Answers: they hold the answer alone, and are the same every time."""
+
+import re
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EARTH, Scene, load_scene
+from earthspin.scenes import QUESTIONS, shipped_scenes
+
+#: Dimensions of each question: those of its answer, and no others.
+DIMENSIONS = {
+    "precession": {"perturber"},
+    "torque": {"time", "perturber", "component"},
+    "pole": {"time", "axis"},
+    "iau": {"effect"},
+    "wobble": {"rung"},
+    "polar-motion": {"time"},
+    "free-rotor": {"time", "component", "quaternion"},
+    "top": {"time", "component", "quaternion"},
+    "spheroid": {"point", "component"},
+}
+
+
+@pytest.fixture(scope="module", params=shipped_scenes())
+def answer(request: pytest.FixtureRequest) -> xr.Dataset:
+    return earthspin.run(request.param)
+
+
+def test_every_question_has_its_dimensions() -> None:
+    assert set(DIMENSIONS) == set(QUESTIONS)
+
+
+def test_an_answer_has_the_dimensions_of_its_question(answer: xr.Dataset) -> None:
+    assert set(answer.sizes) == DIMENSIONS[answer.attrs["compute"]]
+    assert not {str(name) for name in answer.variables if str(name).startswith("part")}
+    assert not [name for name in answer.variables if "part" in answer[name].attrs]
+
+
+def test_two_runs_are_identical(answer: xr.Dataset) -> None:
+    again = earthspin.run(answer.earthspin.scene)
+    xr.testing.assert_identical(again, answer)
+    assert list(again.attrs.items()) == list(answer.attrs.items())
+
+
+def test_no_clock_stands_in_an_answer(answer: xr.Dataset) -> None:
+    today = datetime.now(UTC)
+    text = repr([answer.attrs, *(v.attrs for v in answer.variables.values())])
+    assert f"{today:%Y-%m-%d}" not in text
+    assert not re.search(r"run_?time|seconds_of|date_created", text)
+
+
+def test_an_answer_names_what_it_neglects(answer: xr.Dataset) -> None:
+    words = answer.attrs["neglected"]
+    assert words
+    assert "\n" not in words
+    sizes = earthspin.run_tree(answer, "neglected")["neglected"].neglected_effect
+    assert sizes.dims == ("effect",)
+    if sizes.size:
+        largest = str(abs(sizes).idxmax().values)
+        assert words.startswith(f"{largest}: ")
+        assert f"{float(sizes.sel(effect=largest)):.3g} {sizes.attrs['units']}" in words
+    else:
+        assert words.startswith("none of known size: ")
+
+
+def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:
+    j2 = xr.DataArray([1e-3, 2e-3], dims="draw")
+    keys = {"body": EARTH.replace(j2=j2), "perturbers": ["sun"]}
+    series = earthspin.torque_series("2000-01-01", "2000-01-02", "6 h", **keys)
+    told = "none of known size: sizes are given for one body at a time"
+    assert series.attrs["neglected"] == told
+
+
+def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
+    series = earthspin.torque_series("2000-01-01T12:00", "2010-01-01T12:00", "6 h")
+    assert series.sizes == {"time": 14_613, "perturber": 2, "component": 3}
+    assert len(series.to_dataframe()) == 87_678
+    frame = series.earthspin.to_frame()
+    assert len(frame) == 29_226
+    assert list(frame.columns) == [
+        *("time", "perturber", "right_ascension", "declination", "distance", "distance_error"),
+        *("torque_x", "torque_y", "torque_z", "torque_magnitude", "torque_magnitude_error"),
+        "direction_error",
+    ]
+    some = frame[(frame.perturber == "moon") & (frame.time == np.datetime64("2005-01-01T12:00"))]
+    at = series.sel(perturber="moon", time="2005-01-01T12:00")
+    assert len(some) == 1
+    for axis in "xyz":
+        assert float(some[f"torque_{axis}"].iloc[0]) == float(at.torque.sel(component=axis))
+    assert float(some.distance_error.iloc[0]) == float(at.distance_error)
+
+
+def test_errors_stand_beside_their_values(precession_result: xr.Dataset) -> None:
+    frame = precession_result.earthspin.to_frame()
+    assert list(frame.columns)[:6] == [
+        *("perturber", "precession_rate", "precession_rate_error"),
+        *("precession_rate_error_method", "precession_rate_error_input", "precession_period"),
+    ]
+    assert len(frame) == 3
+    assert np.array_equal(frame.mean_torque, precession_result.mean_torque)
+
+
+def test_a_frame_has_a_row_for_each_label(answer: xr.Dataset) -> None:
+    spread = {"component", "quaternion", "axis"}
+    rows = np.prod([size for dim, size in answer.sizes.items() if dim not in spread])
+    frame = answer.earthspin.to_frame()
+    assert len(frame) == rows
+    assert not frame.isna().any(axis=None)
+
+
+def test_many_bodies_share_the_dimensions_of_the_question_and_their_own() -> None:
+    h = xr.DataArray(np.linspace(0.003, 0.0034, 1000), dims="draw")
+    answer = earthspin.precession(body=EARTH.replace(dynamical_flattening=h))
+    assert set(answer.sizes) == {"perturber", "draw"}
+    # 7 variables over both, with no curve that nobody asked for
+    assert answer.nbytes < 20 * 3 * 1000 * 8
+
+
+def test_an_earth_with_a_day_of_twelve_hours_says_so() -> None:
+    fast = EARTH.replace(spin_period=43200.0)
+    tree = earthspin.run_tree(Scene(compute="precession", body=fast))
+    assert tree.attrs["body"] == "earth"
+    assert tree.attrs["body_changes"] == "spin_period = 43200.0 s"
+    assert "free_wobble_period" in tree["free_wobble"]
+    assert "observed_period" not in tree["free_wobble"]
+    reason = str(tree["plan/reason"].sel(part="observed-wobble").values)
+    assert reason == "no observed wobble of this earth is kept"
+    wobble = load_scene("wobble", {"body.spin_period": "12 h", "body.interior": "none"})
+    assert "observed" not in earthspin.run_tree(wobble)
+    changes = earthspin.run(wobble).attrs["body_changes"]
+    assert changes == "spin_period = 43200.0 s; interior = none"
+    with pytest.raises(earthspin.SceneError, match="no observed wobble of this earth"):
+        earthspin.run_tree(wobble, "observed")
+
+
+def test_a_body_as_it_is_says_nothing_of_changes(precession_result: xr.Dataset) -> None:
+    assert "body_changes" not in precession_result.attrs
+    # what is known better of the same body does not make it another
+    finer = EARTH.replace(j2=EARTH.j2 * (1 + 1e-6), dynamical_flattening=EARTH.dynamical_flattening)
+    tree = earthspin.run_tree(Scene(compute="precession", body=finer), "free_wobble")
+    assert float(tree["free_wobble/observed_period"]) == 430.9
+    assert tree.attrs["body_changes"].startswith("j2 = ")
+
+
+def test_labels_of_changes_are_named() -> None:
+    h = xr.DataArray([0.003, 0.0034], dims="draw")
+    answer = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=h))
+    assert answer.attrs["body_changes"] == "dynamical_flattening along draw"

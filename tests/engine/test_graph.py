@@ -1,0 +1,202 @@
+"""What questions are made of: typed parts that fit together, shown to a type checker."""
+
+import inspect
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from earthspin.engine.asking import script_of
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import BLOCK, Part, part
+from earthspin.engine.question import Question, key, keys_of, made_of
+from earthspin.scenes import QUESTIONS
+
+ROOT = Path(__file__).parents[2]
+PARTS = {
+    f"{question.word}: {one.title}": one
+    for question in QUESTIONS.values()
+    for one in question.graph.parts.values()
+}
+
+
+def type_check(folder: Path, scripts: dict[str, str], cache: Path) -> subprocess.CompletedProcess:
+    paths = []
+    for name, text in scripts.items():
+        paths.append(folder / f"{name}.py")
+        paths[-1].write_text(text, encoding="utf-8")
+    return subprocess.run(
+        [
+            *(sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(cache)),
+            *("--config-file", str(ROOT / "pyproject.toml"), *map(str, paths)),
+        ],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def of_scripts(lines: str, folder: Path) -> list[str]:
+    return [line for line in lines.splitlines() if folder.name in line]
+
+
+def test_the_script_of_every_question_passes_the_type_checker(
+    tmp_path: Path, pytestconfig: pytest.Config
+) -> None:
+    """And one in which a part gets what another gives does not, so that the checker looks."""
+    scripts = {q.word.replace("-", "_"): script_of(q) for q in QUESTIONS.values()}
+    assert len(scripts) == 9
+    wrong = scripts["precession"].replace("samples(sky=sky", "samples(sky=stretch")
+    assert wrong != scripts["precession"]
+    cache = pytestconfig.cache
+    kept = Path(cache.mkdir("mypy")) if cache is not None else tmp_path / "cache"
+    done = type_check(tmp_path, scripts | {"wrong": wrong}, kept)
+    told = of_scripts(done.stdout, tmp_path)
+    assert [line for line in told if "wrong.py" not in line] == [], done.stdout
+    assert [line for line in told if "arg-type" in line], done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_a_script_holds_every_part_in_order(question: type[Question]) -> None:
+    text = script_of(question)
+    compile(text, question.word, "exec")
+    place = {}
+    for name in question.graph.parts:
+        (call,) = re.finditer(rf"^    {name} = [\w.]+\.{name}\(", text, flags=re.MULTILINE)
+        place[name] = call.start()
+    for name, one in question.graph.parts.items():
+        for other in (*one.needs, *one.uses):
+            if other in place:
+                assert place[other] < place[name], (name, other)
+    for section in question.graph.sections:
+        assert f"    _{section} = " in text
+
+
+# --- types -----------------------------------------------------------------------------------
+
+LOOSE = re.compile(r"\bAny\b|\bobject\b|\b[Dd]ict\b(?!\[)|\bMapping\b(?!\[)|\blist\b(?!\[)")
+
+
+def annotations_of(one: Part[..., Any]) -> Iterator[tuple[str, str]]:
+    for name, parameter in inspect.signature(one.function).parameters.items():
+        assert parameter.annotation is not inspect.Parameter.empty, name
+        yield name, str(parameter.annotation)
+    yield "return", str(inspect.signature(one.function).return_annotation)
+
+
+def test_what_is_loose_is_seen() -> None:
+    for text in ("Any", "dict[str, Any]", "Mapping", "dict", "xr.Dataset | object", "list"):
+        assert LOOSE.search(text), text
+    for text in ("dict[str, int]", "tuple[Body, ...]", "Manya", "Mapping[str, float]"):
+        assert not LOOSE.search(text), text
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_what_a_part_takes_and_gives_is_typed(name: str) -> None:
+    for parameter, annotation in annotations_of(PARTS[name]):
+        assert not LOOSE.search(annotation), (parameter, annotation)
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_what_a_question_takes_is_typed(question: type[Question]) -> None:
+    annotated = {
+        name: str(annotation)
+        for cls in question.__mro__
+        for name, annotation in vars(cls).get("__annotations__", {}).items()
+    }
+    for name in keys_of(question):
+        assert not LOOSE.search(annotated[name]), (name, annotated[name])
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_a_part_says_what_it_does(name: str) -> None:
+    one = PARTS[name]
+    assert one.does
+    assert (one.__doc__ or "").split("\n")[0].endswith(".")
+    assert "\n" not in one.does
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_a_part_and_a_key_never_share_a_name(question: type[Question]) -> None:
+    assert not set(question.graph.parts) & {*keys_of(question), BLOCK}
+    assert [name for name, one in question.graph.parts.items() if one.name != name] == []
+
+
+# --- what made_of refuses --------------------------------------------------------------------
+
+
+class Asked(Question, word="asked", call="asked"):
+    """A question of the tests."""
+
+    size: int = key(1, doc="a number")
+
+
+@part
+def answer(size: int) -> int:
+    """Give it back."""
+    return size
+
+
+@part
+def neglected() -> Neglected:
+    """Nothing."""
+    return Neglected()
+
+
+def test_a_question_that_fits_together_is_taken() -> None:
+    made_of(Asked, answer=answer, sections={"neglected": neglected})
+    assert set(Asked.graph.parts) == {"answer", "neglected"}
+    assert Asked.graph.sections == {"neglected": ("neglected",)}
+
+
+def test_a_part_with_the_name_of_a_key_is_refused() -> None:
+    @part
+    def size() -> int:
+        """Clash."""
+        return 1
+
+    with pytest.raises(TypeError, match="Asked: a name stands for two things"):
+        made_of(Asked, answer=answer, sections={"neglected": neglected}, parts=[size])
+
+
+def test_two_parts_of_one_name_are_refused() -> None:
+    def other(size: int) -> int:
+        """Another."""
+        return -size
+
+    other.__name__ = "answer"
+    with pytest.raises(TypeError, match="a name stands for two things"):
+        made_of(Asked, answer=answer, sections={"neglected": neglected}, parts=[part(other)])
+
+
+def test_a_parameter_that_is_neither_key_nor_part_is_refused() -> None:
+    @part
+    def lost(size: int, colour: str) -> int:
+        """Ask for what there is not."""
+        return size
+
+    @part
+    def hopeful(size: int, colour: str | None = None) -> int:
+        """Ask for it if it is there."""
+        return size
+
+    for one in (lost, hopeful):
+        with pytest.raises(TypeError, match=f"Asked: {one.name} asks for 'colour'"):
+            made_of(Asked, answer=one, sections={"neglected": neglected})
+
+
+def test_a_question_says_what_it_neglects() -> None:
+    with pytest.raises(TypeError, match="Asked does not say what it neglects"):
+        made_of(Asked, answer=answer, sections={})
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_every_question_has_a_section_of_what_it_neglects(question: type[Question]) -> None:
+    (name,) = question.graph.sections["neglected"]
+    one = question.graph.parts[name]
+    assert str(inspect.signature(one.function).return_annotation) == "Neglected"

@@ -1,0 +1,125 @@
+"""Datasets: the conventions that every answer and every section keeps."""
+
+from collections.abc import Iterator
+
+import astropy.units as u
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import UndefinedError
+from earthspin.engine.labels import SchemaError, Variable, build
+
+#: Physical type by unit: what a unit must mean for a variable that carries it.
+KINDS = {
+    "arcsec/yr": "angular speed",
+    "yr": "time",
+    "d": "time",
+    "s": "time",
+    "deg": "angle",
+    "arcsec": "angle",
+    "mas": "angle",
+    "uas": "angle",
+    "m": "length",
+    "N m": "torque",
+    "kg m2": "moment of inertia",
+    "1": "dimensionless",
+}
+
+
+@pytest.fixture(
+    scope="module",
+    params=["precession", "sun-only", "torque", "wobble", "polar-motion", "pole", "iau"],
+    ids=lambda name: name,
+)
+def tree(request: pytest.FixtureRequest) -> xr.DataTree:
+    return earthspin.run_tree(request.param)
+
+
+@pytest.fixture(scope="module")
+def nodes(tree: xr.DataTree) -> dict[str, xr.Dataset]:
+    """The answer and its sections."""
+    plain = {path: node.to_dataset(inherit=False) for path, node in tree.subtree_with_keys}
+    return {path: node for path, node in plain.items() if path != "plan"}
+
+
+def variables_of(nodes: dict[str, xr.Dataset]) -> Iterator[tuple[str, xr.DataArray]]:
+    for node in nodes.values():
+        yield from ((str(name), variable) for name, variable in node.data_vars.items())
+
+
+def test_every_variable_is_described(nodes: dict[str, xr.Dataset]) -> None:
+    for name, variable in variables_of(nodes):
+        assert variable.attrs["long_name"], name
+        assert variable.dtype.kind in "fUM", name
+        if variable.dtype.kind == "f":
+            unit = u.Unit(variable.attrs["units"])
+            kinds = str(unit.physical_type) if unit != u.one else "dimensionless"
+            assert KINDS[variable.attrs["units"]] in kinds, (name, kinds)
+
+
+def test_errors_are_ancillary_and_positive(nodes: dict[str, xr.Dataset]) -> None:
+    for result in nodes.values():
+        for name in result.data_vars:
+            if not str(name).endswith("_error"):
+                continue
+            base = str(name).removesuffix("_error")
+            # PREM comes without an error of its H.
+            assert float(result[name].min()) >= (0 if name == "flattening_error" else 1e-300), name
+            if base in result:
+                assert name in result[base].attrs["ancillary_variables"].split()
+                assert result[name].attrs["units"] == result[base].attrs["units"]
+
+
+def test_no_number_is_missing(nodes: dict[str, xr.Dataset]) -> None:
+    every = [item for node in nodes.values() for item in node.variables.items()]
+    for name, variable in every:
+        if name == "quality_factor":  # infinite where nothing is lost
+            assert np.all(variable > 0)
+        elif variable.dtype.kind == "f":
+            assert np.all(np.isfinite(variable)), name
+
+
+def test_attributes_are_text_and_numbers(nodes: dict[str, xr.Dataset]) -> None:
+    result = nodes["."]
+    holders = [node.attrs for node in nodes.values()]
+    holders += [v.attrs for node in nodes.values() for v in node.variables.values()]
+    for attributes in holders:
+        for key, value in attributes.items():
+            assert type(value) in (str, int, float), key
+    assert result.attrs["Conventions"].startswith("CF-")
+    assert result.attrs["earthspin_version"] == earthspin.__version__
+
+
+SCHEMA = {"x": Variable(("time",), "deg", "an angle")}
+
+
+def test_values_are_turned_from_si() -> None:
+    built = build(SCHEMA, {"x": np.array([np.pi])})
+    assert built.x.values == pytest.approx([180.0], rel=1e-15, abs=0)
+    assert built.x.attrs == {"long_name": "an angle", "units": "deg"}
+
+
+def test_a_part_must_keep_its_word() -> None:
+    with pytest.raises(SchemaError, match="declares"):
+        build(SCHEMA, {})
+    with pytest.raises(SchemaError, match="declares"):
+        build(SCHEMA, {"x": xr.DataArray([1.0], dims="other")})
+
+
+def test_extra_dimensions_come_last() -> None:
+    values = xr.DataArray(np.ones((2, 3)), dims=("draw", "time"))
+    assert build(SCHEMA, {"x": values}).x.dims == ("time", "draw")
+
+
+def test_numbers_that_are_missing_are_refused_in_one_line() -> None:
+    with pytest.raises(UndefinedError, match="an angle has no value here"):
+        build(SCHEMA, {"x": np.array([np.nan])})
+
+
+def test_vectors_say_their_frame() -> None:
+    schema = {"x": Variable(("component",), "m", "a place"), "n": Variable((), "1", "a number")}
+    built = build(schema, {"x": [1.0, 2.0, 3.0], "n": 1.0}, frame="GCRS")
+    assert built.x.attrs["frame"] == "GCRS"
+    assert "frame" not in built.n.attrs

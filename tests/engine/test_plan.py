@@ -1,0 +1,118 @@
+"""Plans: the order of the parts, and what is left out and why."""
+
+from dataclasses import replace
+
+import pytest
+
+import earthspin
+from earthspin import MARS, Scene, SceneError, load_scene
+from earthspin.engine.part import BLOCK, Part
+from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.question import Question, keys_of
+from earthspin.scenes import QUESTIONS, shipped_scenes
+
+EVERY = [(scene, sections) for scene in shipped_scenes() for sections in ("all", ())]
+
+
+@pytest.mark.parametrize(("scene", "sections"), EVERY)
+def test_parts_run_after_what_they_need(scene: str, sections: str | tuple[str, ...]) -> None:
+    plan = earthspin.plan(scene, sections)
+    graph = plan.question.graph
+    chosen = {part.name for part in plan.parts}
+    seen: set[str] = set()
+    for part in plan.parts:
+        assert {name for name in part.needs if name in graph.parts} <= seen
+        assert {name for name in part.uses if name in chosen} <= seen
+        seen.add(part.name)
+    titles = {part.title for part in graph.parts.values()}
+    assert {part.title for part in plan.parts} | set(plan.left_out) == titles
+    assert not {part.title for part in plan.parts} & set(plan.left_out)
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_every_part_is_wanted_or_needed(question: type[Question]) -> None:
+    graph = question.graph
+    used = {*graph.answer, *(name for names in graph.sections.values() for name in names)}
+    used |= {name for part in graph.parts.values() for name in (*part.needs, *part.uses)}
+    assert set(graph.parts) <= used
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
+    """A key that nothing takes would do nothing and say nothing."""
+    parts = question.graph.parts.values()
+    used = {name for part in parts for name in (*part.needs, *part.uses)}
+    assert set(keys_of(question)) - used == {"title"}
+    assert used <= {*keys_of(question), *question.graph.parts, BLOCK}
+
+
+def test_reasons() -> None:
+    plan = earthspin.plan(load_scene("sun-only"), "all")
+    assert plan.left_out["standstills"] == "the moon is not among the perturbers"
+    plan = earthspin.plan(Scene(compute="precession", body=MARS, perturbers=["sun"]), "all")
+    assert "mars" in plan.left_out["iau-2006"]
+    plan = earthspin.plan(load_scene("torque"))
+    assert plan.left_out["nutation"] == "the equator is the mean one"
+    plan = earthspin.plan(load_scene("torque", {"equator": "true"}))
+    assert "nutation" not in plan.left_out
+
+
+def test_a_section_that_is_not_asked_for_costs_nothing() -> None:
+    plan = earthspin.plan("precession")
+    assert plan.left_out["standstills"] == NOT_ASKED
+    assert plan.left_out["convergence"] == NOT_ASKED
+    assert plan.sections == ()
+
+
+def test_a_wobble_needs_no_kernel() -> None:
+    plan = earthspin.plan(load_scene("wobble"), "all")
+    assert {p.title for p in plan.parts} == {
+        *("inside", "wobble-rungs", "interior-response", "sensitivity", "observed-wobble"),
+        *("core-nutation", "neglected"),
+    }
+
+
+def test_the_words_of_a_plan() -> None:
+    text = str(earthspin.plan(load_scene("sun-only"), "all"))
+    assert "runs, in this order" in text
+    assert "left out" in text
+    assert "the moon is not among the perturbers" in text
+    assert " ms]" not in text
+    page = earthspin.plan("sun-only")._repr_html_()
+    assert page.startswith("<table>")
+    assert "its section is not asked for" in page
+    frame = earthspin.plan("sun-only").to_frame()
+    assert set(frame.columns) == {"part", "status", "reason", "seconds"}
+
+
+def closed(part: Part) -> Part:
+    return Part(part.function, part.gives, (lambda: "no kernel today",), part.chooses)
+
+
+def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    for word in ("precession", "torque"):
+        graph = QUESTIONS[word].graph
+        parts = graph.parts | {"sky": closed(graph.parts["sky"])}
+        monkeypatch.setattr(QUESTIONS[word], "graph", replace(graph, parts=parts))
+        with pytest.raises(SceneError, match=r"nothing to do: .*no kernel today"):
+            earthspin.plan(load_scene(word))
+
+
+def test_what_is_used_if_it_is_there_may_be_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = QUESTIONS["wobble"].graph
+    parts = graph.parts | {"inside": closed(graph.parts["inside"])}
+    monkeypatch.setattr(QUESTIONS["wobble"], "graph", replace(graph, parts=parts))
+    plan = earthspin.plan("wobble", "all")
+    assert "wobble_rungs" in [part.name for part in plan.parts]
+    reason = "it needs inside, which is left out: no kernel today"
+    assert plan.left_out["sensitivity"] == reason
+
+
+def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
+    import xarray as xr
+
+    h = xr.DataArray([0.003, 0.0033], dims="time")
+    body = earthspin.EARTH.replace(dynamical_flattening=h)
+    with pytest.raises(SceneError, match="results have this dimension already") as error:
+        earthspin.plan(Scene(compute="torque", body=body))
+    assert error.value.key == "body.dynamical_flattening"

@@ -1,0 +1,310 @@
+"""An answer can be run again, from memory and from a file, and gives the same bits."""
+
+import math
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import tomli_w
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import earthspin
+from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
+from earthspin.bodies import BODIES
+from earthspin.engine.question import Question, keys_of
+from earthspin.questions.free_rotor import FreeRotor
+from earthspin.questions.pole import Pole
+from earthspin.questions.precession import Precession
+from earthspin.questions.spheroid import Spheroid
+from earthspin.questions.top import Top
+from earthspin.questions.torque import Torque
+from earthspin.questions.wobble import Wobble
+from earthspin.scenes import QUESTIONS, shipped_scenes
+
+H = xr.DataArray([0.003, 0.0032, 0.0033], {"draw": ["low", "middle", "high"]}, ("draw",))
+YEARS = xr.DataArray([1.1e-3, 1.2e-3], {"case": [0.1, 1 / 3]}, ("case",))
+DATES = [str(np.datetime64("1990-01-01T00:00") + np.timedelta64(k * k, "h")) for k in range(100)]
+MANY = np.random.default_rng(5).uniform(0.0, 100.0, 50)
+CALLS: dict[str, Callable[[], xr.Dataset]] = {
+    "mars": lambda: earthspin.precession(body="mars", perturbers=["sun"]),
+    "a fast earth": lambda: earthspin.precession(body=EARTH.replace(spin_period=43200.0)),
+    "labelled": lambda: earthspin.precession(body=EARTH.replace(dynamical_flattening=H)),
+    "labelled by floats": lambda: earthspin.wobble_ladder(
+        body=EARTH.replace(j2=YEARS, dynamical_flattening=3 * YEARS)
+    ),
+    "a list of dates": lambda: earthspin.torque_series(times=DATES),
+    "two dates": lambda: earthspin.pole(times=["2003-05-05T01:02:03.456", "1999-01-01"]),
+    "differences": lambda: earthspin.free_rotor(
+        {"A": 8.0e37, "B-A": 1.7e33, "C-A": 2.6e35}, [1e-12, 0.0, 7.29e-5], [0.0, 1e7]
+    ),
+    "several starts": lambda: earthspin.free_rotor(
+        [1.0, 2.0, 3.0], [[0.3, 1.0, 0.1], [0.0, 0.0, 1.0]], MANY
+    ),
+    "accuracy of a rate": lambda: earthspin.precession(accuracy=1e-3),
+    "accuracy of a direction": lambda: earthspin.pole(
+        "2000-01-01", "2001-01-01", "30 d", accuracy="1 mas"
+    ),
+    "accuracy at the true equator": lambda: earthspin.torque_series(
+        "2000-01-01", "2001-01-01", "30 d", equator="true", accuracy="1 arcsec"
+    ),
+    "a top": lambda: earthspin.heavy_top(
+        MANY,
+        transverse_moment=1 / 3,
+        axial_moment="0.4 kg m2",
+        weight_moment=1.5,
+        theta="40 deg",
+        spin="200 deg/s",
+        accuracy=1e-6,
+    ),
+    "many points": lambda: earthspin.spheroid_field(np.full((40, 3), 1e7) / 3, point_mass="1 g"),
+    "a perturber by its numbers": lambda: earthspin.torque_series(
+        "2000-01-01", "2000-01-02", "6 h", perturbers=["sun", BODIES["moon"].replace(gm=5e12)]
+    ),
+    "a moving and a fixed pole": lambda: earthspin.torque_series(
+        "2000-01-01", "2000-01-02", "6 h", body=MARS.replace(pole=(1 / 3, 1.2)), perturbers="sun"
+    ),
+    "moments": lambda: earthspin.precession(
+        body=EARTH.replace(moments=(8.0e37, 8.001e37, 8.03e37), mass=6e24)
+    ),
+    "UTC": lambda: earthspin.torque_series("2000-01-01T00:00Z", "2000-01-02T00:00Z", "6 h"),
+    "the observed pole": lambda: earthspin.polar_motion(span=("1990-01-01", "2000-01-01")),
+}
+
+
+def run_again(answer: xr.Dataset, folder: Path) -> None:
+    """From memory, through a plain netCDF file, and from files of ours."""
+    xr.testing.assert_identical(earthspin.run(answer), answer)
+    plain, ours, chunked = (folder / name for name in ("plain.nc", "ours.nc", "ours.zarr"))
+    answer.to_netcdf(plain)
+    xr.testing.assert_identical(earthspin.run(str(plain)), answer)
+    earthspin.write(answer, ours)
+    earthspin.write(answer, chunked)
+    scene = load_scene(answer).to_table()
+    with xr.open_dataset(plain) as read:
+        for again in (read, plain, ours, chunked):
+            assert load_scene(again).to_table() == scene
+
+
+def test_every_way_to_give_an_answer_runs_it(tmp_path: Path) -> None:
+    answer = CALLS["two dates"]()
+    paths = [earthspin.write(answer, tmp_path / f"answer.{kind}") for kind in ("nc", "zarr")]
+    paths.append(earthspin.write(earthspin.run_tree(answer), tmp_path / "tree.nc"))
+    with xr.open_dataset(paths[0]) as read:
+        for again in (read, *paths, *map(str, paths), *map(earthspin.open, paths)):
+            xr.testing.assert_identical(earthspin.run(again), answer)
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_shipped_scenes_are_run_again(scene: str, tmp_path: Path) -> None:
+    run_again(earthspin.run(scene), tmp_path)
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_calls_are_run_again(call: str, tmp_path: Path) -> None:
+    run_again(CALLS[call](), tmp_path)
+
+
+@pytest.mark.parametrize("call", ["mars", "differences", "labelled", "labelled by floats"])
+def test_sections_are_given_for_an_answer(call: str, tmp_path: Path) -> None:
+    answer = CALLS[call]()
+    tree = earthspin.run_tree(answer)
+    xr.testing.assert_identical(tree.to_dataset(), answer)
+    answer.to_netcdf(tmp_path / "answer.nc")
+    again = earthspin.run_tree(tmp_path / "answer.nc")
+    xr.testing.assert_identical(again.drop_nodes("plan"), tree.drop_nodes("plan"))
+    xr.testing.assert_identical(
+        again["plan"].to_dataset(inherit=False).drop_vars("run_time"),
+        tree["plan"].to_dataset(inherit=False).drop_vars("run_time"),
+    )
+
+
+def test_the_scene_of_an_answer_can_be_changed() -> None:
+    answer = earthspin.wobble_ladder(ocean="global")
+    other = earthspin.run(load_scene(answer, {"wobble.ocean": "none"}))
+    xr.testing.assert_identical(other, earthspin.wobble_ladder(ocean="none"))
+
+
+def test_a_slice_still_says_which_run_it_came_from() -> None:
+    answer = earthspin.run("torque")
+    few = answer[["declination"]].isel(time=slice(3), perturber=0)
+    xr.testing.assert_identical(earthspin.run(few), answer)
+
+
+@pytest.mark.parametrize(
+    "attribute", ["earthspin_version", "numpy_version", "jplephem_version", "ephemeris_sha256"]
+)
+def test_other_versions_are_named(attribute: str, tmp_path: Path) -> None:
+    answer = earthspin.run("torque")
+    older = answer.assign_attrs({attribute: "0.0.1"})
+    words = f"{attribute} 0.0.1, now {answer.attrs[attribute]}"
+    with pytest.warns(VersionWarning) as caught:
+        xr.testing.assert_identical(earthspin.run(older), answer)
+    assert [str(one.message) for one in caught] == [f"made with {words}"]
+    older.to_netcdf(tmp_path / "older.nc")
+    with pytest.warns(VersionWarning, match=attribute):
+        earthspin.run(tmp_path / "older.nc")
+    with pytest.warns(VersionWarning, match=attribute):
+        earthspin.run_tree(older, ())
+
+
+def test_all_that_differs_is_named() -> None:
+    older = earthspin.run("wobble").assign_attrs(earthspin_version="0", numpy_version="1")
+    with pytest.warns(VersionWarning, match=r"earthspin_version 0, now .*; numpy_version 1, now"):
+        earthspin.run(older)
+
+
+def test_a_dataset_of_another_origin_is_refused(tmp_path: Path) -> None:
+    other = xr.Dataset({"x": ("time", [1.0])}, attrs={"scene": 7})
+    other.to_netcdf(tmp_path / "other.nc")
+    for given_ in (other, xr.Dataset(), tmp_path / "other.nc"):
+        with pytest.raises(SceneError, match="does not carry the scene") as error:
+            earthspin.run(given_)
+        assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("text", ["compute = ", 'compute = "wobbly"', "", "x = 1"])
+def test_a_scene_that_was_spoilt_is_refused(text: str) -> None:
+    spoilt = earthspin.run("wobble").assign_attrs(scene=text)
+    with pytest.raises(SceneError) as error:
+        earthspin.run(spoilt)
+    assert "\n" not in str(error.value)
+
+
+# --- to a table and back -------------------------------------------------------------------------
+
+
+def bits(value: Any) -> Any:
+    """What two equal values of a key have in common, down to the sign of zero."""
+    if isinstance(value, float):
+        return value.hex()
+    if isinstance(value, np.ndarray):
+        return value.shape, value.tobytes()
+    if isinstance(value, xr.DataArray):
+        labels = {str(k): bits(np.asarray(v.values)) for k, v in value.coords.items()}
+        return value.dims, bits(value.values), labels
+    if isinstance(value, dict):
+        return {name: bits(one) for name, one in value.items()}
+    if isinstance(value, (tuple, list)):
+        return [bits(one) for one in value]
+    if hasattr(value, "__dict__"):
+        return type(value).__name__, {name: bits(one) for name, one in vars(value).items()}
+    return value
+
+
+def assert_same_bits(question: Question) -> None:
+    table = tomllib.loads(tomli_w.dumps(question.to_table()))
+    word = table.pop("compute")
+    back = QUESTIONS[word].from_table(table)
+    assert type(back) is type(question)
+    for name in keys_of(type(question)):
+        if name not in question._idle():
+            assert bits(getattr(back, name)) == bits(getattr(question, name)), name
+    assert back.to_table() == question.to_table()
+
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+SMALL = st.floats(-1e8, 1e8)
+POSITIVE = st.floats(1e-8, 1e8)
+COUNTS = st.integers(-(10**15), 10**15)
+
+
+@st.composite
+def bodies(draw: st.DrawFn) -> earthspin.Body:
+    start = draw(st.sampled_from([EARTH, MARS]))
+    changes: dict[str, Any] = {"dynamical_flattening": draw(st.floats(1e-12, 0.5))}
+    for name, value in {
+        "gm": st.floats(1e3, 1e25),
+        "radius": st.floats(1.0, 1e9),
+        "spin_period": st.floats(1.0, 1e9) | st.floats(-1e9, -1.0),
+        "j2": st.floats(1e-12, 0.5),
+        "triaxiality": st.floats(0.0, 0.1),
+        "j3": FINITE,
+        "meridian": FINITE,
+        "flattening": st.floats(-10.0, 0.99),
+        "orbital_period": st.floats(1.0, 1e12),
+        "pole": st.tuples(st.floats(-10, 10), st.floats(-1.57, 1.57)),
+        "interior": st.sampled_from([None, "prem", "none"]),
+        "name": st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"]), min_size=1),
+        "reference": st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"])),
+        "relative_uncertainty": st.dictionaries(
+            st.sampled_from(["gm", "j2", "radius"]), st.floats(0.0, 1.0)
+        ),
+    }.items():
+        if draw(st.booleans()):
+            changes[name] = draw(value)
+    if draw(st.booleans()):
+        size = draw(st.integers(1, 40))
+        listed = draw(st.lists(st.floats(1e-12, 0.5), min_size=size, max_size=size))
+        labels = draw(st.none() | st.lists(FINITE, min_size=size, max_size=size))
+        coords = {} if labels is None else {"draw": labels}
+        changes["dynamical_flattening"] = xr.DataArray(listed, coords, ("draw",))
+    return start.replace(**changes)
+
+
+@given(body=bodies(), title=st.text(max_size=20))
+def test_bodies_are_written_exactly(body: earthspin.Body, title: str) -> None:
+    assert_same_bits(Wobble(body=body, title=title))
+
+
+@given(
+    body=bodies(),
+    first=COUNTS,
+    length=st.integers(0, 10**15),
+    step=st.floats(1e-6, 1e11),
+    accuracy=st.none() | POSITIVE,
+)
+def test_series_are_written_exactly(
+    body: earthspin.Body, first: int, length: int, step: float, accuracy: float | None
+) -> None:
+    span = [np.datetime64("2000-01-01T12", "us") + np.timedelta64(n, "us") for n in (first, first)]
+    span[1] += np.timedelta64(length, "us")
+    asked = None if accuracy is None else f"{accuracy!r} mas"
+    keys = {"body": body, "perturbers": ["sun", "jupiter"], "span": span, "step": step}
+    assert_same_bits(Torque(**keys, accuracy=asked))
+    assert_same_bits(Pole(**keys, accuracy=asked, effects=["j3", "planets"]))
+    assert_same_bits(Precession(body=body, perturbers="sun", span=span, accuracy=accuracy))
+
+
+@given(counts=st.lists(COUNTS, min_size=1, max_size=60))
+def test_dates_are_written_exactly(counts: list[int]) -> None:
+    dates = np.datetime64("2000-01-01T12", "us") + np.array(counts, dtype="timedelta64[us]")
+    assert_same_bits(Torque(times=dates))
+
+
+@given(
+    moments=st.lists(POSITIVE, min_size=3, max_size=3),
+    differences=st.booleans(),
+    omega=st.lists(st.lists(SMALL, min_size=3, max_size=3), min_size=1, max_size=20),
+    times=st.none() | st.lists(FINITE, min_size=1, max_size=60),
+    duration=POSITIVE,
+    points=st.integers(1, 10**9),
+)
+def test_rotors_are_written_exactly(
+    moments: list[float],
+    differences: bool,
+    omega: list[list[float]],
+    times: list[float] | None,
+    duration: float,
+    points: int,
+) -> None:
+    named = dict(zip(("A", "B-A", "C-A"), moments, strict=True))
+    when = {"duration": duration, "points": points} if times is None else {"times": times}
+    assert_same_bits(FreeRotor(moments=named if differences else moments, omega=omega, **when))
+
+
+@given(numbers=st.lists(FINITE, min_size=9, max_size=9), accuracy=st.none() | POSITIVE)
+def test_tops_are_written_exactly(numbers: list[float], accuracy: float | None) -> None:
+    names = ("transverse_moment", "axial_moment", "weight_moment", "theta", "spin", "phi_rate")
+    keys = dict(zip((*names, "theta_rate", "phi", "psi"), numbers, strict=True))
+    assert_same_bits(Top(**keys, accuracy=accuracy))
+
+
+@given(points=st.lists(st.lists(FINITE, min_size=3, max_size=3), min_size=1, max_size=30))
+@settings(max_examples=30)
+def test_points_are_written_exactly(points: list[list[float]]) -> None:
+    assert_same_bits(Spheroid(position=points, point_mass=math.pi))

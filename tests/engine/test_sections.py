@@ -1,0 +1,215 @@
+"""Sections: each alone, none by the way, and no trap of DataTree."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import SceneError, load_scene
+from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.question import Graph, Question
+from earthspin.scenes import QUESTIONS, shipped_scenes
+
+#: Scenes that are asked for section by section; one that has all of each question.
+SCENES = {
+    "precession": "precession",
+    "torque": "torque",
+    "pole": "pole",
+    "iau": "iau",
+    "wobble": "wobble",
+    "polar-motion": "polar-motion",
+    "free-rotor": "poinsot",
+    "top": "top-loop",
+    "spheroid": "spheroid",
+}
+NAMES = {
+    "precession": {
+        *("convergence", "figure_models", "free_wobble", "seasons", "iau_2006", "standstills"),
+        "neglected",
+    },
+    "torque": {"neglected"},
+    "pole": {"neglected"},
+    "iau": {
+        *("residuals", "residuals_by_model", "residual_sizes", "nutation", "core", "angles"),
+        *("inferred_flattening", "neglected"),
+    },
+    "wobble": {"observed", "sensitivity", "core_nutation", "interior", "neglected"},
+    "polar-motion": {"chandler", "neglected"},
+    "free-rotor": {"poinsot", "neglected"},
+    "top": {"turning", "potential", "neglected"},
+    "spheroid": {"neglected"},
+}
+
+
+@pytest.fixture(scope="module")
+def trees() -> dict[str, xr.DataTree]:
+    """All sections of one scene of each question."""
+    return {word: earthspin.run_tree(scene) for word, scene in SCENES.items()}
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_the_names_of_sections(word: str, trees: dict[str, xr.DataTree]) -> None:
+    assert set(QUESTIONS[word].graph.sections) == NAMES[word]
+    assert set(trees[word].children) == NAMES[word] | {"plan"}
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_the_root_is_the_answer(word: str, trees: dict[str, xr.DataTree]) -> None:
+    xr.testing.assert_identical(trees[word].to_dataset(), earthspin.run(SCENES[word]))
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_the_plan_is_a_node(word: str, trees: dict[str, xr.DataTree]) -> None:
+    plan = trees[word]["plan"].to_dataset(inherit=False)
+    parts = QUESTIONS[word].graph.parts
+    assert set(plan.data_vars) == {"status", "reason", "run_time"}
+    assert sorted(plan.part.values) == sorted(part.title for part in parts.values())
+    assert set(plan.status.values) <= {"ran", "left out"}
+    assert plan.run_time.attrs["units"] == "s"
+
+
+def needed_for(graph: Graph, names: tuple[str, ...], left_out: dict[str, str]) -> set[str]:
+    """Parts that some parts stand on, themselves included, but for those that are left out."""
+    found: set[str] = set()
+
+    def walk(name: str) -> None:
+        if name in found or name not in graph.parts or graph.parts[name].title in left_out:
+            return
+        found.add(name)
+        for other in (*graph.parts[name].needs, *graph.parts[name].uses):
+            walk(other)
+
+    for name in names:
+        walk(name)
+    return found
+
+
+EACH = [(word, section) for word, names in NAMES.items() for section in sorted(names)]
+
+
+@pytest.mark.parametrize(("word", "section"), EACH)
+def test_a_section_alone_runs_what_it_needs(word: str, section: str) -> None:
+    plan = earthspin.plan(SCENES[word], section)
+    graph = plan.question.graph
+    wanted = (*graph.answer, *graph.sections[section], *graph.sections["neglected"])
+    # what is left out for another reason than that nobody asks is left out with all sections, too
+    always = earthspin.plan(SCENES[word], "all").left_out
+    assert {part.name for part in plan.parts} == needed_for(graph, wanted, always)
+    assert plan.sections == (section,)
+    for title, why in plan.left_out.items():
+        assert why == always.get(title, NOT_ASKED)
+
+
+@pytest.mark.parametrize(("word", "section"), [pair for pair in EACH if pair[0] != "iau"])
+def test_a_section_alone_is_the_same(
+    word: str, section: str, trees: dict[str, xr.DataTree]
+) -> None:
+    tree = earthspin.run_tree(SCENES[word], section)
+    assert set(tree.children) == {section, "plan"}
+    xr.testing.assert_identical(tree[section].to_dataset(), trees[word][section].to_dataset())
+    ran = tree["plan"].status == "ran"
+    planned = earthspin.plan(SCENES[word], section)
+    assert set(tree["plan"].part.values[ran]) == {part.title for part in planned.parts}
+    assert np.all(tree["plan"].run_time.values[ran] > 0)
+    assert not tree["plan"].run_time.values[~ran].any()
+    assert np.all(tree["plan"].reason != "")
+
+
+def test_several_sections_may_be_named() -> None:
+    tree = earthspin.run_tree("wobble", ["observed", "interior", "observed"])
+    assert set(tree.children) == {"observed", "interior", "plan"}
+    assert set(earthspin.run_tree("wobble", []).children) == {"plan"}
+
+
+@pytest.mark.parametrize(
+    ("sections", "words"),
+    [
+        ("standstils", "did you mean 'standstills'"),
+        (["seasons", "standstils"], "did you mean 'standstills'"),
+        ("plan", "allowed: all, convergence"),
+        ("chandler", "allowed: all, convergence"),
+    ],
+)
+def test_an_unknown_section_is_refused(sections: str | list[str], words: str) -> None:
+    for ask in (earthspin.run_tree, earthspin.plan):
+        with pytest.raises(SceneError, match=words) as error:
+            ask("precession", sections)
+        assert error.value.key == "sections"
+        assert "\n" not in str(error.value)
+
+
+NOT_HERE = [
+    ("sun-only", {}, "standstills", "the moon is not among the perturbers"),
+    ("sun-only", {}, "seasons", "the moon is not among the perturbers"),
+    ("precession", {"body.spin_period": "12 h"}, "iau_2006", "those of another earth"),
+    ("precession", {"body": "mars", "perturbers": "sun"}, "iau_2006", "no precession model"),
+    ("precession", {"body.j2": 0.0, "body.dynamical_flattening": 0.0}, "free_wobble", "sphere"),
+    ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of earth is kept"),
+    ("wobble", {"body": "mars"}, "interior", "published numbers, not layers"),
+    (
+        "poinsot",
+        {"rotor.omega": [["1 rad/s"] * 3, ["2 rad/s"] * 3]},
+        "poinsot",
+        "there are several starts",
+    ),
+]
+
+
+@pytest.mark.parametrize(("scene", "changes", "section", "reason"), NOT_HERE)
+def test_a_section_that_does_not_apply(
+    scene: str, changes: dict[str, object], section: str, reason: str
+) -> None:
+    """Refused with the reason where it is named, left out where all are asked for."""
+    question = load_scene(scene, changes)
+    with pytest.raises(SceneError, match=reason) as error:
+        earthspin.run_tree(question, section)
+    assert (error.value.key, error.value.given) == ("sections", section)
+    assert "it does not apply" in str(error.value)
+    assert "\n" not in str(error.value)
+    every = earthspin.plan(question, "all")
+    assert section not in every.sections
+    assert any(reason in why for why in every.left_out.values())
+
+
+def sections_of(tree: xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:
+    for name, node in tree.children.items():
+        yield name, node.to_dataset(inherit=False)
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_no_section_repeats_a_name_of_the_root(scene: str, trees: dict[str, xr.DataTree]) -> None:
+    tree = trees[scene] if scene in ("iau", "pole") else earthspin.run_tree(scene)
+    root = tree.to_dataset()
+    for section, node in sections_of(tree):
+        assert not set(node.data_vars) & set(root.variables), section
+        for dim, size in node.sizes.items():
+            if dim in root.sizes:  # then these are the root's labels, and as many
+                assert size == root.sizes[dim], (section, dim)
+                if dim in node.coords:
+                    assert node.indexes[dim].equals(root.indexes[dim])
+            else:
+                assert dim not in root.coords, (section, dim)
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_no_two_sections_share_a_variable(word: str, trees: dict[str, xr.DataTree]) -> None:
+    names = [str(n) for _, node in sections_of(trees[word]) for n in node.data_vars]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_what_sections_declare_is_what_they_hold(
+    question: type[Question], trees: dict[str, xr.DataTree]
+) -> None:
+    graph, tree = question.graph, trees[question.word]
+    for section, names in graph.sections.items():
+        declared = {name for part in names for name in graph.parts[part].gives}
+        held = {str(name) for name in tree[section].to_dataset(inherit=False).data_vars}
+        # beside those that are there on a condition: what is neglected, a period that exists
+        assert declared <= held
+        assert held - declared <= {
+            *("neglected_effect", "herpolhode_advance", "chandler_quality_factor"),
+            *("chandler_quality_factor_low", "chandler_quality_factor_high"),
+        }

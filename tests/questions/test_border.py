@@ -1,0 +1,391 @@
+"""One typed border: every argument of every call is checked once, and refused in one line."""
+
+import datetime as dt
+import math
+from typing import Any
+
+import astropy.units as u
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EARTH, BodyError, EarthspinError, SceneError, UnitsError
+from earthspin.constants import JULIAN_YEAR
+
+MOMENTS, OMEGA = [1.0, 2.0, 2.5], [0.1, 1.0, 0.1]
+TOP: dict[str, Any] = {
+    "transverse_moment": 1.0,
+    "axial_moment": 1.2,
+    "weight_moment": 1.5,
+    "theta": 0.7,
+    "spin": 3.0,
+}
+
+
+def seconds(answer: xr.Dataset) -> list[float]:
+    assert answer.time.attrs["units"] == "s"
+    found: list[float] = answer.time.values.tolist()
+    return found
+
+
+# --- what was taken for something else -------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        [0.0, 1.0] * u.hour,
+        ["0 h", "1 h"],
+        [0.0 * u.hour, 60 * u.min],
+        [dt.timedelta(0), dt.timedelta(hours=1)],
+        np.array([0, 60], "m8[m]"),
+        pd.to_timedelta(["0 h", "1 h"]),
+        xr.DataArray([0.0, 1.0], dims="time", attrs={"units": "h"}),
+        (0, "1 h"),
+    ],
+    ids=["Quantity", "text", "mixed units", "timedelta", "m8", "pandas", "labelled", "mixed"],
+)
+def test_times_carry_their_unit(times: object) -> None:
+    assert seconds(earthspin.free_rotor(MOMENTS, OMEGA, times)) == [0.0, 3600.0]
+    assert seconds(earthspin.heavy_top(times, **TOP)) == [0.0, 3600.0]
+
+
+NO_TIMES = {
+    "kilograms": [0.0, 1.0] * u.kg,
+    "kilograms in text": ["0 kg", "1 kg"],
+    "one kilogram among seconds": ["0 s", "1 kg"],
+    "text without a unit": ["0", "1"],
+    "words": ["now", "then"],
+    "NaT": np.array([0, "NaT"], "m8[s]"),
+    "NaT of pandas": pd.to_timedelta(["0 h", None]),
+    "dates": np.array(["2000-01-01"], "M8[s]"),
+    "nan": [0.0, math.nan],
+    "inf": [0.0, math.inf],
+    "inf in text": ["0 s", "inf s"],
+    "masked": np.ma.masked_array([0.0, 1.0], [False, True]),
+    "nothing": [],
+    "ragged": [[0.0], [0.0, 1.0]],
+    "ragged with units": [["0 s"], ["0 s", "1 s"]],
+    "two dimensions": [[0.0, 1.0], [2.0, 3.0]],
+    "a set": {0.0, 1.0},
+    "a mapping": {"a": 1.0},
+    "an object": [None],
+    "complex": [1j],
+    "true": [True],
+    "labelled, of another unit": xr.DataArray([0.0], dims="t", attrs={"units": "m"}),
+}
+
+
+@pytest.mark.parametrize("form", NO_TIMES)
+def test_what_is_no_list_of_seconds(form: str) -> None:
+    for call in (
+        lambda times: earthspin.free_rotor(MOMENTS, OMEGA, times),
+        lambda times: earthspin.heavy_top(times, **TOP),
+    ):
+        with pytest.raises((SceneError, UnitsError)) as error:
+            call(NO_TIMES[form])
+        assert "times" in str(error.value)
+        assert "\n" not in str(error.value)
+
+
+def test_a_top_without_numbers_is_no_top() -> None:
+    with pytest.raises(TypeError, match="missing"):
+        earthspin.heavy_top([0.0, 1.0])
+    for name in TOP:
+        few = {key: value for key, value in TOP.items() if key != name}
+        with pytest.raises(TypeError, match=name):
+            earthspin.heavy_top([0.0, 1.0], **few)
+        with pytest.raises(SceneError, match="give it") as error:
+            earthspin.Scene(compute="top", top=few)
+        assert error.value.key == name or error.value.key == f"top.{name}"
+
+
+@pytest.fixture(scope="module")
+def chi() -> xr.Dataset:
+    pole = earthspin.polar_motion(span=("1990-01-01", "1992-01-01"))
+    return earthspin.excitation(pole, period=432.5, quality_factor=101)
+
+
+@pytest.mark.parametrize(
+    "period",
+    [1.2 * u.yr, "1.2 yr", dt.timedelta(days=438.3), 1.2 * 365.25, 1.2 * JULIAN_YEAR * u.s],
+    ids=["Quantity", "text", "timedelta", "days", "seconds"],
+)
+def test_a_period_carries_its_unit(chi: xr.Dataset, period: object) -> None:
+    found = earthspin.polar_motion_from(chi, period=period)
+    expected = earthspin.polar_motion_from(chi, period="438.3 d")
+    # 438.3 d in every form; the last digit is that of the conversion
+    xr.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-14)
+    pole = earthspin.polar_motion(span=("1990-01-01", "1992-01-01"))
+    driven = earthspin.excitation(pole, period=period)
+    assert driven.attrs["chandler_period"] == pytest.approx(438.3, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"period": "1.2 kg"}, "period"),
+        ({"period": 0.0}, "greater than zero"),
+        ({"period": math.nan}, "finite"),
+        ({"period": [430.0, 431.0]}, "one number"),
+        ({"quality_factor": -1.0}, "greater than zero"),
+        ({"quality_factor": "much"}, "quality_factor"),
+        ({"quality_factor": 100 * u.s}, "quality_factor"),
+        ({"start": [1.0]}, "shape"),
+        ({"start": [1.0, math.inf]}, "finite"),
+        ({"start": ["1 mas", "1 kg"]}, "start"),
+    ],
+)
+def test_what_does_not_drive_a_pole(chi: xr.Dataset, keys: dict[str, Any], words: str) -> None:
+    with pytest.raises((SceneError, UnitsError), match=words) as error:
+        earthspin.polar_motion_from(chi, **keys)
+    assert "\n" not in str(error.value)
+
+
+def test_a_start_carries_its_unit(chi: xr.Dataset) -> None:
+    plain = earthspin.polar_motion_from(chi, start=[50.0, 300.0])
+    for start in ([50, 300] * u.mas, ["0.05 arcsec", "300 mas"], ("50 mas", 300.0)):
+        found = earthspin.polar_motion_from(chi, start=start)
+        xr.testing.assert_allclose(found, plain, rtol=1e-13, atol=0)
+
+
+def test_windows_carry_their_unit() -> None:
+    pole = earthspin.polar_motion(span=("1962-01-01", "2000-01-01"))
+    plain = earthspin.fit_chandler(pole, window=4383.0)
+    xr.testing.assert_identical(earthspin.fit_chandler(pole, window=12 * u.yr), plain)
+    for wrong in ("12 kg", [4383.0, 1.0], math.nan, 0.0):
+        with pytest.raises((SceneError, UnitsError), match="window") as error:
+            earthspin.fit_chandler(pole, window=wrong)
+        assert "\n" not in str(error.value)
+
+
+# --- masks, and members that do not align ----------------------------------------------------
+
+MASKED = np.ma.masked_array([1.0, 2.0, 2.5], [False, True, False])
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: earthspin.free_rotor(MASKED, OMEGA, [0.0]),
+        lambda: earthspin.free_rotor(MOMENTS, MASKED, [0.0]),
+        lambda: earthspin.spheroid_field(1e7 * MASKED),
+        lambda: earthspin.torque_series(
+            times=np.ma.masked_array(np.array(["2000-01-01", "2001-01-01"], "M8[us]"), [1, 0])
+        ),
+    ],
+    ids=["moments", "omega", "position", "dates"],
+)
+def test_masks_are_not_ignored(call: Any) -> None:
+    with pytest.raises(SceneError, match="masked"):
+        call()
+
+
+def labelled(values: list[float], labels: list[Any] | None = None) -> xr.DataArray:
+    return xr.DataArray(values, {} if labels is None else {"draw": labels}, ("draw",))
+
+
+MISALIGNED = {
+    "other labels": (labelled([1.0, 1.1], ["a", "b"]), labelled([1.0, 1.1], ["a", "c"])),
+    "another order": (labelled([1.0, 1.1], ["a", "b"]), labelled([1.0, 1.1], ["b", "a"])),
+    "other numbers": (labelled([1.0, 1.1], [0, 1]), labelled([1.0, 1.1], [1, 2])),
+    "another length": (labelled([1.0, 1.1]), labelled([1.0, 1.1, 1.2])),
+    "another length with labels": (labelled([1.0, 1.1], [0, 1]), labelled([1.0, 1, 1], [0, 1, 2])),
+    "labels of another sort": (labelled([1.0, 1.1], ["a", "b"]), labelled([1.0, 1.1], [0, 1])),
+}
+
+
+@pytest.mark.parametrize("form", MISALIGNED)
+def test_members_that_do_not_align_are_refused(form: str) -> None:
+    one, two = MISALIGNED[form]
+    with pytest.raises(BodyError, match="they differ from those of") as error:
+        EARTH.replace(
+            j2=EARTH.j2 * one,
+            dynamical_flattening=EARTH.dynamical_flattening * one,
+            radius=6e6 * two,
+        )
+    assert "\n" not in str(error.value)
+    assert "draw" in str(error.value)
+
+
+def test_members_that_align_are_taken() -> None:
+    for one, two in (
+        (labelled([1.0, 1.1], ["a", "b"]), labelled([1.0, 1.2], ["a", "b"])),
+        (labelled([1.0, 1.1], ["a", "b"]), labelled([1.0, 1.2])),
+    ):
+        body = EARTH.replace(
+            dynamical_flattening=EARTH.dynamical_flattening * one, gm=EARTH.gm * two
+        )
+        rate = earthspin.precession(body=body).precession_rate.sel(perturber="total")
+        assert rate.sizes == {"draw": 2}
+        assert float(rate[1] / rate[0]) == pytest.approx(1.1, rel=1e-14, abs=0)
+
+
+# --- every argument of every call ------------------------------------------------------------
+
+
+def rotor(**keys: Any) -> xr.Dataset:
+    return earthspin.free_rotor(**({"moments": MOMENTS, "omega": OMEGA, "times": [0.0]} | keys))
+
+
+def top(**keys: Any) -> xr.Dataset:
+    return earthspin.heavy_top(**({"times": [0.0]} | TOP | keys))
+
+
+def field(**keys: Any) -> xr.Dataset:
+    return earthspin.spheroid_field(**({"position": [[7e6, 0.0, 0.0]]} | keys))
+
+
+def series(**keys: Any) -> xr.Dataset:
+    return earthspin.torque_series(
+        **({"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"} | keys)
+    )
+
+
+WRONG = [
+    (rotor, "moments", [1.0, 2.0]),
+    (rotor, "moments", [1.0, 2.0, 2.5, 3.0]),
+    (rotor, "moments", [1.0, 2.0, math.nan]),
+    (rotor, "moments", ["1 kg", "2 kg", "2.5 kg"]),
+    (rotor, "moments", ["1", "2", "2.5"]),
+    (rotor, "moments", "1 kg m2"),
+    (rotor, "moments", [[1.0], [2.0, 2.5]]),
+    (rotor, "moments", {"A": 1.0, "B": 2.0, "C": 2.5}),
+    (rotor, "moments", {"A": 1.0, "B-A": math.inf, "C-A": 2.5}),
+    (rotor, "moments", {"A": 1.0, "B-A": "1 s", "C-A": 2.5}),
+    (rotor, "omega", [0.1, 1.0]),
+    (rotor, "omega", [[0.1, 1.0, 0.1], [0.1, 1.0]]),
+    (rotor, "omega", ["0.1 Hz m", "1 rad/s", "0 rad/s"]),
+    (rotor, "omega", [0.1, 1.0, 0.1] * u.rad),
+    (rotor, "omega", np.zeros((2, 2, 3))),
+    (rotor, "omega", [math.inf, 0.0, 0.0]),
+    (rotor, "accuracy", "1e-6"),
+    (rotor, "accuracy", 0.0),
+    (rotor, "accuracy", math.nan),
+    (rotor, "accuracy", [1e-6, 1e-7]),
+    (rotor, "points", 2.5),
+    (rotor, "points", "3"),
+    (rotor, "duration", "3 kg"),
+    (top, "theta", "40 m"),
+    (top, "theta", math.nan),
+    (top, "theta", [0.1, 0.2]),
+    (top, "spin", 3 * u.s),
+    (top, "spin", "fast"),
+    (top, "axial_moment", "1.2 kg"),
+    (top, "axial_moment", None),
+    (top, "weight_moment", "1.5 J s"),
+    (top, "phi_rate", True),
+    (field, "position", [7e6, 0.0]),
+    (field, "position", [["7000 km", "0 km", "0 kg"]]),
+    (field, "position", [[7e6, 0.0, math.inf]]),
+    (field, "position", "far"),
+    (field, "position", []),
+    (field, "point_mass", "1 m"),
+    (field, "point_mass", [1.0, 2.0]),
+    (field, "body", "erth"),
+    (field, "body", 3),
+    (series, "step", "6 kg"),
+    (series, "step", "6"),
+    (series, "step", math.nan),
+    (series, "step", [1.0, 2.0]),
+    (series, "step", -1.0),
+    (series, "step", dt.timedelta(0)),
+    (series, "step", np.timedelta64("NaT")),
+    (series, "start", "yesterday"),
+    (series, "start", 2000),
+    (series, "start", ["2000-01-01"]),
+    (series, "stop", "1999-01-01"),
+    (series, "stop", np.datetime64("NaT")),
+    (series, "equator", "men"),
+    (series, "equator", 3),
+    (series, "accuracy", 1e-6),
+    (series, "accuracy", "1 kg"),
+    (series, "accuracy", "0 mas"),
+    (series, "accuracy", "nan mas"),
+    (series, "perturbers", "mon"),
+    (series, "perturbers", []),
+    (series, "perturbers", [3]),
+    (series, "perturbers", ["sun", "sun"]),
+    (series, "body", {"j2": "1 kg"}),
+    (series, "body", {"j2": math.nan}),
+    (series, "body", {"radius": [1.0, 2.0]}),
+    (series, "body", {"radius": "6378"}),
+    (series, "body", {"gm": np.ma.masked}),
+    (series, "body", {"naif": "earth"}),
+    (series, "body", {"pole": ["1 deg", "1 kg"]}),
+    (series, "body", {"pole": ["1 deg", "nan deg"]}),
+    (series, "body", {"naif": ["399"]}),
+    (series, "body", {"observed_wobble": "433 d"}),
+    (series, "body", {"observed_wobble": {"value": "much", "unit": "d", "source": "x"}}),
+    (series, "body", {"observed_wobble": {"value": 433.0}}),
+    (series, "body", {"observed_wobble": {"unit": "d"}}),
+    (series, "body", {"relative_uncertainty": {"j2": "1 kg"}}),
+    (series, "body", {"relative_uncertainty": {"j2": -1.0}}),
+    (series, "body", {"name": 3}),
+    (series, "body", {"interior": 3}),
+    (series, "body", {"colour": "blue"}),
+    (series, "body", {"from": 3}),
+    (series, "body", {"from": "nothing"}),
+    (series, "body", {"from": "nothing", "name": "x", "gm": 1.0, "radius": {"shape": [1]}}),
+    (series, "body", {"moments": ["1 kg m2", "1 kg m2"]}),
+    (series, "body", {"moments": ["1 kg m2", "1 kg m2", "1 kg"]}),
+    (series, "body", {"relative_uncertainty": 3}),
+    (series, "body", {"reference": 3}),
+    (series, "ephemeris", 7),
+    (series, "ephemeris", ""),
+    (earthspin.precession, "accuracy", "1 mas"),
+    (earthspin.precession, "accuracy", -1e-3),
+    (earthspin.precession, "span", "2000-01-01"),
+    (earthspin.precession, "span", ["2000-01-01"]),
+    (earthspin.precession, "span", [2000, 2001]),
+    (earthspin.pole, "effects", "planet"),
+    (earthspin.pole, "effects", [3]),
+    (earthspin.pole, "times", [1.0, 2.0]),
+    (earthspin.wobble_ladder, "ocean", "deep"),
+    (earthspin.wobble_ladder, "anelastic_exponent", 0.3),
+    (earthspin.wobble_ladder, "anelastic_exponent", "0.1 s"),
+    (earthspin.wobble_ladder, "anelastic_exponent", math.nan),
+    (earthspin.polar_motion, "window", "1 kg"),
+    (earthspin.polar_motion, "window", 0.0),
+    (earthspin.polar_motion, "method", "brug"),
+    (earthspin.polar_motion, "kind", "c05"),
+    (earthspin.polar_motion, "file", 3),
+    (earthspin.polar_motion, "span", ["2000-01-01", "NaT"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("call", "name", "value"), WRONG, ids=[f"{c.__name__}-{n}-{v!r}" for c, n, v in WRONG]
+)
+def test_what_is_wrong_is_one_line_that_names_it(call: Any, name: str, value: Any) -> None:
+    instead = {"times": None} if name in ("points", "duration") else {}
+    with pytest.raises(EarthspinError) as error:
+        call(**instead, **{name: value})
+    text = str(error.value)
+    assert {"start": "span", "stop": "span"}.get(name, name) in text
+    assert "\n" not in text
+    assert len(text) < 500
+
+
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        (lambda: series(step=21600.0), lambda: series(step=6 * u.h)),
+        (lambda: series(step="360 min"), lambda: series(step=np.timedelta64(6, "h"))),
+        (lambda: top(theta=0.5 * u.rad), lambda: top(theta="0.5 rad")),
+        (lambda: rotor(moments=[1000, 2000, 2500] * u.g * u.m**2), lambda: rotor()),
+        (lambda: field(position=[[7000, 0, 0]] * u.km), lambda: field(position=[7e6, 0, 0])),
+        (lambda: field(point_mass="1000 g"), lambda: field()),
+        (lambda: series(perturbers="moon"), lambda: series(perturbers=("moon",))),
+        (lambda: series(body="EARTH"), lambda: series(body=EARTH)),
+        (lambda: series(body={"from": "earth"}), lambda: series()),
+        (lambda: series(accuracy="1 arcsec"), lambda: series(accuracy=1000 * u.mas)),
+        (lambda: series(start=dt.date(2000, 1, 1)), lambda: series(start="2000-01-01 00:00")),
+        (lambda: series(start=pd.Timestamp("2000-01-01")), lambda: series()),
+    ],
+)
+def test_all_forms_of_a_value_give_the_same(one: Any, two: Any) -> None:
+    first, second = one(), two()
+    xr.testing.assert_allclose(first, second, rtol=1e-15, atol=0)
