@@ -59,7 +59,7 @@ def gravity(body: Body, surface: FloatArray) -> xr.Dataset:
 @part
 def neglected() -> Neglected:
     """What an even density leaves out."""
-    return Neglected(what="the body is denser inside")
+    return Neglected(what="a density that grows inwards")
 
 
 made_of(SurfaceGravity, answer=gravity, sections={"neglected": neglected}, parts=(surface,))

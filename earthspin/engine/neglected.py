@@ -23,21 +23,21 @@ class Neglected:
     unit : str
         In which they are shown.
     what : str
-        What the sizes are of, in plain words.
+        What the sizes are of, in plain words; without sizes, what is left out.
     source : str
         Where they come from.
     """
 
     sizes: Mapping[str, float] = field(default_factory=dict)
     unit: str = "1"
-    what: str = "nothing is left out that has a known size"
+    what: str = "nothing that has a known size"
     source: str = ""
 
     @property
     def largest(self) -> str:
         """Name of the largest effect with its size, for the answer's attributes."""
         if not self.sizes:
-            return f"none of known size: {self.what}"
+            return self.what
         name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
         shown = self.sizes[name] * FROM_SI.get(self.unit, 1.0)
         return f"{name}: {shown:.3g} {self.unit} ({self.what})"

@@ -10,7 +10,7 @@ import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
-from typing import Any, ClassVar, Self, dataclass_transform, get_type_hints
+from typing import Any, ClassVar, Self, get_type_hints
 
 from earthspin.engine.part import BLOCK, Part
 from earthspin.errors import SceneError, Where, nearest
@@ -88,7 +88,6 @@ def plain_words(value: Any) -> str:
     return str(getattr(value, "name", value))
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, setting))
 class Question:
     """What can be asked.
 

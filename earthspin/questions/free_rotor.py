@@ -241,7 +241,7 @@ def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> xr.D
 @part
 def neglected() -> Neglected:
     """What a rigid body without torque leaves out."""
-    return Neglected(what="a rigid body without torque is all that is asked for")
+    return Neglected(what="nothing: the question is about a rigid body without torque")
 
 
 made_of(

@@ -253,7 +253,7 @@ def _stamps(days: FloatArray) -> NDArray[np.datetime64]:
 @part
 def neglected() -> Neglected:
     """What observations leave out."""
-    return Neglected(what="the pole as it was observed")
+    return Neglected(what="nothing: the pole as it was observed")
 
 
 made_of(

@@ -209,7 +209,7 @@ def pole_accuracy(axes: xr.Dataset, accuracy: float | None) -> xr.Dataset:
 def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
-        return Neglected(what=f"sizes were measured for the Earth, not for this {body.name}")
+        return Neglected(what=f"effects whose sizes were not measured for this {body.name}")
     from earthspin.motion.neglected import SOURCE, size_of_effect
 
     reach = max(abs(day) for day in epochs.span())

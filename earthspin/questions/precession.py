@@ -578,7 +578,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
     unknown = not_the_iaus_earth(body, perturbers)
     if unknown:
-        return Neglected(what=f"sizes are published for the Earth, Sun and Moon alone: {unknown}")
+        return Neglected(what=f"effects whose published sizes do not apply: {unknown}")
     from earthspin.compare.budget import published_effects
 
     return Neglected(

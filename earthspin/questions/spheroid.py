@@ -107,7 +107,9 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
     from earthspin.mass.figure import eccentricity_squared
 
     if body.labelled or body.j2 is None:
-        return Neglected(what=f"this {body.name} has no single J2 to compare with")
+        return Neglected(
+            what=f"a density that grows inwards: this {body.name} has no single J2 to compare with"
+        )
     nearest = float(np.min(np.linalg.norm(position, axis=-1)))
     # (C - A)/(M a2) of an even density is a fifth of e2
     excess = float(eccentricity_squared(body.number("flattening"))) / 5 - body.number("j2")

@@ -203,7 +203,7 @@ def top_accuracy(
 @part
 def neglected() -> Neglected:
     """What a top without friction leaves out."""
-    return Neglected(what="a rigid top on a sharp pivot without friction is all that is asked for")
+    return Neglected(what="nothing: the question is about a rigid top without friction")
 
 
 made_of(

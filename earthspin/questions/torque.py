@@ -204,7 +204,7 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
     from earthspin.torque.neglected import largest_torque_on_figure
 
     if body.labelled:
-        return Neglected(what="sizes are given for one body at a time")
+        return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")
     pulls = [(p.gm, float(nearest.sel(perturber=p.name))) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}

@@ -386,8 +386,8 @@ def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     """What the last rung leaves out."""
     if inside is None:
-        return Neglected(what=f"the ladder stops at a rigid body: {why_rigid(body)}")
-    return Neglected(what="no size is known of a solid inner core, winds and currents")
+        return Neglected(what=f"all that yields: {why_rigid(body)}")
+    return Neglected(what="a solid inner core, winds and currents, of sizes not known here")
 
 
 made_of(

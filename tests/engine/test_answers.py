@@ -10,6 +10,7 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH, Scene, load_scene
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from tests import shipped
 
 #: Dimensions of each question: those of its answer, and no others.
 DIMENSIONS = {
@@ -27,7 +28,7 @@ DIMENSIONS = {
 
 @pytest.fixture(scope="module", params=shipped_scenes())
 def answer(request: pytest.FixtureRequest) -> xr.Dataset:
-    return earthspin.run(request.param)
+    return shipped.answer(request.param)
 
 
 def test_every_question_has_its_dimensions() -> None:
@@ -57,21 +58,22 @@ def test_an_answer_names_what_it_neglects(answer: xr.Dataset) -> None:
     words = answer.attrs["neglected"]
     assert words
     assert "\n" not in words
-    sizes = earthspin.run_tree(answer, "neglected")["neglected"].neglected_effect
+    name = next(n for n, t in shipped_scenes().items() if t == answer.attrs["title"])
+    sizes = shipped.tree(name)["neglected"].neglected_effect
     assert sizes.dims == ("effect",)
     if sizes.size:
         largest = str(abs(sizes).idxmax().values)
         assert words.startswith(f"{largest}: ")
         assert f"{float(sizes.sel(effect=largest)):.3g} {sizes.attrs['units']}" in words
     else:
-        assert words.startswith("none of known size: ")
+        assert words == sizes.attrs["long_name"]
 
 
 def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:
     j2 = xr.DataArray([1e-3, 2e-3], dims="draw")
     keys = {"body": EARTH.replace(j2=j2), "perturbers": ["sun"]}
     series = earthspin.torque_series("2000-01-01", "2000-01-02", "6 h", **keys)
-    told = "none of known size: sizes are given for one body at a time"
+    told = "effects whose sizes are given for one body at a time"
     assert series.attrs["neglected"] == told
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 import earthspin
 from earthspin import UndefinedError
 from earthspin.engine.labels import SchemaError, Variable, build
+from tests import shipped
 
 #: Physical type by unit: what a unit must mean for a variable that carries it.
 KINDS = {
@@ -34,7 +35,7 @@ KINDS = {
     ids=lambda name: name,
 )
 def tree(request: pytest.FixtureRequest) -> xr.DataTree:
-    return earthspin.run_tree(request.param)
+    return shipped.tree(request.param)
 
 
 @pytest.fixture(scope="module")

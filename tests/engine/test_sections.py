@@ -11,6 +11,7 @@ from earthspin import SceneError, load_scene
 from earthspin.engine.plan import NOT_ASKED
 from earthspin.engine.question import Graph, Question
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from tests import shipped
 
 #: Scenes that are asked for section by section; one that has all of each question.
 SCENES = {
@@ -46,7 +47,7 @@ NAMES = {
 @pytest.fixture(scope="module")
 def trees() -> dict[str, xr.DataTree]:
     """All sections of one scene of each question."""
-    return {word: earthspin.run_tree(scene) for word, scene in SCENES.items()}
+    return {word: shipped.tree(scene) for word, scene in SCENES.items()}
 
 
 @pytest.mark.parametrize("word", QUESTIONS)
@@ -57,7 +58,7 @@ def test_the_names_of_sections(word: str, trees: dict[str, xr.DataTree]) -> None
 
 @pytest.mark.parametrize("word", QUESTIONS)
 def test_the_root_is_the_answer(word: str, trees: dict[str, xr.DataTree]) -> None:
-    xr.testing.assert_identical(trees[word].to_dataset(), earthspin.run(SCENES[word]))
+    xr.testing.assert_identical(trees[word].to_dataset(), shipped.answer(SCENES[word]))
 
 
 @pytest.mark.parametrize("word", QUESTIONS)
@@ -180,7 +181,7 @@ def sections_of(tree: xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:
 
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_no_section_repeats_a_name_of_the_root(scene: str, trees: dict[str, xr.DataTree]) -> None:
-    tree = trees[scene] if scene in ("iau", "pole") else earthspin.run_tree(scene)
+    tree = shipped.tree(scene)
     root = tree.to_dataset()
     for section, node in sections_of(tree):
         assert not set(node.data_vars) & set(root.variables), section

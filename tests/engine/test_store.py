@@ -16,6 +16,7 @@ import xarray as xr
 import earthspin
 from earthspin import OutputError
 from earthspin.engine import store
+from tests import shipped
 
 OLD_AND_NEW = np.array(["1550-01-01T00:00:00.000001", "2650-01-01"], "M8[us]")
 
@@ -38,7 +39,7 @@ def test_epochs_of_1550_and_2650_come_back(tmp_path: Path, kind: str) -> None:
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 @pytest.mark.parametrize("scene", ["precession", "torque", "wobble"])
 def test_results_come_back(tmp_path: Path, scene: str, kind: str) -> None:
-    result = earthspin.run(scene)
+    result = shipped.answer(scene)
     back = store.open(store.write(result, tmp_path / f"r.{kind}"))
     assert isinstance(back, xr.Dataset)
     xr.testing.assert_identical(back.load(), result)
@@ -47,7 +48,7 @@ def test_results_come_back(tmp_path: Path, scene: str, kind: str) -> None:
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 @pytest.mark.parametrize("scene", ["precession", "poinsot", "iau", "polar-motion", "top-loop"])
 def test_answers_with_sections_come_back(tmp_path: Path, scene: str, kind: str) -> None:
-    tree = earthspin.run_tree(scene)
+    tree = shipped.tree(scene)
     back = store.open(store.write(tree, tmp_path / f"r.{kind}"))
     assert isinstance(back, xr.DataTree)
     assert set(back.children) == set(tree.children)

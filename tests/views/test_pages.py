@@ -12,6 +12,7 @@ import earthspin
 from earthspin.scenes import shipped_scenes
 from earthspin.views.of_question import drawings_for, figures_of, scene_page, solids_for, tables_for
 from earthspin.views.report import write_report
+from tests import shipped
 
 FIGURES = {
     "precession": 2, "torque": 1, "pole": 1, "iau": 3, "wobble": 1, "polar-motion": 3,
@@ -21,7 +22,7 @@ FIGURES = {
 
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
-    tree = earthspin.run_tree(scene)
+    tree = shipped.tree(scene)
     page = scene_page(tree)
     headings = [unescape(words) for words in re.findall(r"<h2>(.*?)</h2>", page)]
     assert headings == [
@@ -39,7 +40,7 @@ def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
 
 @pytest.mark.parametrize(("scene", "count"), FIGURES.items())
 def test_a_plain_answer_can_be_drawn(scene: str, count: int) -> None:
-    figures = figures_of(earthspin.run(scene))
+    figures = figures_of(shipped.answer(scene))
     assert len(figures) == count
     for figure in figures:
         assert isinstance(figure, Figure)
