@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -160,9 +161,9 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """File of the question of an answer."""
-    word = str(tree.attrs["compute"]).replace("-", "_")
-    return import_module(f"earthspin.views.{word}")
+    """Module of the question of an answer; a plain table for one that has none."""
+    name = f"earthspin.views.{str(tree.attrs['compute']).replace('-', '_')}"
+    return import_module(name if find_spec(name) else "earthspin.views.plain")
 
 
 def _accuracy(answer: xr.Dataset) -> Table:

@@ -54,6 +54,9 @@ def test_it_is_a_scene_like_any_other(
     assert "surface" in str(earthspin.plan(scene))
     with pytest.raises(earthspin.SceneError, match="no such key"):
         earthspin.load_scene(scene, {"perturbers": "sun"})
+    assert cli.main(["run", str(scene), "--out", str(tmp_path / "out")]) == 0
+    assert "gravity, m/s2" in capsys.readouterr().out
+    assert "gravity, m/s2" in (tmp_path / "out" / "mars.html").read_text()
     assert cli.main(["keys", "surface-gravity"]) == 0
     assert "from equator to pole" in capsys.readouterr().out
     assert "latitudes" in example.surface_gravity.__doc__
