@@ -32,7 +32,7 @@ from earthspin.bodies import BODIES, EARTH, IAU_2006, MARS, PLANETS, Body
 from earthspin.choosing.choice import DATA
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.motion.geodesic import geodesic_rate
-from earthspin.motion.windows import Windows, integrated
+from earthspin.numerics.gauss_windows import Windows, integrated
 from earthspin.progress import progress
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.equator import ecliptic_axes, orbit_normal

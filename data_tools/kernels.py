@@ -1,4 +1,4 @@
-"""How far DE421 is from another kernel: the numbers of `KERNEL_DIFFERENCE`."""
+"""How far DE421 is from another kernel: the numbers of `sky.kernel_differences`."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ import argparse
 import numpy as np
 
 from earthspin.constants import ARCSEC
-from earthspin.sky.ephemeris import KERNEL_DIFFERENCE, Ephemeris, open_ephemeris
+from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
+from earthspin.sky.kernel_differences import DIFFERENCES
 
 STEP = 1.7  # days: no body comes back to the same place
 
 
 def largest_differences(
-    one: Ephemeris, other: Ephemeris, codes: list[int], centre: int = 399, step: float = STEP
+    one: Ephemeris, other: Ephemeris, codes: list[int], centre: int, step: float = STEP
 ) -> dict[int, tuple[float, float]]:
     """Largest differences in direction (mas) and distance (m) where both kernels cover.
 
@@ -42,13 +43,18 @@ def largest_differences(
 
 
 def main(given: argparse.Namespace) -> int:
-    """Print measured and stated differences side by side."""
-    codes = list(KERNEL_DIFFERENCE)
-    measured = largest_differences(open_ephemeris("de421"), open_ephemeris(given.kernel), codes)
+    """Print measured and stated differences side by side, pair by pair."""
+    kernels = open_ephemeris("de421"), open_ephemeris(given.kernel)
+    codes = sorted({code for pair in DIFFERENCES for code in pair})
     worse = 0
-    print("NAIF    measured: mas          m    stated: mas          m")
-    for code, (angle, distance) in measured.items():
-        stated = KERNEL_DIFFERENCE[code]
-        worse += angle > stated[0] or distance > stated[1]
-        print(f"{code:>4} {angle:>16.4g} {distance:>10.4g} {stated[0]:>14.4g} {stated[1]:>10.4g}")
+    print("from    to    measured: mas          m    stated: mas          m")
+    for centre in codes:
+        others = [code for code in codes if code > centre]
+        for code, found in largest_differences(*kernels, others, centre).items():
+            stated = DIFFERENCES[centre, code]
+            worse += found[0] > stated[0] or found[1] > stated[1]
+            print(
+                f"{centre:>4} {code:>5} {found[0]:>16.4g} {found[1]:>10.4g}"
+                f" {stated[0]:>14.4g} {stated[1]:>10.4g}"
+            )
     return int(worse > 0)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _ERROR = "_error"
 
 
+@xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
 @xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
     """What an answer of earthspin knows of itself.
@@ -31,8 +32,8 @@ class Answer:
         What ran for it and what was left out and why; with seconds if it ran in this process.
     """
 
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self._dataset = dataset
+    def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
+        self._dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
 
     @property
     def scene(self) -> Question:
@@ -77,10 +78,21 @@ class Answer:
         Returns
         -------
         list of Figure
+
+        Raises
+        ------
+        SceneError
+            If it is a part of an answer that cannot be drawn alone.
         """
+        from earthspin.errors import SceneError
         from earthspin.views.of_question import figures_of
 
-        return figures_of(self._dataset)
+        whole = self.scene
+        try:
+            return figures_of(self._dataset)
+        except (AttributeError, KeyError, ValueError):
+            what = f"a part of the answer to '{whole.word}'"
+            raise SceneError("plot", what, "draw the whole: earthspin.run(ds)") from None
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:

@@ -79,7 +79,7 @@ class Body:
         Of a perturber: how far its mean pull swings more slowly than any window, half-width of
         95 % over the pull.
     interior : str or None
-        Name of what lies under the surface, a word of `earthspin.wobble.named`; None is rigid.
+        Name of what lies under the surface, a word of `earthspin.interior.named`; None is rigid.
     observed_wobble : Constant or None
         Period of the free wobble as observed, d.
     relative_uncertainty : mapping
@@ -161,15 +161,28 @@ class Body:
             "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
         )
         self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
-        if self.j2 is not None and self.dynamical_flattening is not None:
-            same_sign = all_of(self.j2 * self.dynamical_flattening >= 0)
-            if not same_sign:
-                raise BodyError(
-                    self.name,
-                    "j2",
-                    self.j2,
-                    f"it has the sign of dynamical_flattening = {self.dynamical_flattening!r}",
-                )
+        self._require("slow_swing", lambda swing: swing >= 0, "a swing is zero or more")
+        for name in self.relative_uncertainty:
+            if name not in UNITS:
+                raise BodyError(self.name, "relative_uncertainty", name, nearest(name, UNITS))
+        self._check_polar_moment()
+
+    def _check_polar_moment(self) -> None:
+        """C/(M a2) = J2/H lies between 0 and 1, and no difference of moments exceeds C.
+
+        With H = 0 the polar moment does not follow from J2, and nothing is said of it.
+        """
+        j2, h = self.j2, self.dynamical_flattening
+        if j2 is None or h is None:
+            return
+        if not all_of((j2 * h > 0) | (h == 0)):
+            allowed = f"it has the sign of dynamical_flattening = {h!r}, and is not 0"
+            raise BodyError(self.name, "j2", j2, allowed)
+        if not all_of((abs(j2) <= abs(h)) | (h == 0)):
+            allowed = f"C = (j2/H) M a2 cannot exceed M a2, so it is at most H = {h!r}"
+            raise BodyError(self.name, "j2", j2, allowed)
+        if not all_of((self.triaxiality * abs(h) <= abs(j2)) | (h == 0)):
+            raise BodyError(self.name, "triaxiality", self.triaxiality, "B - A cannot exceed C")
 
     def _check_labels(self) -> None:
         """Labelled arrays that share a dimension have the same length and labels along it."""
@@ -188,6 +201,15 @@ class Body:
                         name,
                         f"labels along '{dim}'",
                         f"they differ from those of {other}",
+                    )
+            for label in getattr(array, "coords", ()):
+                kind = array.coords[label].dtype.kind
+                words = kind == "O" and all(
+                    isinstance(one, str) for one in array.coords[label].values.ravel()
+                )
+                if kind not in "fiubUM" and not words:
+                    raise BodyError(
+                        self.name, name, f"labels '{label}'", "give numbers, dates or words"
                     )
 
     def _check_directions(self) -> None:
@@ -210,6 +232,39 @@ class Body:
         if value is not None and not all_of(holds(value)):
             raise BodyError(self.name, name, value, allowed)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether every field is the same, labels of arrays included."""
+        if not isinstance(other, Body):
+            return NotImplemented
+        return all(_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.naif))
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} = {words}" for name, words in self._in_words() if name in _TOLD)
+        return f"<Body {self.name}: {told}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = "".join(
+            f"<tr><th>{name}</th><td>{escape(words)}</td></tr>" for name, words in self._in_words()
+        )
+        return f"<table><caption>{escape(self.name)}</caption>{rows}</table>"
+
+    def _in_words(self) -> list[tuple[str, str]]:
+        """Every field that is set, with its unit."""
+        told = []
+        for one in fields(self):
+            value, unit = getattr(self, one.name), UNITS.get(one.name, ("", ""))[0]
+            many = hasattr(value, "dims")
+            if value is None or one.name == "name" or (not many and value in ((), {}, "")):
+                continue
+            words = f"an array along {', '.join(map(str, value.dims))}" if many else f"{value}"
+            told.append((one.name, f"{words} {unit}".rstrip()))
+        return told
+
     # --- from and to a scene -----------------------------------------------------------------
 
     @classmethod
@@ -230,6 +285,9 @@ class Body:
         changes = {key: _read_field(key, value, where.at(key)) for key, value in table.items()}
         try:
             if start == NOTHING:
+                missing = [name for name in ("name", "gm") if name not in changes]
+                if missing:
+                    raise where.error(dict(table), f"a body from nothing needs {missing[0]}")
                 return cls(**changes)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
@@ -321,19 +379,27 @@ class Body:
             Fields of `Body`, and besides ``mass`` (kg) for `gm`, and ``moments`` (three
             principal moments, kg m2, the polar one last) for `j2`, `dynamical_flattening`
             and `triaxiality`. `j2` given without `dynamical_flattening` keeps C / (M a2).
+            Plain numbers are SI; text and Quantities carry their units (``"12 h"``).
 
         Raises
         ------
         BodyError
             If the changes contradict each other or make an impossible body.
+        UnitsError
+            If a unit is missing, unknown, or of another kind.
         """
+        changes = {key: _as_field(key, value) for key, value in changes.items()}
         if "mass" in changes:
             if "gm" in changes:
                 raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
             changes["gm"] = c.G.value * changes.pop("mass")
         if "moments" in changes:
             changes |= self._figure_from_moments(changes)
-        elif "j2" in changes and "dynamical_flattening" not in changes and self.j2 is not None:
+        elif (
+            changes.get("j2") is not None
+            and "dynamical_flattening" not in changes
+            and self.j2 is not None
+        ):
             if not all_of(self.j2 != 0):
                 raise BodyError(
                     self.name, "j2", changes["j2"], "set dynamical_flattening too: C is not known"
@@ -396,6 +462,9 @@ UNITS: dict[str, tuple[str, str]] = {
     if "unit" in f.metadata
 }
 
+#: Fields that a body's short form shows.
+_TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
+
 #: Numbers that the free wobble follows from, and how far a body may be from the one observed.
 _OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
 SAME_BODY = 0.01
@@ -437,6 +506,17 @@ def _read_field(key: str, value: Any, where: Where) -> Any:
     return value
 
 
+def _as_field(key: str, value: Any) -> Any:
+    """A changed field as it is kept: SI floats; text and Quantities carry their units."""
+    plain = type(value) is float or value is None or isinstance(value, c.Constant)
+    known = key in UNITS or key in ("mass", "moments", *(f.name for f in fields(Body)))
+    if plain or not known or (hasattr(value, "dims") and key in UNITS):
+        return value
+    if key == "relative_uncertainty" and isinstance(value, Mapping):
+        return dict(value)
+    return _read_field(key, value, Where(key))
+
+
 def _read_constant(value: Any, where: Where) -> c.Constant:
     """A cited figure from a table of its fields."""
     from earthspin.units import quantity
@@ -446,6 +526,8 @@ def _read_constant(value: Any, where: Where) -> c.Constant:
         for name in ("value", "uncertainty"):
             if table[name] is not None:
                 table[name] = quantity(table[name], "", where.at(name), "433.0")
+        if table.get("unit") != "d" or not table["value"] > 0:
+            raise where.error(value, "a period in days, unit = 'd', greater than zero")
         return c.Constant(**table)
     except (KeyError, TypeError, ValueError) as error:
         if isinstance(error, EarthspinError):
@@ -455,16 +537,45 @@ def _read_constant(value: Any, where: Where) -> c.Constant:
 
 
 def _labelled(table: Mapping[str, Any], values: Any, where: Where) -> Any:
-    """A labelled array as `_write_field` wrote it."""
+    """A labelled array as `_write_field` wrote it.
+
+    Raises
+    ------
+    SceneError
+        If its dimensions or labels do not fit.
+    """
+    import numpy as np
     import xarray as xr
 
     from earthspin.units import unpack
 
-    labels = {
-        name: unpack(of, where) if isinstance(of, Mapping) else of
-        for name, of in table.get("labels", {}).items()
-    }
-    return xr.DataArray(values, labels, table["dims"])
+    try:
+        labels = {
+            name: (
+                of["dims"],
+                unpack(of, where) if "float64" in of else np.asarray(of["values"], of["dtype"]),
+            )
+            for name, of in table.get("labels", {}).items()
+        }
+        return xr.DataArray(values, labels, table["dims"])
+    except (KeyError, TypeError, ValueError, AttributeError, xr.CoordinateValidationError):
+        raise where.error("a table", "give an array with its dims and labels") from None
+
+
+def _labels_of(array: Any) -> dict[str, Any]:
+    """Labels of an array, of whatever kind, as tables."""
+    from earthspin.units import pack
+
+    told: dict[str, Any] = {}
+    for name, of in array.coords.items():
+        floats = of.dtype.kind == "f" and of.size
+        dates = of.dtype.kind == "M"
+        told[str(name)] = {"dims": list(map(str, of.dims)), "dtype": str(of.dtype)} | (
+            pack(of.values)
+            if floats
+            else {"values": (of.values.astype(str) if dates else of.values).tolist()}
+        )
+    return told
 
 
 def _write_field(name: str, value: Any) -> Any:
@@ -472,12 +583,8 @@ def _write_field(name: str, value: Any) -> Any:
     if hasattr(value, "dims"):
         from earthspin.units import pack
 
-        labels = {
-            str(dim): pack(of.values) if of.dtype.kind == "f" else of.values.tolist()
-            for dim, of in value.coords.items()
-            if dim in value.dims and of.dtype.kind in "fiuU"
-        }
-        return pack(value.values) | {"dims": list(map(str, value.dims)), "labels": labels}
+        table = pack(value.values) | {"dims": list(map(str, value.dims))}
+        return table | {"labels": _labels_of(value)}
     if name in UNITS and UNITS[name][0]:
         return f"{float(value)!r} {UNITS[name][0]}"
     if name in ("pole", "orbit_pole") and not isinstance(value, str):
@@ -492,6 +599,13 @@ def _close(value: Numeric | None, other: Numeric | None) -> bool:
     if value is None or other is None:
         return value is other
     return all_of(abs(value - other) <= SAME_BODY * abs(other))
+
+
+def _same(one: object, other: object) -> bool:
+    """Whether two values are equal, arrays with their labels."""
+    if hasattr(one, "identical"):
+        return type(one) is type(other) and bool(one.identical(other))
+    return not hasattr(other, "identical") and one == other
 
 
 def _is_finite(value: Numeric) -> Numeric:

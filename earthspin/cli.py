@@ -186,9 +186,10 @@ def _add_sections(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def _add_ephemeris(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
+    kernel = parser.add_argument(
         "--ephemeris", metavar="NAME|PATH", help="de421, de440, or the path of a .bsp file"
     )
+    kernel.completer = _kernels  # type: ignore[attr-defined]
 
 
 def _report(given: argparse.Namespace) -> None:
@@ -233,6 +234,7 @@ def _run(given: argparse.Namespace) -> None:
     wanted = _sections(given)
     everything = target is not None and wanted is None
     tree = run_tree(question, "all" if everything else wanted or ())
+    written = [] if target is None else _write(tree, target, name)
     if given.json:
         print(_json(tree))
     else:
@@ -240,9 +242,8 @@ def _run(given: argparse.Namespace) -> None:
 
         print_tables(tree)
         _say_what_else(question, tree)
-    if target is not None:
-        for path in _write(tree, target, name):
-            print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
+    for path in written:
+        print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
 
 
 def _write(tree: Any, target: Path, name: str) -> list[Path]:
@@ -458,6 +459,12 @@ def _key_words(parsed_args: argparse.Namespace, **_: object) -> list[str]:
 def _section_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
     question = _question_of(parsed_args)
     return ["all"] if question is None else [*question.graph.sections, "all"]
+
+
+def _kernels(prefix: str, **_: object) -> list[str]:
+    from earthspin.sky.ephemeris import NAMED_KERNELS
+
+    return [*NAMED_KERNELS, *map(str, Path(prefix).parent.glob("*.bsp"))]
 
 
 def _words(**_: object) -> list[str]:

@@ -13,7 +13,7 @@ import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, NoReturn, cast
+from typing import Annotated, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,9 +53,17 @@ def microseconds(value: Any, where: Where) -> int:
                 value = dt.datetime.fromisoformat(value)
             except ValueError:
                 raise where.error(value, "there is no such date") from None
+    if getattr(value, "shape", None) == () and hasattr(value, "dims"):
+        value = value.values[()]  # one time of a labelled series
     if isinstance(value, dt.datetime) and value.tzinfo is not None:
-        return int(_from_utc(value.astimezone(dt.UTC).replace(tzinfo=None), where))
+        try:
+            value = value.astimezone(dt.UTC).replace(tzinfo=None)
+        except OverflowError:
+            raise where.error(value, "there is no such date in UTC") from None
+        return int(_from_utc(value, where))
     if is_time(value):
+        if value.shape != ():
+            raise where.error(f"{value.size} times", "give one date")
         return round(float(_days_from_time(value, where)) * MICROSECONDS_PER_DAY)
     if not isinstance(value, (str, dt.date, np.datetime64)):
         raise where.error(value, "write a date like '2000-01-01T12:00'")
@@ -74,25 +82,12 @@ def microseconds(value: Any, where: Where) -> int:
 def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
     """Microseconds from J2000.0 TDB of UTC, one datetime or an array of datetime64."""
     from astropy.time import Time
-    from astropy.utils.exceptions import AstropyWarning
 
     with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            time = Time(value, scale="utc")
-            found = _days_from_time(time, where)
-        except (Warning, AstropyWarning, ValueError):
-            _refuse_utc(value, where)
-    if np.min(time.jd) < FIRST_UTC:  # of the last day before it, the library does not warn
-        _refuse_utc(value, where)
+        warnings.simplefilter("ignore")  # what is wrong shows when it is brought to TDB
+        utc = Time(value, scale="utc")
+    found = _days_from_time(utc, where, str(value).splitlines()[0])
     return np.asarray(np.rint(found * MICROSECONDS_PER_DAY), dtype=np.int64)
-
-
-def _refuse_utc(value: object, where: Where) -> NoReturn:
-    """Outside 1960 and the next few years there is no UTC to convert from."""
-    raise where.error(
-        str(value).splitlines()[0], "UTC is not known there; give TDB, without a time zone"
-    ) from None
 
 
 def days(times: object, where: Where) -> FloatArray:
@@ -150,17 +145,33 @@ def _check_years(values: NDArray[np.datetime64], where: Where) -> None:
         microseconds(extreme, where)
 
 
-def _days_from_time(time: Any, where: Where) -> Any:
-    """Days from J2000.0 TDB of an astropy Time, keeping both parts of it."""
-    if np.any(time.mask):
+def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
+    """Days from J2000.0 TDB of an astropy Time, keeping both parts of it.
+
+    UTC and UT1 are known from 1960 to a few years from now; outside they are refused.
+    """
+    if is_masked(time):
         raise where.error("a masked time", "give times that are all known")
-    tdb = time.tdb
-    return (tdb.jd1 - 2451545.0) + tdb.jd2
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            tdb = time.tdb
+            found = (tdb.jd1 - 2451545.0) + tdb.jd2
+        # of the last day before it, the library does not warn
+        known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
+    except Exception:  # the library and ERFA have kinds of their own, warnings among them
+        known = False
+    if not known:
+        raise where.error(
+            shown or f"JD {np.ravel(time.jd)[0]}",
+            f"its scale, {time.scale}, is not known there; give TDB",
+        ) from None
+    return found
 
 
 def is_time(value: object) -> bool:
     """Recognise an astropy Time without importing astropy for those who use none."""
-    return type(value).__module__.startswith("astropy.time") and hasattr(value, "tdb")
+    return type(value).__module__.startswith("astropy.time") and hasattr(value, "scale")
 
 
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
@@ -185,11 +196,12 @@ class Span:
     words, hint = "two dates", "tuple[Date, Date]"
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Span:
+    def read(cls, given: Any, where: Where) -> Span:
         """Read two dates; the earlier comes first."""
         if isinstance(given, Span):
             return given
-        if not isinstance(given, (list, tuple)) or len(given) != 2:
+        pair = not isinstance(given, (str, Mapping, set)) and hasattr(given, "__len__")
+        if not pair or getattr(given, "ndim", 1) != 1 or len(given) != 2:
             raise where.error(given, "give two dates, like ['2000-01-01', '2001-01-01']")
         first, last = (microseconds(date, where) for date in given)
         if last < first:
@@ -262,9 +274,10 @@ class TimeList:
         """Read times in any form that `days` takes."""
         if isinstance(given, TimeList):
             return given
-        if isinstance(given, Mapping):
-            return cls(unpack(given, where))
-        return cls(days(given, where).copy())
+        listed = unpack(given, where) if isinstance(given, Mapping) else days(given, where).copy()
+        if listed.ndim != 1:
+            raise where.error(f"shape {listed.shape}", "give one or more times in one list")
+        return cls(listed)
 
     def write(self) -> Plain:
         """Give the days from J2000.0 TDB as bytes."""

@@ -13,10 +13,19 @@ from typing import Any
 
 #: What was given is repeated in a message up to this many characters.
 LONGEST_ECHO = 100
+LONGEST_MESSAGE = 1000
 
 
 class EarthspinError(Exception):
-    """Anything that a user can put right; the command line prints it and exits with 2."""
+    """Anything that a user can put right; the command line prints it and exits with 2.
+
+    The message is one line, whatever was given.
+    """
+
+    def __init__(self, message: str = "") -> None:
+        words = " ".join(message.split())
+        cut = len(words) > LONGEST_MESSAGE
+        super().__init__(f"{words[:LONGEST_MESSAGE]}..." if cut else words)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Each class takes its facts, not the message, so pickle must not call it again.
@@ -87,7 +96,7 @@ class BodyError(EarthspinError, ValueError):
 
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
         self.body, self.field, self.given, self.allowed = body, field, given, allowed
-        super().__init__(f"body '{body}': {field} = {given!r} is not possible; {allowed}")
+        super().__init__(f"body '{body}': {field} = {_shown(given)} is not possible; {allowed}")
 
 
 class UnitsError(EarthspinError, ValueError):

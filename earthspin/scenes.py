@@ -95,8 +95,13 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     SceneError
         If there is no such scene, it is not TOML, or a key is unknown or wrong.
     """
+    if changes is not None and not isinstance(changes, Mapping):
+        raise SceneError("changes", changes, "give a mapping of keys to values")
     if isinstance(scene, Question):
-        return scene.replace(**changes) if changes else scene
+        if not changes:
+            return scene
+        table = scene.to_table(given=True) | {"title": scene.title}
+        return _changed(table, changes, "", "")
     if hasattr(scene, "attrs"):
         text, source, title = _scene_of(scene), "", ""
     elif Path(str(scene)).suffix in (".nc", ".zarr"):
@@ -112,8 +117,15 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         raise SceneError("file", source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError("file", source, f"it cannot be read: {error}") from None
-    for key, value in (changes or {}).items():
-        _set_key(table, key, value, source)
+    return _changed(table, changes or {}, source, title)
+
+
+def _changed(
+    table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str
+) -> Question:
+    """Question of a scene's table with some keys changed."""
+    for key, value in changes.items():
+        _set_key(table, str(key), value, source)
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)

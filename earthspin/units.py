@@ -125,9 +125,8 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
         return _plain(value, wanted)
     if isinstance(value, str):
         found = _NUMBER_AND_UNIT.fullmatch(value)
-        measures, size = COMMON.get(found[2], ("", 1.0)) if found else ("", 1.0)
-        if found and measures == wanted.unit:
-            return float(found[1]) * size
+        if found and found[2] in COMMON and COMMON[found[2]][0] == wanted.unit:
+            return float(found[1]) * COMMON[found[2]][1]
         return _by_astropy(value, wanted)
     if isinstance(value, (dt.timedelta, np.timedelta64)):
         return _length_of_time(value, wanted)
@@ -136,10 +135,9 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     if hasattr(value, "to_value"):
         return _by_astropy(value, wanted)
     if hasattr(value, "dims"):
-        own = value.attrs.get("units")  # one that says its units is converted
-        factor = 1.0 if own is None else wanted.factor(own, own)
-        plain = _plain(value.values, wanted)
-        return value.copy(data=plain * factor) if own is not None else value.copy(data=plain)
+        own = None if value.dtype.kind == "m" else value.attrs.get("units")
+        plain = _plain(value.values, wanted)  # one that says its units is converted
+        return value.copy(data=plain if own is None else plain * wanted.factor(own, own))
     if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
         try:
             return np.stack([np.asarray(_convert(inner, wanted), dtype=float) for inner in value])
@@ -164,7 +162,7 @@ def _by_astropy(value: Any, wanted: _Wanted) -> Any:
     import astropy.units as u
 
     try:
-        read = u.Quantity(value)
+        read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
         if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
@@ -180,7 +178,10 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, wanted: _Wanted) -> fl
     elif np.isnat(value):
         raise wanted.wrong(value)
     else:
-        seconds = float(value / np.timedelta64(1, "us")) * 1e-6
+        try:
+            seconds = float(value / np.timedelta64(1, "us")) * 1e-6
+        except TypeError:  # a month or a year has no length in seconds
+            raise wanted.wrong(value) from None
     return seconds if wanted.unit == "s" else seconds * wanted.factor(value, "s")
 
 
@@ -241,7 +242,7 @@ class Number:
     @property
     def words(self) -> str:
         """What may be given."""
-        return f'"{self.example}"' if self.unit else self.example
+        return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
     def read(self, given: object, where: Where) -> float:
         """Check and convert."""
@@ -255,7 +256,7 @@ class Number:
             raise where.error(given, hint)
         value = quantity(given, self.unit, where, self.example)
         if np.ndim(value) != 0:
-            raise where.error(given, f"give one number, like {self.words}")
+            raise where.error(given, f"give one number, {self.words}")
         if not (self.low <= value <= self.high and value > self.above):
             raise where.error(given, self._range())
         return float(value)
@@ -305,8 +306,10 @@ class Numbers:
     def read(self, given: object, where: Where) -> FloatArray:
         """Check and convert; the array is the question's own and cannot be written to."""
         if isinstance(given, Mapping):
-            given = unpack(given, where)
-        converted = quantity(given, self.unit, where, self.example)
+            own = str(given.get("unit", self.unit))
+            factor = _Wanted(self.unit, where, self.example).factor(own, own)
+            given = unpack(given, where) * factor
+        converted = quantity(_in_order(given, where), self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
         if values.ndim == len(self.shape) - 1 and not self.optional_row:
             values = values[np.newaxis]
@@ -332,6 +335,22 @@ def _with_unit(values: Any, unit: str) -> Any:
     return f"{values!r} {unit}"
 
 
+def _in_order(given: Any, where: Where) -> Any:
+    """A labelled array with its components last and in their order; other labels are refused."""
+    if hasattr(given, "iloc"):
+        labels = getattr(given, "columns", given.index)
+        if labels.dtype.kind not in "iu":
+            raise where.error(list(labels), "labels are not read here; give the bare numbers")
+    if "component" not in getattr(given, "dims", ()):
+        return given
+    ordered = given.transpose(..., "component")
+    if "component" not in given.coords:
+        return ordered
+    if sorted(given.component.values.tolist()) != ["x", "y", "z"]:
+        raise where.error(given.component.values.tolist(), "give the components x, y and z")
+    return ordered.sel(component=["x", "y", "z"])
+
+
 def pack(values: FloatArray) -> dict[str, Plain]:
     """Write an array as a table of its shape and bytes."""
     data = np.ascontiguousarray(values, dtype="<f8").tobytes()
@@ -347,17 +366,21 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
         If it is not one.
     """
     try:
-        values = np.frombuffer(base64.b64decode(table["float64"], validate=True), dtype="<f8")
-        return values.reshape(table["shape"]).astype(np.float64)
+        data = np.frombuffer(base64.b64decode(table["float64"], validate=True), dtype="<f8")
+        values: FloatArray = data.reshape(table["shape"]).astype(np.float64)
+        if values.size == 0 or not np.isfinite(values).all():
+            raise ValueError
+        return values
     except (KeyError, TypeError, ValueError):
         raise where.error("a table", "give a list of numbers") from None
 
 
 @dataclass(frozen=True)
 class Whole:
-    """A whole number."""
+    """A whole number, up to as many as fit into memory."""
 
     low: int = 1
+    high: int = 4_000_000
 
     hint = "int"
 
@@ -368,8 +391,10 @@ class Whole:
 
     def read(self, given: object, where: Where) -> int:
         """Check."""
-        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or given < self.low:
+        if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
             raise where.error(given, f"give {self.words}")
+        if not self.low <= given <= self.high:
+            raise where.error(given, f"give {self.words}, and at most {self.high}")
         return int(given)
 
     def write(self, value: int) -> Plain:
@@ -451,7 +476,9 @@ class Several:
 
     def read(self, given: object, where: Where) -> tuple[Any, ...]:
         """Check each."""
-        if isinstance(given, (set, frozenset, np.ndarray)):
+        if isinstance(given, (set, frozenset)):
+            raise where.error(given, "a set has no order; give a list")
+        if isinstance(given, np.ndarray):
             given = list(given)
         if not isinstance(given, (list, tuple)):
             given = (given,)
@@ -490,6 +517,6 @@ Duration = Annotated[float, Number("s", "6 h")]
 #: A length of time in days, for the equations of the wobble, which count in them.
 Days = Annotated[float, Number("d", "433 d", above=0.0)]
 #: The largest relative error allowed.
-Relative = Annotated[float, Number("", "1e-6", above=0.0, text=False)]
+Relative = Annotated[float, Number("", "1e-6", above=0.0, high=1e100, text=False)]
 #: The largest angle allowed, rad.
 AngleError = Annotated[float, Number("rad", "1 mas", above=0.0, plain=False)]

@@ -9,7 +9,7 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin import EARTH, MARS, SUN, BodyError, SceneError
+from earthspin import EARTH, MARS, SUN, BodyError, SceneError, UnitsError
 from earthspin.bodies import BODIES, body
 from earthspin.errors import Where
 
@@ -155,3 +155,41 @@ def test_j2_may_be_changed_where_it_is_an_array() -> None:
     j2 = xr.DataArray([1e-3, 2e-3], dims="draw")
     many = EARTH.replace(j2=j2)
     assert many.replace(j2=2 * j2).dynamical_flattening.dims == ("draw",)
+
+
+def test_a_changed_number_may_carry_its_unit() -> None:
+    import astropy.units as u
+
+    assert EARTH.replace(spin_period="12 h").spin_period == 43200.0
+    assert EARTH.replace(radius=6378 * u.km).radius == 6378e3
+    assert EARTH.replace(meridian="180 deg").meridian == math.pi
+    assert MARS.replace(pole=("90 deg", 30 * u.deg)).pole == pytest.approx(
+        (math.pi / 2, math.pi / 6), rel=1e-15, abs=0
+    )
+    heavy = ("8.01e37 kg m2", 8.01e37 * u.kg * u.m**2, 8.04e37)
+    assert EARTH.replace(moments=heavy) == EARTH.replace(moments=(8.01e37, 8.01e37, 8.04e37))
+    for wrong in ("12", "12 kg", 3 * u.m):
+        with pytest.raises(UnitsError, match="spin_period"):
+            EARTH.replace(spin_period=wrong)
+
+
+def test_bodies_are_equal_if_every_number_is() -> None:
+    assert EARTH.replace() == EARTH
+    assert hash(EARTH.replace()) == hash(EARTH)
+    assert EARTH.replace(j3=0.0) != EARTH
+    assert EARTH != "earth"
+    h = xr.DataArray([0.003, 0.0031], {"draw": [1, 2]}, ("draw",))
+    many = EARTH.replace(dynamical_flattening=h)
+    assert many == EARTH.replace(dynamical_flattening=h.copy())
+    assert many != EARTH.replace(dynamical_flattening=h.assign_coords(draw=[1, 3]))
+    assert many != EARTH != many
+
+
+def test_a_body_can_be_read_at_a_glance() -> None:
+    assert repr(EARTH).startswith("<Body earth: gm = 398600435507000.0 m3/s2, radius = 6378136.6 m")
+    assert "\n" not in repr(EARTH)
+    h = xr.DataArray([0.003, 0.0031], dims="draw")
+    assert "an array along draw" in repr(EARTH.replace(dynamical_flattening=h))
+    card = EARTH._repr_html_()
+    assert "<th>spin_period</th><td>86164.09890369" in card
+    assert "<th>pole</th><td>iau2006</td>" in card

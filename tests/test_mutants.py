@@ -12,7 +12,8 @@ from tests.mutants.tables import page, tally
 MUTANTS = load()
 #: Packages of which every module is a kernel: all save those that only hold names.
 PACKAGES = (
-    *("mass", "rotor", "top", "torque", "motion", "wobble", "compare", "sky"),
+    *("numerics", "mass", "rotor", "top", "torque", "motion", "interior", "wobble", "nutation"),
+    "sky",
     *("choosing", "parts", "questions"),
 )
 NO_KERNEL = {"__init__", "_checks"}

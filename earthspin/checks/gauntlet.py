@@ -23,7 +23,7 @@ PARTS = (
     "torque",
     "motion",
     "wobble",
-    "compare",
+    "nutation",
     "sky",
     "scene",
     "units",

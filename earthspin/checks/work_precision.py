@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.labels import FROM_SI, Variable, build
+from earthspin.engine.labels import Variable, build, from_si
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import Advance, progress
 
@@ -406,7 +406,7 @@ def _attributes(
         "quantity": ladder.quantity,
         "problem": ladder.problem,
         "reference": ladder.reference,
-        "reference_error": ladder.reference_error * FROM_SI.get(ladder.unit, 1.0),
+        "reference_error": ladder.reference_error * from_si(ladder.unit),
         "sentence": sentence(ladder, points),
         "skipped": ladder.skipped,
         "quick": int(quick),
@@ -431,7 +431,7 @@ def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
 
 
 def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: str) -> str:
-    subject, factor = task or ladder.subject, FROM_SI.get(ladder.unit, 1.0)
+    subject, factor = task or ladder.subject, from_si(ladder.unit)
     rows = [
         _Row(point.error * factor, point.run_time, point.spread, method.name, point.words)
         for method, row in zip(ladder.methods, points, strict=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from earthspin.engine.labels import FROM_SI, Schema, Variable, build
+from earthspin.engine.labels import Schema, Variable, build, from_si
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,7 +77,7 @@ def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> N
     from earthspin.errors import AccuracyError
 
     if asked is not None and not best <= asked * (1 + 1e-12):
-        factor = FROM_SI.get(unit, 1.0)
+        factor = from_si(unit)
         raise AccuracyError(
             asked * factor, best * factor, "(relative)" if unit == "1" else unit, remedy
         )

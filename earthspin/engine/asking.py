@@ -132,6 +132,7 @@ def script_of(question: type[Question]) -> str:
     lines += ["", "", f"def {question.word.replace('-', '_')}("]
     lines += [f"    question: {question.__module__}.{question.__name__},", ") -> None:"]
     lines.append(f'    """{_head(question)}"""')
+    lines.append("    # every part, as if none were left out")
     used = {i for name in order for i in (*parts[name].needs, *parts[name].uses)}
     lines += [f"    {name} = question.{name}" for name in keys if name in used]
     for name in order:

@@ -13,14 +13,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
-from earthspin.errors import UndefinedError
+from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
     import xarray as xr
 
 CONVENTIONS = "CF-1.11"
 
-#: Factor from SI to each unit that results are shown in; units not listed are SI themselves.
+#: Units that are SI themselves; "1" for pure numbers, "" for words and dates.
+_SI = (
+    "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
+    "m/s2", "J/kg",
+)  # fmt: skip
+
+#: Factor from SI to each unit that results are shown in.
 FROM_SI: dict[str, float] = {
     "arcsec/yr": 1 / ARCSEC_PER_YEAR,
     "arcsec": 1 / ARCSEC,
@@ -29,7 +35,21 @@ FROM_SI: dict[str, float] = {
     "uas": 1e6 / ARCSEC,
     "d": 1 / DAY,
     "yr": 1 / JULIAN_YEAR,
+    **dict.fromkeys(_SI, 1.0),
 }
+
+
+def from_si(unit: str) -> float:
+    """Factor from SI to a unit.
+
+    Raises
+    ------
+    SceneError
+        For a unit that no result is shown in; it is never taken for SI.
+    """
+    if unit not in FROM_SI:
+        raise SceneError("units", unit, nearest(unit, [u for u in FROM_SI if u]))
+    return FROM_SI[unit]
 
 
 @dataclass(frozen=True)
@@ -105,9 +125,8 @@ def build(
         if not set(declared.dims) <= set(value.dims):
             raise SchemaError(f"{name} has {value.dims}, declares {declared.dims}")
         laid = value.transpose(*declared.dims, ...)
-        data = laid.values
-        if declared.units in FROM_SI:
-            data = np.asarray(data * FROM_SI[declared.units])
+        factor = from_si(declared.units)
+        data = laid.values if factor == 1 else np.asarray(laid.values * factor)
         if data.dtype.kind == "f" and np.isnan(data).any():
             raise UndefinedError(
                 f"{declared.long_name} has no value here; check the body's numbers"
@@ -132,8 +151,14 @@ def _collect(labels: dict[Any, Any], array: xr.DataArray) -> None:
 
 
 def si(array: xr.DataArray) -> xr.DataArray:
-    """Values of a variable of a result, back in SI units."""
-    return array / FROM_SI.get(array.attrs.get("units", ""), 1)
+    """Values of a variable of a result, back in SI units.
+
+    Raises
+    ------
+    SceneError
+        If its units are not among those that results are shown in.
+    """
+    return array / from_si(array.attrs.get("units", ""))
 
 
 def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]:

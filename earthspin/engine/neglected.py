@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from earthspin.engine.labels import FROM_SI, Variable, build
+from earthspin.engine.labels import Variable, build, from_si
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ class Neglected:
         if not self.sizes:
             return self.what
         name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
-        shown = self.sizes[name] * FROM_SI.get(self.unit, 1.0)
+        shown = self.sizes[name] * from_si(self.unit)
         return f"{name}: {shown:.3g} {self.unit} ({self.what})"
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:

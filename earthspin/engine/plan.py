@@ -159,6 +159,8 @@ def _wanted(question: Question, sections: str | Iterable[str]) -> list[str]:
     every = question.graph.sections
     if sections == ALL:
         return list(every)
+    if not isinstance(sections, (str, Iterable)):
+        raise SceneError("sections", sections, f"give names, or '{ALL}'")
     named = {sections} if isinstance(sections, str) else set(sections)
     for name in named:
         if name not in every:
@@ -170,12 +172,13 @@ def _refuse_taken_dimensions(question: Question) -> None:
     """Refuse labelled arrays of a body along a dimension that results have already."""
     every = question.graph.parts.values()
     taken = {dim for one in every for declared in one.gives.values() for dim in declared.dims}
+    taken |= {name for one in every for name in one.gives}
     for name, value in question.keys().items():
         for inner, of in getattr(value, "__dict__", {}).items():
-            clash = taken & set(getattr(of, "dims", ()))
+            clash = taken & {*getattr(of, "dims", ()), *getattr(of, "coords", ())}
             if clash:
                 raise question.error(
                     f"{name}.{inner}",
                     sorted(clash)[0],
-                    "results have this dimension already; give the array another",
+                    "results have this name already; give the array another",
                 )

@@ -140,7 +140,7 @@ class Question:
             if name in chosen:
                 value = one.kind.read(chosen[name], where)
             elif one.required:
-                raise where.error(None, f"give it: {one.doc}, like {one.kind.words}")
+                raise where.error(None, f"give it: {one.doc} ({one.kind.words})")
             else:
                 value = one.default
             object.__setattr__(self, name, value)
@@ -199,11 +199,17 @@ class Question:
         made._fill(flat, source, in_scene=True)
         return made
 
-    def to_table(self) -> dict[str, Any]:
-        """Give the complete scene as a table: every key with every number, as TOML holds it."""
+    def to_table(self, *, given: bool = False) -> dict[str, Any]:
+        """Give the scene as a table: every key with every number, as TOML holds it.
+
+        Parameters
+        ----------
+        given : bool
+            Only the keys that were given, not the defaults.
+        """
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
-        idle = self._idle()
+        idle = set(keys_of(type(self))) - self.given if given else self._idle()
         for name, one in keys_of(type(self)).items():
             value = getattr(self, name)
             if value is not None and name not in idle:
@@ -353,7 +359,7 @@ def describe_keys(question: type[Question]) -> str:
         for one in chosen:
             default = f" (default: {one.default_words})" if one.default_words else ""
             default = " (must be given)" if one.required else default
-            lines.append(f"{one.name} = {one.kind.words}")
+            lines.append(f"{one.name}: {one.kind.words}")
             lines += textwrap.wrap(
                 f"{one.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
             )

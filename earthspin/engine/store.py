@@ -49,6 +49,10 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     MissingExtraError
         If zarr is asked for and not installed.
     """
+    if not hasattr(result, "attrs"):
+        raise OutputError(
+            path, f"{type(result).__name__} is no answer", "give a Dataset or DataTree"
+        )
     if Path(path).suffix == ".zarr":
         return _write_zarr(result, path)
     _refuse_other_endings(Path(path))  # by its own name, not the draft's
@@ -141,6 +145,10 @@ def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
     MissingExtraError
         If zarr is not installed.
     """
+    if Path(path).suffix != ".zarr":
+        raise OutputError(
+            path, "its name does not end in .zarr", "a long series goes to Zarr alone"
+        )
     zarr = _zarr()
     # Each thread of zarr's would keep the memory of the largest chunk that it has ever packed.
     with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):

@@ -25,7 +25,7 @@ from earthspin.errors import UndefinedError
 from earthspin.motion.figure import tilt_of_figure
 from earthspin.motion.forces import Forces
 from earthspin.motion.triaxial import equatorial_basis, semidiurnal_amplitudes
-from earthspin.motion.windows import Windows, integrated
+from earthspin.numerics.gauss_windows import Windows, integrated
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

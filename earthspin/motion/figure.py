@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.motion.windows import Windows
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import cross
 
 FloatArray = NDArray[np.float64]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.motion.geodesic import geodesic_rate
-from earthspin.motion.windows import Windows
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.harmonics import zonal_torque
 from earthspin.torque.quadrupole import cross, quadrupole_torque, tidal_tensor
 

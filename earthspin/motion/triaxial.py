@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.motion.windows import Windows
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import apply
 
 FloatArray = NDArray[np.float64]

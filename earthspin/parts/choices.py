@@ -130,7 +130,7 @@ def chosen_nutation(
     from earthspin.choosing.choice import cheapest
     from earthspin.choosing.nutation import nutation_choices
 
-    kernel = max(sky.ephemeris.error(code)[0] for code in sky.targets.values())
+    kernel = max(sky.error(code)[0] for code in sky.targets.values())
     left = (accuracy or math.inf) - kernel
     first, last = epochs.span()
     return cheapest(nutation_choices(first, last, epochs.size), MARGIN * left)

@@ -21,11 +21,11 @@ from earthspin.progress import progress
 if TYPE_CHECKING:
     from earthspin.choosing.choice import Choice
     from earthspin.choosing.windows import PoleWindows
-    from earthspin.compare.analysis import PoleAnalysis, Secular
-    from earthspin.compare.nutation import Circles
-    from earthspin.compare.response import Response
     from earthspin.dates import TimeGrid, TimeList
     from earthspin.motion.axes import AxisPath
+    from earthspin.nutation.analysis import PoleAnalysis, Secular
+    from earthspin.nutation.nutation import Circles
+    from earthspin.nutation.response import Response
 
 #: Half of the stretch about J2000.0 that is analysed, as far as the kernel has it: four turns of
 #: the node each way, in which slow changes are a short polynomial.
@@ -164,8 +164,8 @@ def rigid(effects: Sequence[str]) -> list[str]:
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
-    from earthspin.compare.analysis import PoleAnalysis, shifted_start
-    from earthspin.compare.nutation import complex_nutation
+    from earthspin.nutation.analysis import PoleAnalysis, shifted_start
+    from earthspin.nutation.nutation import complex_nutation
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
@@ -204,7 +204,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
 @part
 def core_response(pole_analysis: Analysed, body: Body) -> Response:
     """Resonance form fitted to IAU 2000A over our rigid amplitudes."""
-    from earthspin.compare.response import SUN_SYNCHRONOUS, fit_response
+    from earthspin.nutation.response import SUN_SYNCHRONOUS, fit_response
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     used = np.any(ours.multiples != SUN_SYNCHRONOUS, axis=1)

@@ -105,7 +105,7 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
         zonal={n: value for n, value in zonal.items() if value},
         j2_trend=body.number("j2_rate") / j2 if "j2-rate" in effects and j2 else 0.0,
         triaxiality=per_c * body.number("triaxiality") if "triaxiality" in effects else 0.0,
-        meridian=float(body.meridian),
+        meridian=body.number("meridian"),
     )
     names = tuple(pulls.gm) if "planets" in effects else pulls.near
     pole = body.needed("pole")

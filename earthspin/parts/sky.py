@@ -116,6 +116,10 @@ class Sky:
             "pyerfa_version": version("pyerfa"),
         }
 
+    def error(self, code: int) -> tuple[float, float]:
+        """How far a body may be from where it is seen: angle (rad), distance (m)."""
+        return self.ephemeris.error(code, self.centre)
+
     def positions(
         self, days: NDArray[np.float64], targets: Mapping[str, int] | None = None
     ) -> dict[str, NDArray[np.float64]]:

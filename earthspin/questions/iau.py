@@ -33,7 +33,7 @@ from earthspin.progress import progress
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.compare.response import Response
+    from earthspin.nutation.response import Response
 
 #: The terms of the nutation table.
 LARGEST = 30
@@ -104,7 +104,7 @@ def rates_by_effect(
     pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
     """Rates at J2000.0 effect by effect, each measured by switching it off."""
-    from earthspin.compare import budget as book
+    from earthspin.nutation import budget as book
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
@@ -162,7 +162,7 @@ BUDGET = {
 @part(gives=BUDGET)
 def budget(rates_by_effect: Budget) -> xr.Dataset:
     """Rates effect by effect, beside the published ones; the closure."""
-    from earthspin.compare.budget import iau_omega_rate
+    from earthspin.nutation.budget import iau_omega_rate
     from earthspin.sky.iau import precession_rates
 
     of = rates_by_effect
@@ -219,7 +219,7 @@ def differences(
     effects: tuple[str, ...],
 ) -> Differences:
     """Our pole less the IAU's in time, for three models."""
-    from earthspin.compare.nutation import complex_nutation, without_line
+    from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
@@ -338,7 +338,7 @@ NUTATION = {
 @part(gives=NUTATION)
 def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     """The thirty largest circular terms of both poles, their ratio, what the response leaves."""
-    from earthspin.compare.nutation import phases
+    from earthspin.nutation.nutation import phases
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
@@ -399,9 +399,9 @@ ANGLES = {
 @part(gives=ANGLES)
 def angles(pole_analysis: Analysed) -> xr.Dataset:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
-    from earthspin.compare.angles import ANGLES as NAMES
-    from earthspin.compare.angles import precession_angles
-    from earthspin.compare.nutation import SLOW_DEGREE
+    from earthspin.nutation.angles import ANGLES as NAMES
+    from earthspin.nutation.angles import precession_angles
+    from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / 36525.0
@@ -430,7 +430,7 @@ INFERRED = {
 @part(gives=INFERRED)
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> xr.Dataset:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
-    from earthspin.compare import flattening as flat
+    from earthspin.nutation import flattening as flat
 
     of = rates_by_effect
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
@@ -459,7 +459,7 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> xr.Dataset:
 @part
 def neglected(effects: tuple[str, ...]) -> Neglected:
     """Published size of each effect on the rate of psi_A that is off or has no model here."""
-    from earthspin.compare.budget import published_effects
+    from earthspin.nutation.budget import published_effects
 
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
     off = {n: size for n, size in published_effects().items() if n not in rigid(effects)}

@@ -18,7 +18,7 @@ from earthspin.engine.labels import Variable, build, si, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
-from earthspin.errors import SceneError, Where
+from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.units import Days, FloatArray, Number, Numbers, kind_of
 
 if TYPE_CHECKING:
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood", "least-squares"]
 _SCALE = {"long_name": "time", "comment": "0h UTC in daily tables"}
+#: Days that are closer than this are the same, d.
+SAME_DAY = 1e-6
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
 
@@ -164,6 +166,8 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr
     from earthspin.wobble import observed
 
     time, p = complex_pole(observed_pole)
+    if np.ptp(p.real) == 0 and np.ptp(p.imag) == 0:
+        raise UndefinedError("the pole stands still: there is no wobble in it")
     found = observed.fit(time, p, method)
     seen = observed.envelope(time, p, found.period, window)
     values = {
@@ -208,6 +212,7 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
         If it has no x and y with units along time, or its days repeat or go back.
     """
     _need_series(pole, ("x", "y"), ("arcsec", "mas"))
+    time = _days_in_order(pole)
     for name in ("x", "y"):
         largest = float(abs(si(pole[name])).max())
         if largest > 2 * ARCSEC:
@@ -216,30 +221,47 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
                 f"{largest / ARCSEC:.3g} arcsec",
                 "polar motion stays below one; is the unit right?",
             )
-    time = days(pole.time, Where("time"))
+    return time, (si(pole.x).values - 1j * si(pole.y).values) / MAS
+
+
+def _days_in_order(series: xr.Dataset) -> FloatArray:
+    """Days from J2000.0 of a series, which may not go back.
+
+    Raises
+    ------
+    SceneError
+        If days repeat or go back, or there are fewer than two.
+    """
+    if series.time.size < 2:
+        raise SceneError("time", f"{series.time.size} days", "give two or more")
+    time = days(series.time, Where("time"))
     if np.any(np.diff(time) <= 0):
-        bad = pole.time.values[1:][np.diff(time) <= 0][0]
+        bad = series.time.values[1:][np.diff(time) <= 0][0]
         raise SceneError(
             "time",
             str(bad),
             "days repeat or go back; sort them with ds.sortby('time') and drop "
             "copies with ds.drop_duplicates('time')",
         )
-    return time, (si(pole.x).values - 1j * si(pole.y).values) / MAS
+    return time
 
 
-def _need_series(given: object, names: tuple[str, str], units: tuple[str, ...]) -> None:
+def _need_series(given: Any, names: tuple[str, str], units: tuple[str, ...]) -> None:
     """Refuse what is no Dataset with two series along time that say their units."""
     if not hasattr(given, "data_vars"):
         raise SceneError(
             "series", type(given).__name__, f"give a Dataset with {' and '.join(names)}"
         )
     for name in names:
-        if name not in given or given[name].dims != ("time",):  # type: ignore[operator, index]
+        if name not in given or given[name].dims != ("time",):
             raise SceneError(
                 "series", list(map(str, given.data_vars)), f"'{name}' along 'time' is needed"
             )
-        unit = given[name].attrs.get("units")  # type: ignore[index]
+        unit = given[name].attrs.get("units")
+        if given[name].dtype.kind != "f" or given["time"].dtype.kind != "M":
+            raise SceneError(
+                name, str(given[name].dtype), "give numbers along dates without a zone"
+            )
         if unit not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
             raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
@@ -348,7 +370,10 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
         "chandler_quality_factor": q,
         "start_x": float(p[0].real),
         "start_y": float(-p[0].imag),
-        "comment": "means over the step around each time; start of the pole in mas",
+        "start_day": float(time[0]),
+        "step": step,
+        "comment": "means over the step (d) around each time; start of the pole in mas and in days "
+        "from J2000.0",
     }
     return result
 
@@ -388,11 +413,19 @@ def polar_motion_from(
     q = known.get("chandler_quality_factor") if quality_factor is None else quality_factor
     if period is None or q is None:
         raise SceneError("period", period, "give period and quality_factor of the free wobble")
-    begin = (known.get("start_x", 0.0), known.get("start_y", 0.0)) if start is None else start
-    x, y = Numbers("mas", "50 mas", (2,)).read(begin, Where("start"))
-    s = ex.chandler_frequency(_DAYS.read(period, Where("period")), _PURE.read(q, _Q))
-    time = days(chi.time, Where("time"))
+    time = _days_in_order(chi)
     step = _even_step(time)
+    if abs(known.get("step", step) - step) > SAME_DAY:
+        raise SceneError("time", f"steps of {step:g} d", f"the means are over {known['step']:g} d")
+    if start is None:
+        noted = known.get("start_day")
+        if noted is not None and abs(noted - (time[0] - step / 2)) > SAME_DAY:
+            raise SceneError(
+                "start", None, "the series begins at another day than was noted; give it"
+            )
+        start = (known.get("start_x", 0.0), known.get("start_y", 0.0))
+    x, y = Numbers("mas", "50 mas", (2,)).read(start, Where("start"))
+    s = ex.chandler_frequency(_DAYS.read(period, Where("period")), _PURE.read(q, _Q))
     driving = (si(chi.chi1).values + 1j * si(chi.chi2).values) / MAS
     p = ex.polar_motion_from(driving, step, s, complex(x, -y))
     ends = time[0] - step / 2 + step * np.arange(p.size)
@@ -433,7 +466,7 @@ def read_excitation(path: str | Path) -> xr.Dataset:
 def _even_step(time: FloatArray) -> float:
     """Spacing of even times, d."""
     steps = np.diff(time)
-    if steps.size == 0 or np.any(abs(steps - steps[0]) > 1e-6):
+    if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
         raise SceneError(
             "time", "uneven steps", "fill the gaps first: the exact pair needs even ones"
         )

@@ -180,7 +180,7 @@ ANGLES = {
 @part(gives=ANGLES, unless=no_longitude)
 def pole_angles(axes: xr.Dataset, body: Body) -> xr.Dataset:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
-    from earthspin.compare.angles import on_fixed_ecliptic
+    from earthspin.nutation.angles import on_fixed_ecliptic
     from earthspin.sky.equator import ecliptic_axes
 
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)

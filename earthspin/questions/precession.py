@@ -131,6 +131,7 @@ def torque_samples(
     equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
     axis = equator[..., 2, :]
     axis_at_epoch = equator_of_date(pole, orbit, np.array([window.centre / DAY]))[..., 2, :]
+    _refuse_locked(sky, body, window.centre, axis_at_epoch.reshape(3))
     positions = sky.positions(days)
     torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in perturbers]
     names = [p.name for p in perturbers]
@@ -142,6 +143,27 @@ def torque_samples(
         window=window,
         obliquity=angle(axis_at_epoch.reshape(3), normal),
     )
+
+
+def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]) -> None:
+    """Refuse a spin that is locked to the orbit about a perturber: its average is another."""
+    from earthspin.torque import locking
+
+    first, last = (DAY * day for day in sky.ephemeris.coverage({*sky.targets.values(), sky.centre}))
+    for spin_period in np.ravel(body.needed("spin_period")):
+        if abs(spin_period) < locking.SLOW:
+            continue
+        # so many orbits of the slowest lock, as far as the kernel covers them
+        half = locking.ORBITS * locking.MOST_HALF_TURNS / 4 * abs(spin_period)
+        times = np.linspace(max(epoch - half, first), min(epoch + half, last), 4001)
+        spin_axis, spin_rate = np.sign(spin_period) * axis, 2 * np.pi / abs(spin_period)
+        for name, position in sky.positions(times / DAY).items():
+            turns = locking.locked_ratio(times, position, spin_axis, spin_rate)
+            if turns is not None:
+                raise UndefinedError(
+                    f"{body.name} turns {turns:g} times in each orbit with '{name}': an average "
+                    f"over orbits does not hold for a spin that is locked"
+                )
 
 
 @dataclass(frozen=True)
@@ -480,7 +502,7 @@ SEASONS = {
 @part(gives=SEASONS, unless=not_sun_and_moon)
 def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Dataset:
     """General precession, years a degree, drift of the calendar."""
-    from earthspin.compare import seasons as s
+    from earthspin.nutation import seasons as s
     from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
 
@@ -515,7 +537,7 @@ IAU_2006 = {
 @part(gives=IAU_2006, unless=not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
     """IAU 2006 precession beside ours, and what closes the difference."""
-    from earthspin.compare.budget import closure
+    from earthspin.nutation.budget import closure
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -554,7 +576,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
         equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
         return spherical(rotate(equator, position))[1]
 
-    kernel_error, _ = sky.ephemeris.error(sky.targets["moon"])
+    kernel_error, _ = sky.error(sky.targets["moon"])
     found = find_standstills(declination, stretch.first, stretch.last)
     return build(
         STANDSTILLS,
@@ -579,7 +601,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     unknown = not_the_iaus_earth(body, perturbers)
     if unknown:
         return Neglected(what=f"effects whose published sizes do not apply: {unknown}")
-    from earthspin.compare.budget import published_effects
+    from earthspin.nutation.budget import published_effects
 
     return Neglected(
         published_effects(),

@@ -50,7 +50,7 @@ class Spheroid(
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
         doc="points from the centre, z along the axis"
     )
-    point_mass: Annotated[float, Number("kg", "1 kg")] = setting(
+    point_mass: Annotated[float, Number("kg", "1 kg", low=0.0, high=1e60)] = setting(
         "1 kg", doc="mass at each point, whose torque on the body is given"
     )
     accuracy: Relative | None = key(None, doc="relative error that must be kept")
@@ -75,7 +75,7 @@ def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
     """Potential, attraction and torque of a homogeneous spheroid, exact."""
     from earthspin.mass import spheroid
 
-    figure = body.gm, body.needed("radius"), body.needed("flattening")
+    figure = body.number("gm"), body.number("radius"), body.number("flattening")
     return build(
         FIELD,
         {
@@ -110,7 +110,8 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
         return Neglected(
             what=f"a density that grows inwards: this {body.name} has no single J2 to compare with"
         )
-    nearest = float(np.min(np.linalg.norm(position, axis=-1)))
+    # inside the body the field of its J2 is another
+    nearest = max(float(np.min(np.linalg.norm(position, axis=-1))), body.number("radius"))
     # (C - A)/(M a2) of an even density is a fifth of e2
     excess = float(eccentricity_squared(body.number("flattening"))) / 5 - body.number("j2")
     size = body.number("gm") / nearest * (body.number("radius") / nearest) ** 2 * abs(excess)

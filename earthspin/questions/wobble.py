@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -16,21 +16,18 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.errors import nearest
+from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.units import FloatArray, Number
-from earthspin.wobble.named import ANELASTIC_EXPONENT, INTERIORS
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from earthspin.interior.named import Interior
     from earthspin.wobble.ladder import Inputs, Spin
-    from earthspin.wobble.named import Interior
 
 #: A layered model stands for bodies whose mass and radius are within this of its own.
 FIT = 0.01
-DRAWS = 1000
-#: Draws times bodies are kept below this, for memory.
-MOST_DRAWS = 100_000
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
@@ -195,11 +192,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     from earthspin.wobble import ladder
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
-    turns: dict[str, Numeric] = {
-        "flattening": ladder.turns_from_flattening(body.needed("flattening")),
-        "rigid": ladder.turns_rigid(h),
-        "triaxial": ladder.turns_triaxial(h, j2, body.triaxiality),
-    }
+    turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
     quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
@@ -209,7 +202,10 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
         label = inside.label
         turns |= {name: label(value) for name, value in climbed.turns.items()}
         quality |= {name: label(value) for name, value in climbed.quality_factor.items()}
-        spread |= {name: label(value) for name, value in _sampled(inside).items()}
+        sampled = ladder.sampled_half_widths(
+            inside.inputs, inside.uncertainty, inside.spin, inside.interior, inside.ocean
+        )
+        spread |= {name: label(value) for name, value in sampled.items()}
     period = _along(turns, "rung") * abs(body.needed("spin_period"))
     like = xr.zeros_like(period)
     result = build(
@@ -227,20 +223,10 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     return result
 
 
-def _sampled(inside: Inside) -> dict[str, FloatArray]:
-    """95 % half-widths of the upper rungs, by sampling the inputs."""
-    from earthspin.wobble import ladder
-
-    bodies = np.asarray(inside.spin.gm).size
-    draws = max(100, min(DRAWS, MOST_DRAWS // bodies))
-    drawn = ladder.draw(inside.inputs, inside.uncertainty, draws)
-    sampled = ladder.climb(drawn, inside.spin, inside.interior, inside.ocean)
-    ends = {n: np.percentile(v, [2.5, 97.5], axis=0) for n, v in sampled.turns.items()}
-    return {name: (high - low) / 2 for name, (low, high) in ends.items()}
-
-
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
     """95 % half-widths of the rigid rungs: relative errors of f and of H."""
+    import xarray as xr
+
     from earthspin.rotor.axisymmetric import free_wobble_error
 
     u = body.relative_uncertainty
@@ -250,7 +236,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
     return {
         name: free_wobble_error(value, h[name], shares[name])
         if shares[name]
-        else 0.0 * np.where(np.isinf(value), 0.0, value)  # an infinite period has no error
+        else xr.zeros_like(xr.DataArray(value))  # labels and all
         for name, value in turns.items()
     }
 
@@ -288,8 +274,9 @@ INTERIOR = {
 @part(gives=INTERIOR, unless=not_layered)
 def interior_response(body: Body) -> xr.Dataset:
     """Love numbers and moments of the layered interior, by integration."""
-    from earthspin.wobble.interior import equilibrium
-    from earthspin.wobble.named import elastic, global_ocean
+    from earthspin.interior.equilibrium import equilibrium
+    from earthspin.interior.love import elastic
+    from earthspin.interior.ocean import global_ocean
 
     layers = interior_of(body).layers
     assert layers is not None
@@ -325,13 +312,8 @@ def sensitivity(inside: Inside) -> xr.Dataset:
 
     settings = (inside.spin, inside.interior, inside.ocean)
     slopes = ladder.sensitivities(inside.inputs, *settings)
-    names = [f.name for f in fields(ladder.Inputs)]
-    values = {name: getattr(inside.inputs, name) for name in names}
-    low, high = ladder.EXPONENT_RANGE
-    u = inside.uncertainty
-    half = {n: 1.96 * u.get(n, 0.0) * abs(np.asarray(values[n])) for n in names}
-    if "anelastic" in ladder.climb(inside.inputs, *settings).turns:
-        half["anelastic_exponent"] = np.asarray((high - low) / 2)
+    anelastic = "anelastic" in ladder.climb(inside.inputs, *settings).turns
+    half = ladder.half_widths(inside.inputs, inside.uncertainty, anelastic)
 
     def stack(parts: Mapping[str, Numeric]) -> xr.DataArray:
         return _along(parts, "input", inside.label)
@@ -340,7 +322,7 @@ def sensitivity(inside: Inside) -> xr.Dataset:
         SENSITIVITY,
         {
             "days_per_unit": stack(slopes) * DAY,
-            "input_value": stack(values),
+            "input_value": stack(vars(inside.inputs)),
             "input_half_width": stack(half),
             "days_from_input": abs(stack(slopes) * stack(half)) * DAY,
         },

@@ -33,8 +33,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.rotor.double_double import DoubleDouble, stack, where
-from earthspin.rotor.elliptic import LandenDescent, first_kind, landen_descent, third_kind_mean
+from earthspin.numerics.double_double import DoubleDouble, stack, where
+from earthspin.numerics.elliptic import LandenDescent, first_kind, landen_descent, third_kind_mean
 from earthspin.rotor.moments import Moments, PrincipalMoments, finite, principal_moments
 
 FloatArray = NDArray[np.float64]

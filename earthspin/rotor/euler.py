@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.errors import BodyError, EarthspinError
-from earthspin.rotor import quaternion
+from earthspin.numerics import quaternion
 from earthspin.rotor.moments import Moments, finite, principal_moments
 
 FloatArray = NDArray[np.float64]

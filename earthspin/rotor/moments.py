@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import BodyError
-from earthspin.rotor.double_double import DoubleDouble, as_double_double, stack, two_sum
+from earthspin.numerics.double_double import DoubleDouble, as_double_double, stack, two_sum
 
 FloatArray = NDArray[np.float64]
 #: Three numbers, a mapping with the keys of `KEYS`, or what `principal_moments` made of them.

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.rotor import quaternion
+from earthspin.numerics import quaternion
+from earthspin.numerics.double_double import TWO_PI
 from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
-from earthspin.rotor.double_double import TWO_PI
 from earthspin.rotor.moments import Moments, finite
 from earthspin.rotor.triaxial import Phase, momentum_frame, phase_at, to_body
 

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import BodyError
-from earthspin.rotor import quaternion
+from earthspin.numerics import quaternion
+from earthspin.numerics.double_double import TWO_PI
+from earthspin.numerics.elliptic import Jacobi, jacobi, third_kind_periodic
 from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
-from earthspin.rotor.double_double import TWO_PI
-from earthspin.rotor.elliptic import Jacobi, jacobi, third_kind_periodic
 from earthspin.rotor.moments import Moments, finite
 
 FloatArray = NDArray[np.float64]

@@ -20,27 +20,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.constants import J2000_JD, MAS
 from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
+from earthspin.sky.kernel_differences import largest_difference
 
 FloatArray = NDArray[np.float64]
 
 #: Kernels that have a name; any other kernel is named by its path.
 NAMED_KERNELS = ("de421", "de440")
-
-#: Largest difference in direction (mas) and distance (m) between DE421 and DE440, seen from
-#: NAIF 399 at steps of 1.7 d over all that DE421 covers: how far a kernel may be off.
-KERNEL_DIFFERENCE: dict[int, tuple[float, float]] = {
-    1: (7.3, 1.4e3),
-    2: (2.2, 1.8e2),
-    4: (30.0, 7.4e3),
-    5: (23.0, 2.9e3),
-    6: (1.2, 2.6e3),
-    7: (322.0, 1.1e6),
-    8: (207.0, 2.3e6),
-    10: (2.1, 23.0),
-    301: (7.2, 1.1),
-}
 
 _BLOCK = 1 << 16  # epochs evaluated at once: arrays stay in the processor's cache
 
@@ -197,19 +184,16 @@ class Ephemeris:
             code = leg[0]
         return path
 
-    def error(self, code: int) -> tuple[float, float]:
+    def error(self, code: int, centre: int) -> tuple[float, float]:
         """How far a body may be from where the kernel puts it: angle (rad), distance (m).
 
         Parameters
         ----------
-        code : int
-            NAIF code. A planet's barycentre stands for the planet; what was not measured is
-            taken for as bad as the worst.
+        code, centre : int
+            NAIF codes of the body, and of the one that it is seen from.
         """
-        barycentre = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
-        worst = max(KERNEL_DIFFERENCE.values())
-        mas, metres = KERNEL_DIFFERENCE.get(barycentre, worst)
-        return mas * 1e-3 * ARCSEC, metres
+        mas, metres = largest_difference(centre, code)
+        return mas * MAS, metres
 
     def check_times(self, days: FloatArray, codes: Iterable[int]) -> None:
         """Refuse times at which not all of these bodies can be placed.

@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
-from earthspin.top.elliptic import complete_third_kind
+from earthspin.numerics.elliptic import complete_third_kind
 from earthspin.top.nutation import Nutation, Place
 
 FloatArray = NDArray[np.float64]

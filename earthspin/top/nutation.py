@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprf
 
+from earthspin.numerics.elliptic import jacobi_sncndn
 from earthspin.top.cubic import AxisStart, Gaps, axis_start, cubic_gaps
-from earthspin.top.elliptic import jacobi_sncndn
 from earthspin.top.start import HeavyTop
 
 FloatArray = NDArray[np.float64]

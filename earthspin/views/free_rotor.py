@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.rotor.quaternion import multiply, rotate
+from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.views.drawing import CYCLE, Drawing, axes, drawn, legend_above, style
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
 from earthspin.views.solids import (

@@ -144,18 +144,15 @@ def free_wobble(tree: Result) -> Table:
     of = needed(tree, "free_wobble")
     sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
     rows = [("rigid body, A/(C-A)", measured(of, "free_wobble_period"), sidereal)]
+    notes = ["A rigid body; a real one yields."]
     if "observed_period" in of:
-        rows.append(("observed (Nastula & Gross 2015)", measured(of, "observed_period"), ""))
+        rows.append(("observed", measured(of, "observed_period"), ""))
+        notes.append(f"Observed: {of.observed_period.attrs['references']}.")
     return Table(
         "Free wobble",
         ("", "days of 86400 s", "sidereal days"),
         rows,
-        " ".join(
-            [
-                "A rigid body; the real one yields, has a fluid core and oceans.",
-                *changes_of(answer_of(tree), "body"),
-            ]
-        ),
+        " ".join([*notes, *changes_of(answer_of(tree), "body")]),
     )
 
 

@@ -29,15 +29,11 @@ from numpy.typing import NDArray
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
+from earthspin.interior.equilibrium import hydrostatic_core
+from earthspin.interior.love import elastic, softening
+from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
+from earthspin.interior.ocean import global_ocean
 from earthspin.mass.inertia import ellipticity_from_h, polar_moment_factor
-from earthspin.wobble.named import (
-    ANELASTIC_EXPONENT,
-    Interior,
-    elastic,
-    global_ocean,
-    hydrostatic_core,
-    softening,
-)
 
 Numeric = Any
 Array = NDArray[Any]
@@ -54,6 +50,9 @@ FORMULAS = {
     "ocean": "the same, with the products of inertia of an ocean in equilibrium",
     "anelastic": "the same, with a complex shear modulus (Wahr & Bergen 1986; Smith & Dahlen 1981)",
 }
+
+#: How often inputs are drawn; draws times bodies are kept below the last, for memory.
+FEWEST_DRAWS, DRAWS, MOST_DRAWS = 100, 1000, 100_000
 
 #: Period up to which the quality factor does not depend on frequency, s.
 ABSORPTION_BAND = 200.0
@@ -103,6 +102,17 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
             "so there is no wobble about it"
         )
     return np.sqrt(_over(1 - half**2, (e - half) * (e + half)))
+
+
+def rigid_turns(
+    flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
+) -> dict[str, Numeric]:
+    """Turns per wobble on the rungs of a rigid body, by name; arguments as above."""
+    return {
+        "flattening": turns_from_flattening(flattening),
+        "rigid": turns_rigid(h),
+        "triaxial": turns_triaxial(h, j2, triaxiality),
+    }
 
 
 def factors(turns: Numeric) -> Numeric:
@@ -502,6 +512,50 @@ def draw(inputs: Inputs, uncertainty: Mapping[str, float], draws: int, seed: int
             spread = uncertainty.get(name, 0.0) * generator.standard_normal(size)
             changed[name] = value * (1 + spread)
     return Inputs(**changed)
+
+
+def sampled_half_widths(
+    inputs: Inputs,
+    uncertainty: Mapping[str, float],
+    spin: Spin,
+    interior: Interior,
+    ocean: str = "real",
+) -> dict[str, Numeric]:
+    """95 % half-widths of the turns on the upper rungs, by sampling the inputs.
+
+    Parameters
+    ----------
+    inputs : Inputs
+    uncertainty : mapping
+        One standard deviation over value, by name of the input.
+    spin, interior, ocean
+        As for `climb`.
+    """
+    draws = max(FEWEST_DRAWS, min(DRAWS, MOST_DRAWS // np.asarray(spin.gm).size))
+    sampled = climb(draw(inputs, uncertainty, draws), spin, interior, ocean)
+    ends = {name: np.percentile(v, [2.5, 97.5], axis=0) for name, v in sampled.turns.items()}
+    return {name: (high - low) / 2 for name, (low, high) in ends.items()}
+
+
+def half_widths(
+    inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
+) -> dict[str, Array]:
+    """95 % half-widths of the inputs; that of the exponent is half the range of published work.
+
+    Parameters
+    ----------
+    inputs : Inputs
+    uncertainty : mapping
+        One standard deviation over value, by name of the input.
+    anelastic : bool
+        Whether the ladder reaches the rung where the exponent matters.
+    """
+    low, high = EXPONENT_RANGE
+    found = {
+        one.name: 1.96 * uncertainty.get(one.name, 0.0) * abs(np.asarray(getattr(inputs, one.name)))
+        for one in fields(Inputs)
+    }
+    return found | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
 
 
 def sensitivities(

@@ -61,7 +61,9 @@ def planted(measure: Callable[[], Any], **changes: Any) -> Case:
 
 def refusing(line: str = "it cannot be told") -> Callable[[], None]:
     def measure() -> None:
-        raise UndefinedError(line)
+        error = UndefinedError(line)
+        error.args = (line,)  # the class itself keeps to one line
+        raise error
 
     return measure
 

@@ -226,7 +226,7 @@ def series_outcome(rng: Generator) -> Outcome:
     exact = Nutation(first, last, 0)
     place = above.ephemeris.positions(above.targets, above.centre, now)
     directions = {n: p / np.linalg.norm(p, axis=1, keepdims=True) for n, p in place.items()}
-    kernel = max(above.ephemeris.error(code)[0] for code in above.targets.values()) / ARCSEC * 1e3
+    kernel = max(above.error(code)[0] for code in above.targets.values()) / ARCSEC * 1e3
 
     def off(equator: np.ndarray) -> float:
         best = exact.true_equator(now)

@@ -186,7 +186,7 @@ def test_the_list_of_keys_is_whole(question: type[Question]) -> None:
     text = describe_keys(question)
     head, _, table = text.partition(f"[{question.table}]") if question.table else (text, "", "")
     for name, one in keys_of(question).items():
-        assert f"\n{name} = " in f"\n{table if one.setting else head}", name
+        assert f"\n{name}: " in f"\n{table if one.setting else head}", name
     assert all(len(line) <= 100 for line in text.splitlines() if line.startswith(" "))
 
 

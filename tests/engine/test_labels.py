@@ -9,7 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.labels import SchemaError, Variable, build
+from earthspin.engine.labels import SchemaError, Variable, build, si
 from tests import shipped
 
 #: Physical type by unit: what a unit must mean for a variable that carries it.
@@ -124,3 +124,13 @@ def test_vectors_say_their_frame() -> None:
     built = build(schema, {"x": [1.0, 2.0, 3.0], "n": 1.0}, frame="GCRS")
     assert built.x.attrs["frame"] == "GCRS"
     assert "frame" not in built.n.attrs
+
+
+def test_a_unit_that_is_not_known_is_not_taken_for_si() -> None:
+    """A radius in km once came back as 7,000,000 of them."""
+    far = xr.DataArray(7000.0, attrs={"units": "km"})
+    with pytest.raises(earthspin.SceneError, match="units = 'km'"):
+        si(far)
+    with pytest.raises(earthspin.SceneError, match="units = 'km'"):
+        build({"x": Variable((), "km", "a length")}, {"x": 7e6})
+    assert float(si(xr.DataArray(2.0, attrs={"units": "d"}))) == 172800.0

@@ -113,6 +113,6 @@ def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
 
     h = xr.DataArray([0.003, 0.0033], dims="time")
     body = earthspin.EARTH.replace(dynamical_flattening=h)
-    with pytest.raises(SceneError, match="results have this dimension already") as error:
+    with pytest.raises(SceneError, match="results have this name already") as error:
         earthspin.plan(Scene(compute="torque", body=body))
     assert error.value.key == "body.dynamical_flattening"

@@ -219,13 +219,13 @@ COUNTS = st.integers(-(10**15), 10**15)
 @st.composite
 def bodies(draw: st.DrawFn) -> earthspin.Body:
     start = draw(st.sampled_from([EARTH, MARS]))
-    changes: dict[str, Any] = {"dynamical_flattening": draw(st.floats(1e-12, 0.5))}
+    h, polar = draw(st.floats(1e-12, 0.5)), draw(st.floats(1e-3, 1.0))  # C over M a2
+    changes: dict[str, Any] = {"dynamical_flattening": h, "j2": polar * h, "triaxiality": 0.0}
     for name, value in {
         "gm": st.floats(1e3, 1e25),
         "radius": st.floats(1.0, 1e9),
         "spin_period": st.floats(1.0, 1e9) | st.floats(-1e9, -1.0),
-        "j2": st.floats(1e-12, 0.5),
-        "triaxiality": st.floats(0.0, 0.1),
+        "triaxiality": st.floats(0.0, polar / 2),
         "j3": FINITE,
         "meridian": FINITE,
         "flattening": st.floats(-10.0, 0.99),
@@ -246,6 +246,7 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
         labels = draw(st.none() | st.lists(FINITE, min_size=size, max_size=size))
         coords = {} if labels is None else {"draw": labels}
         changes["dynamical_flattening"] = xr.DataArray(listed, coords, ("draw",))
+        changes["j2"] = polar * changes["dynamical_flattening"]
     return start.replace(**changes)
 
 
@@ -285,7 +286,7 @@ def test_dates_are_written_exactly(counts: list[int]) -> None:
     omega=st.lists(st.lists(SMALL, min_size=3, max_size=3), min_size=1, max_size=20),
     times=st.none() | st.lists(FINITE, min_size=1, max_size=60),
     duration=POSITIVE,
-    points=st.integers(1, 10**9),
+    points=st.integers(1, 4_000_000),
 )
 def test_rotors_are_written_exactly(
     moments: list[float],

@@ -13,7 +13,7 @@ from earthspin.constants import DAY, GM_SUN
 from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
 from earthspin.motion.geodesic import geodesic_rate
-from earthspin.motion.windows import Windows
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.harmonics import zonal_torque

@@ -7,8 +7,8 @@ from astropy.time import Time
 
 import earthspin
 from earthspin import EARTH
-from earthspin.compare.nutation import without_line
 from earthspin.constants import ARCSEC
+from earthspin.nutation.nutation import without_line
 from earthspin.sky import iau
 
 DEFAULT = ("planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order")
@@ -151,5 +151,5 @@ def test_what_is_refused() -> None:
         earthspin.pole(body="mars", effects=["nonrigid"])
     with pytest.raises(earthspin.BodyError, match="one body at a time"):
         earthspin.pole(
-            body=EARTH.replace(dynamical_flattening=xr.DataArray([1e-3, 2e-3], dims="draw"))
+            body=EARTH.replace(dynamical_flattening=xr.DataArray([3e-3, 3.1e-3], dims="draw"))
         )

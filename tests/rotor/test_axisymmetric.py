@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from earthspin.errors import BodyError, UndefinedError
+from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import (
     SymmetricRotor,
     free_wobble_error,
@@ -19,7 +20,6 @@ from earthspin.rotor.axisymmetric import (
     wobble_rate_of_cones,
 )
 from earthspin.rotor.euler import euler_rates, integrate_rotation
-from earthspin.rotor.quaternion import multiply, rotate
 from earthspin.rotor.triaxial import free_rotation
 
 OBLATE = SymmetricRotor(1.2, 0.5, 0.9, 0.7)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from earthspin.errors import BodyError, EarthspinError
+from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.euler import (
     angular_momentum_squared,
     axis_stability,
@@ -15,7 +16,6 @@ from earthspin.rotor.euler import (
     integrate_rotation,
     twice_energy,
 )
-from earthspin.rotor.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
 
 BODY = [1.0, 2.0, 2.5]

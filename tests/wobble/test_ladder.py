@@ -9,9 +9,10 @@ from scipy.integrate import solve_ivp
 
 import earthspin
 from earthspin import EARTH, SceneError, UndefinedError, UnitsError, load_scene
+from earthspin.interior.love import elastic
+from earthspin.interior.named import INTERIORS
+from earthspin.interior.prem import PREM
 from earthspin.wobble import ladder
-from earthspin.wobble.interior import PREM
-from earthspin.wobble.named import INTERIORS, elastic
 from tests.conftest import load_pins
 
 PINS = load_pins("precession") | load_pins("wobble")
@@ -272,3 +273,13 @@ def test_love_numbers_stand_in_the_result() -> None:
     tree = earthspin.run_tree("wobble", ["interior"])
     assert float(tree["interior/love_number"].sel(love="k2")) == float(elastic(PREM).k)
     assert "interior" not in earthspin.run_tree(load_scene("wobble", {"body": "mars"}))
+
+
+def test_many_bodies_have_an_error_each() -> None:
+    """Once a body without an uncertainty of H lost its labels, and n bodies had n x n errors."""
+    h = xr.DataArray(EARTH.dynamical_flattening * np.linspace(0.999, 1.001, 4), dims="draw")
+    ladder = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=h))
+    assert ladder.sizes == {"rung": 7, "draw": 4}
+    assert ladder.period_solar_error.dims == ladder.period_solar.dims == ("rung", "draw")
+    one = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=float(h[2])))
+    assert np.allclose(ladder.period_solar[:, 2], one.period_solar, rtol=1e-15, atol=0)

@@ -17,13 +17,13 @@ from scipy.interpolate import BarycentricInterpolator
 from earthspin.bodies import BODIES, MOON, SUN
 from earthspin.checks.case import Cases
 from earthspin.checks.default_body import default_body
-from earthspin.compare.angles import on_fixed_ecliptic
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
+from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import Samples, torque_samples

@@ -12,11 +12,11 @@ from earthspin.checks.case import Cases
 from earthspin.checks.default_body import default_body
 from earthspin.constants import ARCSEC, JULIAN_YEAR
 from earthspin.mass.inertia import ellipticity_from_h
-from earthspin.rotor import quaternion
+from earthspin.numerics import quaternion
+from earthspin.numerics.double_double import DoubleDouble, as_double_double, two_product, two_sum
+from earthspin.numerics.elliptic import jacobi, landen_descent
 from earthspin.rotor.axisymmetric import SymmetricRotor, speed_and_cone
 from earthspin.rotor.constants_of_motion import jacobi_motion
-from earthspin.rotor.double_double import DoubleDouble, as_double_double, two_product, two_sum
-from earthspin.rotor.elliptic import jacobi, landen_descent
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.moments import principal_moments
 from earthspin.rotor.triaxial import FreeRotation, free_rotation

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.compare.angles import on_fixed_ecliptic, pole_from
-from earthspin.compare.nutation import Circles, FrequencyAnalysis
 from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR
+from earthspin.nutation.angles import on_fixed_ecliptic, pole_from
+from earthspin.nutation.nutation import Circles, FrequencyAnalysis
 
 FloatArray = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from earthspin.rotor.double_double import (
+from earthspin.numerics.double_double import (
     TWO_PI,
     DoubleDouble,
     as_double_double,

@@ -16,7 +16,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
-#: Real, or complex where a vector of the equator is written as one number.
+#: Real, or complex where a vector of a plane is written as one number.
 AnyArray = TypeVar("AnyArray", NDArray[np.float64], NDArray[np.complex128])
 
 _CHUNK = 1 << 15  # times evaluated at once: the basis stays in the processor's cache

@@ -8,7 +8,6 @@ import pytest
 import xarray as xr
 
 import earthspin
-from earthspin.compare import budget
 from earthspin.constants import (
     ARCSEC,
     ARCSEC_PER_YEAR,
@@ -18,6 +17,7 @@ from earthspin.constants import (
     P_A_RATE,
     PSI_A_RATE,
 )
+from earthspin.nutation import budget
 from earthspin.parts.pulls import Effect
 from earthspin.sky.iau import precession_rates
 

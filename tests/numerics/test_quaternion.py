@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from earthspin.rotor.quaternion import conjugate, multiply, rotate, turn_about_z
+from earthspin.numerics.quaternion import conjugate, multiply, rotate, turn_about_z
 
 RNG = np.random.default_rng(1)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin.compare import flattening
+from earthspin.nutation import flattening
 
 
 @given(st.floats(1e-4, 0.3), st.floats(-0.01, 0.01), st.floats(-0.05, 0.05))

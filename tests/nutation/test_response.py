@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin.compare.angles import on_fixed_ecliptic, pole_from, precession_angles
-from earthspin.compare.nutation import MULTIPLES, FrequencyAnalysis, phases, without_line
-from earthspin.compare.response import Response, fit_response
 from earthspin.constants import ARCSEC, DAY
+from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
+from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis, phases, without_line
+from earthspin.nutation.response import Response, fit_response
 from earthspin.sky import iau
 
 H, SPIN = 0.0032737949, 7.292115e-5

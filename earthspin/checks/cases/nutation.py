@@ -7,18 +7,18 @@ from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases
 from earthspin.checks.default_body import default_body
-from earthspin.compare.angles import on_fixed_ecliptic, pole_from, precession_angles
-from earthspin.compare.budget import contributions
-from earthspin.compare.nutation import MULTIPLES, FrequencyAnalysis
-from earthspin.compare.response import Response, fit_response
-from earthspin.compare.seasons import general_precession, tropical_year
 from earthspin.constants import ARCSEC, DAY, SIDEREAL_YEAR
+from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
+from earthspin.nutation.budget import contributions
+from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis
+from earthspin.nutation.response import Response, fit_response
+from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
 
 FloatArray = NDArray[np.float64]
 
-CASES = Cases("compare")
+CASES = Cases("nutation")
 
 UAS = 1e-6 * ARCSEC
 #: A century of days.

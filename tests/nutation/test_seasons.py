@@ -3,7 +3,6 @@
 import numpy as np
 import xarray as xr
 
-from earthspin.compare import seasons
 from earthspin.constants import (
     ARCSEC,
     ARCSEC_PER_YEAR,
@@ -15,6 +14,7 @@ from earthspin.constants import (
     PSI_A_RATE,
     TROPICAL_YEAR,
 )
+from earthspin.nutation import seasons
 from tests.conftest import load_pins
 
 PINS = load_pins("precession")

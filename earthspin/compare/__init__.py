@@ -1,1 +1,0 @@
-"""Our pole beside the IAU's."""

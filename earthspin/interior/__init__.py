@@ -1,0 +1,1 @@
+"""What lies under the surface: layers, Love numbers, the figure of equilibrium."""

@@ -1,0 +1,98 @@
+"""A layered body: its shells, and its moments by the polynomials' primitives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from earthspin.constants import G
+
+Numeric = Any
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One shell; polynomials in x = r/R, constant term first.
+
+    Attributes
+    ----------
+    top : float
+        Outer radius, m.
+    density : tuple of float
+        kg m-3.
+    vp, vs : tuple of float
+        Speeds of compressional and shear waves at a period of 1 s, m/s; no `vs` in a liquid.
+    shear_q : float
+        Quality factor in shear; infinite in a liquid.
+    """
+
+    top: float
+    density: tuple[float, ...]
+    vp: tuple[float, ...]
+    vs: tuple[float, ...] = ()
+    shear_q: float = np.inf
+
+
+@dataclass(frozen=True)
+class LayeredBody:
+    """A body of solid inner core, liquid outer core and solid mantle.
+
+    Attributes
+    ----------
+    name : str
+    layers : tuple of Layer
+        From the centre outwards.
+    reference : str
+    """
+
+    name: str
+    layers: tuple[Layer, ...]
+    reference: str
+
+    @property
+    def radius(self) -> float:
+        """Radius R, m."""
+        return self.layers[-1].top
+
+    @property
+    def core_radius(self) -> float:
+        """Radius of the boundary between the liquid core and the mantle, m."""
+        return max(layer.top for layer in self.layers[:-1] if not layer.vs)
+
+    @property
+    def mass(self) -> float:
+        """Mass, kg."""
+        return float(4 * np.pi * self._radial_moment(2, self.radius))
+
+    def moment_of_inertia(self, radius: float | None = None) -> float:
+        """Moment of inertia of what lies within a radius, kg m2; of all by default."""
+        outer = self.radius if radius is None else radius
+        return float(8 * np.pi / 3 * self._radial_moment(4, outer))
+
+    @property
+    def moment_factor(self) -> float:
+        """I/(M R2)."""
+        return self.moment_of_inertia() / (self.mass * self.radius**2)
+
+    @property
+    def core_fraction(self) -> float:
+        """Moment of inertia of the core, inner core included, over that of the whole body."""
+        return self.moment_of_inertia(self.core_radius) / self.moment_of_inertia()
+
+    def _radial_moment(self, power: int, radius: float) -> float:
+        """Integral of rho r^power from the centre, by the polynomials' primitives."""
+        total, below = 0.0, 0.0
+        for layer in self.layers:
+            primitive = np.polynomial.Polynomial((0.0,) * power + layer.density).integ()
+            top = min(layer.top, radius) / self.radius
+            total += primitive(top) - primitive(below)
+            below = top
+        return float(total * self.radius ** (power + 1))
+
+
+def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
+    """Omega2 R5/(3 G A): products of inertia over A per radian of wobble and unit of k2."""
+    moment = layers.moment_of_inertia()
+    return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)

@@ -1,0 +1,46 @@
+"""What an ocean in equilibrium adds: published for the real one, computed for one all over."""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.constants import ARCSEC, Constant
+from earthspin.interior.layers import LayeredBody
+from earthspin.interior.love import elastic
+
+# Products of inertia of the ocean over M a2, per radian of wobble: c = -sqrt(5/3) M a2 C21.
+_OCEAN_C21 = (2.1778e-10, 0.01724)  # of -C21 per arcsecond: a (m1 - b m2)
+_OCEAN_S21 = (1.7232e-10, 0.03365)  # of -S21 per arcsecond: a (m2 - b m1)
+OCEAN_SOURCE = (
+    "IERS Conventions (2010), eq. 6.24: self-consistent equilibrium ocean pole tide, "
+    "after Desai 2002, JGR 107(C11), 3186"
+)
+
+#: Density of sea water, as the IERS Conventions (2010), sect. 6.5, use it.
+SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5")
+
+
+def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
+    """Products of inertia (c13, c23)/(M a2) per radian of wobble, of the real ocean.
+
+    The symmetric part of the published response: the other is the mantle's delay.
+    """
+    (a, ab), (d, dc) = _OCEAN_C21, _OCEAN_S21
+    unit = math.sqrt(5 / 3) / ARCSEC
+    off = -(a * ab + d * dc) / 2
+    return (unit * a, unit * off), (unit * off, unit * d)
+
+
+def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float:
+    """Love number that an ocean in equilibrium all over the body adds to k2.
+
+    The sea surface follows the potential of the wobble, of the yielding body, of the
+    water and of what the water presses in: one equation of degree two, solved in closed
+    form (Munk & MacDonald 1960, The Rotation of the Earth, sect. 5.7, self-attraction
+    and loading added).
+    """
+    love = elastic(layers)
+    mean_density = layers.mass / (4 / 3 * math.pi * layers.radius**3)
+    pull = 3 * density / (5 * mean_density)
+    k, h, k_load, h_load = (float(v) for v in (love.k, love.h, love.k_load, love.h_load))
+    return (1 + k_load) * pull * (1 + k - h) / (1 - pull * (1 + k_load - h_load))

@@ -1,0 +1,1 @@
+"""Mathematics without physics: elliptic functions, double-double, quaternions, Gauss windows."""

@@ -1,0 +1,1 @@
+"""Precession and nutation beside the IAU's: analysis, response, angles, budget."""

@@ -1,0 +1,77 @@
+"""Love numbers: published ones, closed forms, reciprocity, and how they soften."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from earthspin import UndefinedError
+from earthspin.constants import G
+from earthspin.interior.love import elastic, softening, yielding
+from earthspin.interior.prem import PREM, PREM_WITH_OCEAN
+from tests.conftest import load_pins
+from tests.interior.shells import sphere
+
+PINS = load_pins("wobble")
+
+
+def test_love_numbers_of_prem() -> None:
+    """With a liquid inner core, as in the independent integration; a solid one stiffens by 1e-4."""
+    inner, *rest = PREM.layers
+    liquid = replace(PREM, layers=(replace(inner, vs=(), shear_q=np.inf), *rest))
+    found = yielding(liquid)
+    for name in ("k", "h", "l"):
+        PINS[f"prem {name}2, liquid inner core"].check(getattr(found, name))
+    assert 3e-5 < found.k - elastic(PREM).k < 4e-5
+    PINS["prem k2 load"].check(elastic(PREM).k_load)
+    PINS["prem h2 load"].check(elastic(PREM).h_load)
+
+
+@given(st.floats(1e10, 5e11))
+@settings(max_examples=10)
+def test_kelvins_sphere(mu: float) -> None:
+    """A homogeneous incompressible sphere: k2 = (3/2)/(1 + 19 mu/(2 rho g R)) (Kelvin 1863)."""
+    radius, rho = 6.4e6, 5500.0
+    body = sphere((0.02 * radius, rho, 0.0), (radius, rho, mu), stiff=1e4)
+    gravity = G.value * body.mass / radius**2
+    stiffness = 1 + 9.5 * mu / (rho * gravity * radius)
+    found = yielding(body)
+    # A liquid core of a fiftieth of the radius and the finite stiffness leave 3e-4.
+    assert np.isclose(found.k, 1.5 / stiffness, rtol=4e-4, atol=0)
+    assert np.isclose(found.h, 2.5 / stiffness, rtol=1e-3, atol=0)
+    assert np.isclose(found.l, 0.75 / stiffness, rtol=6e-4, atol=0)
+
+
+def test_core_and_surface_answer_alike() -> None:
+    """Betti's reciprocity: core pressure moves the surface as the tide moves the core."""
+    found = elastic(PREM)
+    assert np.isclose(found.k_pressure, found.core_k, rtol=5e-12, atol=0)
+    found = yielding(PREM, -14 + 3j)
+    assert np.isclose(found.k_pressure, found.core_k, rtol=5e-12, atol=0)
+
+
+@given(st.floats(-36, 0), st.floats(0, 12))
+@settings(max_examples=8)
+def test_interpolated_softening(real: float, imaginary: float) -> None:
+    strain = complex(real, imaginary)
+    direct = yielding(PREM, strain)
+    for name, ratio in zip(
+        ("k", "core_k", "k_pressure", "core_k_pressure"), softening(PREM), strict=True
+    ):
+        expected = getattr(direct, name) / float(getattr(elastic(PREM), name))
+        assert abs(ratio(strain) - expected) < 2e-8, name  # measured: 2e-9
+
+
+def test_a_softer_body_yields_more_and_lags() -> None:
+    k = yielding(PREM, np.array([0, -5, -10, -10 + 3j])).k
+    assert k[0].real < k[1].real < k[2].real
+    assert k[3].imag < 0
+
+
+def test_love_numbers_need_a_core_and_a_solid_surface() -> None:
+    with pytest.raises(UndefinedError, match="solid surface"):
+        yielding(PREM_WITH_OCEAN)
+    with pytest.raises(UndefinedError, match="liquid core"):
+        yielding(sphere((6e6, 5e3, 1e11)))

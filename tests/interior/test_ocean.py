@@ -1,0 +1,12 @@
+"""An ocean all over, beside the independent calculation."""
+
+from earthspin.interior.ocean import global_ocean
+from earthspin.interior.prem import PREM
+from tests.conftest import load_pins
+
+PINS = load_pins("wobble")
+
+
+def test_global_ocean() -> None:
+    PINS["global ocean"].check(global_ocean(PREM))
+    assert global_ocean(PREM, density=0.0) == 0

@@ -1,0 +1,215 @@
+"""Inputs that were once taken for something else, or broke: each is right now, or refused."""
+
+from pathlib import Path
+from typing import Any
+
+import astropy.units as u
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from astropy.time import Time, TimeDelta
+
+import earthspin
+from earthspin import (
+    EARTH,
+    BodyError,
+    EarthspinError,
+    OutputError,
+    SceneError,
+    UndefinedError,
+    UnitsError,
+)
+
+
+@pytest.mark.parametrize("text", ["0.3 furlongs", "0.3 km", "0.3 bananas"])
+def test_a_pure_number_has_no_unit(text: str) -> None:
+    with pytest.raises(UnitsError, match="dynamical_flattening"):
+        earthspin.precession(body={"dynamical_flattening": text})
+
+
+def test_per_cent_are_hundredths() -> None:
+    one, other = (
+        earthspin.wobble_ladder(body={"dynamical_flattening": h}) for h in ("0.32 percent", 0.0032)
+    )
+    assert np.array_equal(one.period_solar, other.period_solar)
+
+
+def test_components_are_read_by_name() -> None:
+    labels = {"component": ["z", "y", "x"]}
+    turned = xr.DataArray([0.0, 0.0, 7e6], labels, ("component",))
+    plain = earthspin.spheroid_field([7e6, 0.0, 0.0])
+    assert earthspin.spheroid_field(turned).equals(plain)
+    with pytest.raises(SceneError, match="components x, y and z"):
+        earthspin.spheroid_field(turned.assign_coords(component=["a", "b", "c"]))
+    with pytest.raises(SceneError, match="bare numbers"):
+        earthspin.spheroid_field(pd.DataFrame({"z": [0.0], "y": [0.0], "x": [7e6]}))
+
+
+def test_several_starts_of_an_answer_start_again() -> None:
+    moments, starts = [1.0, 2.0, 3.0], np.random.default_rng(3).normal(size=(3, 3))
+    there = earthspin.free_rotor(moments, starts, [0.0, 1.0])
+    again = earthspin.free_rotor(moments, there.omega_body.isel(time=1), [0.0])
+    # measured: 4e-16
+    assert np.allclose(again.energy[:, 0], there.energy[:, 0], rtol=4e-15, atol=0)
+
+
+def test_a_field_is_of_one_body() -> None:
+    many = {"radius": xr.DataArray([6e6, 6.4e6], dims="b")}
+    with pytest.raises(BodyError, match="one body at a time"):
+        earthspin.spheroid_field([[7e6, 0, 0], [8e6, 0, 0]], body=many)
+
+
+@pytest.fixture(scope="module")
+def chi() -> xr.Dataset:
+    return earthspin.excitation(earthspin.polar_motion(span=("2000-01-01", "2002-01-01")))
+
+
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (slice(100, 200), "another day"),
+        (slice(None, None, -1), "go back"),
+        (slice(None, None, 2), "means are over 1 d"),
+        (slice(0, 1), "two or more"),
+    ],
+)
+def test_a_part_of_an_excitation_is_no_whole_one(chi: xr.Dataset, part: slice, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        earthspin.polar_motion_from(chi.isel(time=part))
+
+
+def test_a_part_of_an_excitation_with_its_own_start(chi: xr.Dataset) -> None:
+    whole = earthspin.polar_motion_from(chi)
+    begin = [float(whole[name][100]) * 1e3 for name in ("x", "y")]
+    part = earthspin.polar_motion_from(chi.isel(time=slice(100, 200)), start=begin)
+    # measured: 6e-16 arcsec
+    assert np.allclose(part.x, whole.x[100:201], rtol=0, atol=6e-15)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {"j2": 0.0, "dynamical_flattening": 3e-3},
+        {"j2": 0.5, "dynamical_flattening": 1e-3},
+        {"triaxiality": 5.0},
+        {"slow_swing": -1.0},
+        {"relative_uncertainty": {"foo": 1.0}},
+        {"observed_wobble": {"value": -5.0, "unit": "d", "source": "x"}},
+        {"observed_wobble": {"value": 5.0, "unit": "km", "source": "x"}},
+        {"from": "nothing"},
+        {"from": "nothing", "name": "a"},
+        {"j2": {"shape": [1], "float64": "AAAAAAAA8D8="}},
+        {"j2": {"shape": [2], "float64": "AAAAAAAA8D8=", "dims": ["b"]}},
+    ],
+)
+def test_impossible_bodies(body: dict[str, Any]) -> None:
+    with pytest.raises(EarthspinError) as error:
+        earthspin.Scene(compute="precession", body=body)
+    assert "\n" not in str(error.value)
+
+
+def test_a_time_that_says_its_unit_twice() -> None:
+    times = xr.DataArray(np.array([1, 2], "m8[s]"), dims="t", attrs={"units": "min"})
+    assert earthspin.free_rotor([1, 2, 3], [1, 0, 1], times).time.values.tolist() == [1.0, 2.0]
+
+
+def test_a_set_has_no_order() -> None:
+    with pytest.raises(SceneError, match="no order"):
+        earthspin.Scene(compute="precession", perturbers={"sun", "moon"})
+
+
+LABELS = {
+    "dates": np.array(["2000-01-01", "2001-01-01"], "M8[ns]"),
+    "truth": np.array([True, False]),
+    "words": np.array(["p", "q"], dtype=object),
+}
+
+
+@pytest.mark.parametrize("kind", LABELS)
+def test_labels_of_every_kind_are_kept(kind: str) -> None:
+    h = xr.DataArray([3.1e-3, 3.2e-3], {"b": LABELS[kind], "run": 7}, ("b",))
+    answer = earthspin.precession(body=EARTH.replace(dynamical_flattening=h))
+    assert earthspin.run(answer).equals(answer)
+    assert set(answer.coords) >= {"b", "run"}
+
+
+@pytest.mark.parametrize(
+    "start",
+    [
+        TimeDelta(3.0, format="jd"),
+        Time(["2000-01-01", "2000-01-02"]),
+        Time(2415171.5, format="jd", scale="ut1"),
+        Time(2415171.5, format="jd", scale="utc"),
+        Time("2000-01-01", scale="local"),
+        np.timedelta64(1, "M"),
+    ],
+)
+def test_what_is_no_date_that_can_be_known(start: object) -> None:
+    with pytest.raises(EarthspinError) as error:
+        earthspin.torque_series(start, "2001-01-01", "1 d")
+    assert "\n" not in str(error.value)
+
+
+def test_what_is_natural_is_taken() -> None:
+    year = earthspin.torque_series("2000-01-01", "2000-01-03", "1 d")
+    first, last = year.time[0], year.time[-1]
+    for span, step in (
+        ((first, last), TimeDelta(1.0, format="jd")),
+        (pd.DatetimeIndex([first.values, last.values]), 1 * u.day),
+        (Time(["2000-01-01", "2000-01-03"], scale="tdb"), "24 h"),
+    ):
+        again = earthspin.torque_series(span[0], span[1], step)
+        assert np.array_equal(again.torque, year.torque)
+
+
+def test_a_pole_that_stands_still_has_no_wobble() -> None:
+    pole = earthspin.polar_motion(span=("1980-01-01", "2000-01-01"))
+    with pytest.raises(UndefinedError, match="stands still"):
+        earthspin.fit_chandler(pole.map(lambda a: a * 0 if a.dims == ("time",) else a, True))
+    with pytest.raises(SceneError, match="two or more"):
+        earthspin.fit_chandler(pole.isel(time=slice(0, 0)))
+
+
+def test_what_is_no_answer() -> None:
+    with pytest.raises(OutputError, match="no answer"):
+        earthspin.write(5, "q.nc")  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="changes"):
+        earthspin.load_scene("torque", 5)  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="sections"):
+        earthspin.plan("torque", 5)  # type: ignore[arg-type]
+
+
+def test_a_series_goes_to_zarr_alone(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"\.zarr"):
+        earthspin.write_series("torque", tmp_path / "q.nc")
+    assert not list(tmp_path.iterdir())
+
+
+def test_messages_are_one_line_and_not_too_long() -> None:
+    for kernel in ("a\nb.bsp", "x" * 5000 + ".bsp"):
+        with pytest.raises(EarthspinError) as error:
+            earthspin.precession(ephemeris=kernel)
+        assert "\n" not in str(error.value)
+        assert len(str(error.value)) < 1100
+
+
+def test_a_question_takes_the_words_of_a_scene() -> None:
+    rotor = earthspin.load_scene("poinsot")
+    few = earthspin.load_scene(rotor, {"rotor.points": 3, "rotor.duration": "1 s"})
+    assert few.points == 3  # type: ignore[attr-defined]
+    flat = earthspin.load_scene(earthspin.load_scene("sun-only"), {"body.j2": 1.1e-3})
+    assert flat.body.j2 == 1.1e-3  # type: ignore[attr-defined]
+    assert flat.title == "Precession under the Sun alone"
+
+
+def test_trees_know_their_scene_too() -> None:
+    tree = earthspin.run_tree("wobble", ["observed"])
+    assert tree.earthspin.scene.word == "wobble"
+    assert "rung" in tree.earthspin.to_frame()
+
+
+def test_a_part_that_cannot_be_drawn_says_so() -> None:
+    part = earthspin.precession()[["precession_rate"]]
+    with pytest.raises(SceneError, match="draw the whole"):
+        part.earthspin.plot()
