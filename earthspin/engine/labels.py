@@ -39,6 +39,23 @@ FROM_SI: dict[str, float] = {
 }
 
 
+#: Spelling in files of units that people read otherwise: UDUNITS and astropy read it as the same
+#: number. UDUNITS takes `a` for are, and its `yr` is 2e-5 shorter than the Julian year.
+IN_FILES: dict[str, str] = {
+    "arcsec/yr": f"{1 / JULIAN_YEAR!r} arcsec s-1",
+    "yr": "365.25 d",
+    "deg": "degree",
+    "mas": "marcsec",
+    "uas": "uarcsec",
+    "kg m2 / s": "kg m2 s-1",
+    "rad/s": "rad s-1",
+    "rad2 / s2": "rad2 s-2",
+    "1/s": "s-1",
+    "m/s2": "m s-2",
+    "J/kg": "J kg-1",
+}
+
+
 def from_si(unit: str) -> float:
     """Factor from SI to a unit.
 

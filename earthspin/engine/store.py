@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from earthspin.engine.labels import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError
 
 if TYPE_CHECKING:
@@ -86,11 +87,34 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str | None, xr.Dataset]:
     for path, node in getattr(result, "subtree_with_keys", ()):
         if path != ".":
             groups[path] = node.to_dataset(inherit=False)
+    groups = {group: _spelled(node) for group, node in groups.items()}
     history = groups[None].attrs.get("history")
     if history is not None:
         stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
         groups[None] = groups[None].assign_attrs(history=f"{stamp} {history}")
     return groups
+
+
+#: Attributes of a variable in a file: the units, and how people read them.
+UNITS, SHOWN = "units", "units_shown"
+
+
+def _spelled(node: xr.Dataset) -> xr.Dataset:
+    """A copy whose units are spelled for files, the word for people kept beside."""
+    node = node.copy()
+    for name, variable in node.variables.items():
+        word = variable.attrs.get(UNITS)
+        if word in IN_FILES:
+            node[name].attrs = variable.attrs | {UNITS: IN_FILES[word], SHOWN: word}
+    return node
+
+
+def _as_shown(node: xr.Dataset) -> xr.Dataset:
+    """Units as people read them, where a file of ours has both spellings."""
+    for variable in node.variables.values():
+        if SHOWN in variable.attrs:
+            variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
+    return node
 
 
 def _answer_of(result: xr.Dataset | xr.DataTree) -> xr.Dataset:
@@ -200,6 +224,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
             nodes = {name: _loaded(node) for name, node in nodes.items()}
     except (OSError, ValueError, KeyError) as error:
         raise OutputError(path, f"it cannot be read: {_one_line(error)}") from None
+    nodes = {name: _as_shown(node) for name, node in nodes.items()}
     root = nodes["/"]
     if "history" in root.attrs:  # the date belongs to the file
         nodes["/"] = root.assign_attrs(history=_STAMP.sub("", root.attrs["history"]))

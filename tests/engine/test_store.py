@@ -16,6 +16,7 @@ import xarray as xr
 import earthspin
 from earthspin import OutputError
 from earthspin.engine import store
+from earthspin.engine.labels import IN_FILES
 from tests import shipped
 
 OLD_AND_NEW = np.array(["1550-01-01T00:00:00.000001", "2650-01-01"], "M8[us]")
@@ -223,3 +224,25 @@ def test_what_is_too_long_for_memory_is_refused_at_once() -> None:
     with pytest.raises(earthspin.SceneError, match="write_series"):
         earthspin.torque_series("1980-01-01", "2020-01-01", "10 s")
     assert time.perf_counter() - begun < 5
+
+
+@pytest.mark.parametrize("unit", IN_FILES)
+def test_units_of_files_are_the_same_number(unit: str) -> None:
+    import astropy.units as u
+
+    told = {"yr": "yr", "kg m2 / s": "kg m2 / s"}.get(unit, unit)
+    ratio = (1.0 * u.Unit(IN_FILES[unit])).to_value(u.Unit(told))
+    assert ratio == pytest.approx(1.0, rel=4e-16, abs=0)
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_files_have_units_for_machines_and_for_people(tmp_path: Path, kind: str) -> None:
+    tree = shipped.tree("precession")
+    path = store.write(tree, tmp_path / f"p.{kind}")
+    engine = {"engine": "zarr", "consolidated": False} if kind == "zarr" else {}
+    with xr.open_dataset(path, **engine) as raw:
+        assert raw.precession_rate.attrs["units"] == "3.168808781402895e-08 arcsec s-1"
+        assert raw.precession_rate.attrs["units_shown"] == "arcsec/yr"
+    assert tree.precession_rate.attrs["units"] == "arcsec/yr"  # the answer itself is as it was
+    back = store.open(path)
+    assert back.precession_rate.attrs == tree.precession_rate.attrs

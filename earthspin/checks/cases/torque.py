@@ -197,6 +197,17 @@ def _upside_down() -> None:
     _rate(_leaning(np.pi))
 
 
+@CASES.refuse(
+    "a spin locked three to two",
+    because="the torque on the equator's ellipse does not average out: 1,613 years come out for "
+    "Mercury, and look right",
+    saying="a spin that is locked",
+)
+def _locked() -> None:
+    year = 2 * math.pi * math.sqrt(1.495978707e11**3 / 1.32712440018e20)
+    precession(body=_body(spin_period=2 / 3 * year), perturbers=["sun"])
+
+
 @CASES.hold(
     "perturber over the pole",
     because="at a declination of 90 degrees the right ascension means nothing",
