@@ -63,6 +63,26 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
     return np.stack([psi, omega, obliquity, chi, general], axis=-1)
 
 
+def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
+    """Coefficients of angles as polynomials of time, by least squares.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        In any unit.
+    angles : ndarray, shape (n, k)
+        rad.
+    degree : int
+
+    Returns
+    -------
+    ndarray, shape (k, degree + 1)
+        rad over the unit of t to the power of the column.
+    """
+    powers = t[:, np.newaxis] ** np.arange(degree + 1)
+    return np.asarray(np.linalg.lstsq(powers, angles, rcond=None)[0].T)
+
+
 def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """Angle from one direction to another about an axis, rad."""
     across = np.sum(np.cross(start, end) * axis, axis=1)

@@ -400,20 +400,20 @@ ANGLES = {
 def angles(pole_analysis: Analysed) -> xr.Dataset:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
     from earthspin.nutation.angles import ANGLES as NAMES
-    from earthspin.nutation.angles import precession_angles
+    from earthspin.nutation.angles import polynomials, precession_angles
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / 36525.0
     psi, omega = pole_analysis.ours.at(t)
     ours = precession_angles(psi, omega, iau.ecliptic_of_date(pole_analysis.days))
-    powers = t[:, np.newaxis] ** np.arange(SLOW_DEGREE + 1)
-    scaled = np.linalg.lstsq(powers, ours, rcond=None)[0].T
-    their_angles = iau.precession_angles(pole_analysis.days)
-    theirs = np.linalg.lstsq(powers, their_angles, rcond=None)[0].T
+    theirs = iau.precession_angles(pole_analysis.days)
     return build(
         ANGLES,
-        {"angle_coefficient": scaled, "angle_coefficient_iau": theirs},
+        {
+            "angle_coefficient": polynomials(t, ours, SLOW_DEGREE),
+            "angle_coefficient_iau": polynomials(t, theirs, SLOW_DEGREE),
+        },
         coords={"angle": list(NAMES), "degree": np.arange(SLOW_DEGREE + 1.0)},
     )
 
