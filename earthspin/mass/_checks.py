@@ -1,4 +1,4 @@
-"""What every kernel of this room asks of its input: one clear line when it is not so."""
+"""What every function of this package asks of its input: one clear line when it is not so."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def _try_whole_suite(finding: Finding, jobs: int) -> Finding:
         plant(finding.mutant, copy)
         spread = ["--numprocesses", str(jobs), "--dist=loadfile"]
         # These look at the repository, and at the planted error itself.
-        skipped = ["--ignore=tests/test_house.py", "--ignore=tests/test_mutants.py"]
+        skipped = ["--ignore=tests/test_package.py", "--ignore=tests/test_mutants.py"]
         witness, trouble = _run(copy, ["tests", *spread, *skipped])
     seconds = finding.seconds + time.perf_counter() - begin
     return Finding(finding.mutant, witness, seconds, whole_suite=True, trouble=trouble)

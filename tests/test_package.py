@@ -19,7 +19,7 @@ MODULES = sorted(
 )
 
 
-def test_doors_are_one_way() -> None:
+def test_imports_go_one_way() -> None:
     from importlinter.cli import lint_imports
 
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), cache_dir=None) == 0
