@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 #: Real, or complex where a vector of a plane is written as one number.
-AnyArray = TypeVar("AnyArray", NDArray[np.float64], NDArray[np.complex128])
+_AnyArray = TypeVar("_AnyArray", NDArray[np.float64], NDArray[np.complex128])
 
 _CHUNK = 1 << 15  # times evaluated at once: the basis stays in the processor's cache
 
@@ -46,14 +46,14 @@ class Windows:
         self.middle = (edges[:-1] + edges[1:])[:, np.newaxis] / 2
         self.times = self.middle + self.half * _rule(order).nodes
 
-    def coefficients(self, values: AnyArray) -> AnyArray:
+    def coefficients(self, values: _AnyArray) -> _AnyArray:
         """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
-        result: AnyArray = _apply(values, _rule(self.order).project)
+        result: _AnyArray = _apply(values, _rule(self.order).project)
         return result
 
-    def derivative(self, values: AnyArray) -> AnyArray:
+    def derivative(self, values: _AnyArray) -> _AnyArray:
         """Derivative at the nodes of the polynomial through values there, per second."""
-        result: AnyArray = _apply(values, _rule(self.order).differentiate) / self.half
+        result: _AnyArray = _apply(values, _rule(self.order).differentiate) / self.half
         return result
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -69,7 +69,7 @@ class Windows:
         to_nodes = (values @ rule.integrate) * self.half
         return to_nodes, (values @ rule.weights) * self.half[:, 0]
 
-    def evaluate(self, coefficients: AnyArray, times: FloatArray) -> AnyArray:
+    def evaluate(self, coefficients: _AnyArray, times: FloatArray) -> _AnyArray:
         """Values of a Legendre series at any times within the windows.
 
         Parameters
@@ -91,7 +91,7 @@ class Windows:
             found[:, first : first + _CHUNK] = np.einsum(
                 "ktm,tm->kt", coefficients[:, window, :], basis
             )
-        result: AnyArray = found
+        result: _AnyArray = found
         return result
 
 
