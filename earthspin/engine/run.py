@@ -233,7 +233,28 @@ def scene_text(question: Question) -> str:
     """Write a question with every number as the text of a scene file."""
     import tomli_w
 
-    return tomli_w.dumps(question.to_table())
+    packed: list[str] = []
+    text = tomli_w.dumps(_without_bytes(question.to_table(), packed))
+    for number, data in enumerate(packed):
+        text = text.replace(f'"{_PACKED.format(number)}"', f'"{data}"', 1)
+    return text
+
+
+#: Stands for an array's bytes while a scene is written, letter by letter, by the library.
+_PACKED = "earthspin: packed array {}"
+
+
+def _without_bytes(value: Any, packed: list[str]) -> Any:
+    """A table whose packed arrays are set aside: their letters need no escaping."""
+    if isinstance(value, list):
+        return [_without_bytes(one, packed) for one in value]
+    if not isinstance(value, dict):
+        return value
+    short = {name: _without_bytes(one, packed) for name, one in value.items() if name != "float64"}
+    if "float64" in value:
+        packed.append(value["float64"])
+        short["float64"] = _PACKED.format(len(packed) - 1)
+    return short
 
 
 @lru_cache
