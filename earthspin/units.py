@@ -26,6 +26,9 @@ FloatArray = NDArray[np.float64]
 Plain = Any
 T = TypeVar("T")
 
+#: More times than this are never held whole (0.5 GB in memory).
+LONGEST_IN_MEMORY = 4_000_000
+
 #: Lists longer than this are written as bytes; shorter ones as numbers that people can read.
 LONGEST_LIST = 32
 
@@ -380,7 +383,7 @@ class Whole:
     """A whole number, up to as many as fit into memory."""
 
     low: int = 1
-    high: int = 4_000_000
+    high: int = LONGEST_IN_MEMORY
 
     hint = "int"
 

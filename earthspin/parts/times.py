@@ -11,10 +11,8 @@ from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import SceneError
 from earthspin.parts.sky import Pulled
+from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
 from earthspin.units import FloatArray, Numbers
-
-#: A series longer than this is written block by block, never held whole (0.5 GB in memory).
-LONGEST_IN_MEMORY = 4_000_000
 
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).
-SAMPLING = 86400.0  # s
+SAMPLING = DAY  # s
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
 MODELS = ("mccullough", "homogeneous", "measured")
@@ -257,7 +257,7 @@ def mean_rates(
 
 def _taken(window: Window) -> str:
     """A window in words."""
-    return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / 86400:.2f} d"
+    return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
 
 
 def _measured_errors(
