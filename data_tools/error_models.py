@@ -28,14 +28,13 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 
 from data_tools.windows import DEGREE, SPACING
-from earthspin.bodies import BODIES, EARTH, IAU_2006, MARS, PLANETS, Body
+from earthspin.bodies import BODIES, EARTH, MARS, PLANETS, Body
 from earthspin.choosing.choice import DATA
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.motion.geodesic import geodesic_rate
 from earthspin.numerics.gauss_windows import Windows, integrated
 from earthspin.progress import progress
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
-from earthspin.sky.equator import ecliptic_axes, orbit_normal
 from earthspin.sky.iau import NUTATION_MODELS, Nutation, precession_angles
 from earthspin.torque.average import Window
 from earthspin.torque.quadrupole import tidal_tensor
@@ -194,8 +193,8 @@ def orbit_frame(body: Body, days: FloatArray) -> FloatArray:
 
     The equinox matters: the cycle of the node is that of its return to it.
     """
-    fixed = ecliptic_axes(body.pole or "", body.orbit_pole)
-    if body.pole != IAU_2006:
+    fixed = body.needed("pole").orbit_axes(body.orbit_pole)
+    if not body.needed("pole").of_the_iau:
         return np.broadcast_to(fixed, (days.size, 3, 3))
     moved = precession_angles(days)[:, -1]
     cosine, sine, zero, one = np.cos(moved), np.sin(moved), 0 * moved, 1 + 0 * moved
@@ -243,13 +242,13 @@ def average_errors(tensor: FloatArray, cycle: float, centres: NDArray[np.int64])
 def average_models(kernel: Ephemeris) -> dict[str, Any]:
     """Errors of tapered means, by body, cycle and perturber."""
     models: dict[str, Any] = {"cycles": CYCLES, "steps": STEPS, "normal": {}, "tensor": {}}
-    models["moving"] = [str(body.naif[0]) for body in SPINNING if body.pole == IAU_2006]
+    models["moving"] = [str(body.naif[0]) for body in SPINNING if body.needed("pole").of_the_iau]
     moon, sun = BODIES["moon"], BODIES["sun"]
     tasks = ((EARTH, moon, (sun, moon)), (EARTH, sun, (sun,)), (MARS, sun, (sun,)))
     with progress("averages", sum(len(task[2]) for task in tasks)) as advance:
         for body, slowest, perturbers in tasks:
             cycle, code = slowest.cycle / DAY, str(body.naif[0])
-            normal = orbit_normal(body.pole or "", body.orbit_pole)
+            normal = body.needed("pole").orbit_normal(body.orbit_pole)
             models["normal"][code] = [round(float(x), 9) for x in normal]
             for perturber in perturbers:
                 codes = (kernel.code(b.naif, b.name) for b in (body, perturber))

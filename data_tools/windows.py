@@ -10,7 +10,7 @@ from numpy.polynomial import Chebyshev
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
-from earthspin.sky.equator import equator_of_date, orbit_normal
+from earthspin.sky.poles import IAU_2006
 from earthspin.torque.average import Window, precessing_push, window_mean_and_error
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import precession_rate
@@ -35,8 +35,8 @@ DEGREE = 6  # of the smooth curve through all windows
 def rates(kernel: Ephemeris, half_span: float) -> tuple[np.ndarray, np.ndarray]:
     """Daily rates of precession, mas per century, by Sun and Moon, and their times, s."""
     days = np.arange(-half_span, half_span + 1)
-    axis = equator_of_date(EARTH.pole or "", None, days)[:, 2]
-    normal = orbit_normal(EARTH.pole or "", None)
+    axis = IAU_2006.equator(None, days)[:, 2]
+    normal = IAU_2006.orbit_normal(None)
     place = kernel.positions({"sun": 10, "moon": 301}, 399, days)
     pushes = [
         precessing_push(torque_from_position(b.gm, 1.0, place[b.name], axis), axis, normal)

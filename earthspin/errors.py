@@ -7,7 +7,7 @@ keeps the same facts as attributes, so that a program can act on them.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -97,6 +97,24 @@ class BodyError(EarthspinError, ValueError):
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
         self.body, self.field, self.given, self.allowed = body, field, given, allowed
         super().__init__(f"body '{body}': {field} = {_shown(given)} is not possible; {allowed}")
+
+    @classmethod
+    def lacking(cls, body: str, examples: Mapping[str, str]) -> BodyError:
+        """Say what a body lacks that the question needs, and how one would give it.
+
+        Parameters
+        ----------
+        body : str
+            Its name.
+        examples : mapping of str to str
+            By field, as one would write it in a scene.
+        """
+        *most, last = examples
+        names = f"{', '.join(most)} and {last}" if most else last
+        given = ", ".join(f"{name} = {example}" for name, example in examples.items())
+        error = cls(body, last, None, f"this question needs {names}")
+        error.args = (f"body '{body}' has no {names}, which this question needs; give {given}",)
+        return error
 
 
 class UnitsError(EarthspinError, ValueError):

@@ -2,6 +2,8 @@
 
 import dataclasses
 import math
+import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -9,8 +11,9 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin import EARTH, MARS, SUN, BodyError, SceneError, UnitsError
-from earthspin.bodies import BODIES, body
+from earthspin import EARTH, MARS, SUN, BodyError, Scene, SceneError, UnitsError
+from earthspin.bodies import BODIES, NUMBERS, body
+from earthspin.bodies.body import KINDS
 from earthspin.errors import Where
 
 
@@ -122,7 +125,7 @@ def test_what_is_changed_loses_its_uncertainty() -> None:
 
 
 def test_a_missing_field_is_asked_for() -> None:
-    with pytest.raises(BodyError, match="set dynamical_flattening"):
+    with pytest.raises(BodyError, match="give dynamical_flattening"):
         SUN.needed("dynamical_flattening")
 
 
@@ -193,3 +196,51 @@ def test_a_body_can_be_read_at_a_glance() -> None:
     card = EARTH._repr_html_()
     assert "<th>spin_period</th><td>86164.09890369" in card
     assert "<th>pole</th><td>iau2006</td>" in card
+
+
+_TURNS = {"radius", "j2", "dynamical_flattening", "spin_period", "pole"}
+
+
+@pytest.mark.parametrize(
+    ("compute", "settings", "needed"),
+    [
+        ("torque", {}, {"radius", "j2", "pole"}),
+        ("precession", {}, _TURNS),
+        ("pole", {}, _TURNS),
+        ("iau", {}, _TURNS),
+        ("wobble", {}, _TURNS - {"pole"} | {"flattening"}),
+        ("spheroid", {"spheroid": {"position": [["1 m", "0 m", "0 m"]]}}, {"radius", "flattening"}),
+    ],
+)
+def test_all_that_a_body_lacks_is_named_at_once(
+    compute: str, settings: dict, needed: set[str]
+) -> None:
+    bare = {"from": "nothing", "name": "ceres", "gm": "62.6 km3/s2"}
+    with pytest.raises(BodyError) as error:
+        Scene(compute=compute, body=bare, **settings)
+    told = str(error.value)
+    assert told.count("\n") == 0
+    assert {name for name in KINDS if f" {name} = " in told} == needed
+    # what it asks for, given as it says, is enough
+    example = re.findall(r"(\w+) = (\[.*?\]|\"[^\"]*\"|[-\d.e]+)", told.split("give ")[1])
+    scene = tomllib.loads("\n".join(f"{name} = {text}" for name, text in example))
+    Scene(compute=compute, body=bare | scene, **settings)
+
+
+def test_every_number_of_a_world_has_its_source() -> None:
+    for name, table in NUMBERS.items():
+        for field, number in table.items():
+            assert getattr(BODIES[name], field) == number.value
+            known = BODIES[name].relative_uncertainty.get(field, 0.0)
+            assert known == (0.0 if number.unit == "rad" else number.relative_uncertainty)
+
+
+def test_a_pole_is_a_value() -> None:
+    from earthspin.sky.poles import IAU_2006, FixedPole
+
+    assert EARTH.pole == IAU_2006
+    assert str(EARTH.pole) == "iau2006"
+    assert MARS.replace(pole=("317.68143 deg", "52.88650 deg")).pole == MARS.pole
+    assert EARTH.replace(pole=MARS.pole).pole == MARS.pole
+    assert isinstance(MARS.pole, FixedPole)
+    assert str(MARS.pole) == "right ascension 317.68143 deg, declination 52.88650 deg"

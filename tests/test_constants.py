@@ -7,10 +7,14 @@ import astropy.units as u
 import numpy as np
 import pytest
 
+from earthspin import EARTH, MOON, SUN
 from earthspin import constants as c
+from earthspin.bodies import NUMBERS
 from earthspin.engine.labels import FROM_SI
 
-CONSTANTS = {name: value for name, value in vars(c).items() if isinstance(value, c.Constant)}
+CONSTANTS = {name: value for name, value in vars(c).items() if isinstance(value, c.Constant)} | {
+    f"{body} {name}": number for body, table in NUMBERS.items() for name, number in table.items()
+}
 
 
 @pytest.mark.parametrize("name", CONSTANTS)
@@ -25,9 +29,9 @@ def test_against_astropy() -> None:
     assert astropy.constants.G.si.value == c.G.value
     assert astropy.constants.G.uncertainty == c.G.uncertainty
     # The IAU's nominal values are rounded to 5 or 8 digits.
-    assert np.isclose(c.GM_SUN.value, astropy.constants.GM_sun.si.value, rtol=3e-9, atol=0)
-    assert np.isclose(c.GM_EARTH.value, astropy.constants.GM_earth.si.value, rtol=1e-7, atol=0)
-    assert np.isclose(c.EARTH_RADIUS.value, astropy.constants.R_earth.si.value, rtol=1e-5, atol=0)
+    assert np.isclose(SUN.gm, astropy.constants.GM_sun.si.value, rtol=3e-9, atol=0)
+    assert np.isclose(EARTH.gm, astropy.constants.GM_earth.si.value, rtol=1e-7, atol=0)
+    assert np.isclose(EARTH.radius, astropy.constants.R_earth.si.value, rtol=1e-5, atol=0)
 
 
 def test_spin_period_is_the_erfa_rotation_angle() -> None:
@@ -36,7 +40,7 @@ def test_spin_period_is_the_erfa_rotation_angle() -> None:
     day = 1.0  # UT1; the angle's excess over a whole turn in one day
     excess = (erfa.era00(2451545.0, day) - erfa.era00(2451545.0, 0.0)) % (2 * math.pi)
     turns = 1 + excess / (2 * math.pi)
-    assert np.isclose(86400 / turns, c.EARTH_SPIN_PERIOD.value, rtol=1e-15, atol=0)
+    assert np.isclose(86400 / turns, EARTH.spin_period, rtol=1e-15, atol=0)
 
 
 def test_node_period_is_the_erfa_argument() -> None:
@@ -45,7 +49,7 @@ def test_node_period_is_the_erfa_argument() -> None:
     rate = (erfa.faom03(1e-4) - erfa.faom03(-1e-4)) / 2e-4  # rad a Julian century
     period = 2 * math.pi / abs(rate) * 36525 * 86400
     # The same rate of Simon et al. 1994 in both; the difference is the quadratic term's rounding.
-    assert np.isclose(period, c.MOON_NODE_PERIOD.value, rtol=5e-14, atol=0)
+    assert np.isclose(period, MOON.cycle, rtol=5e-14, atol=0)
 
 
 @pytest.mark.parametrize("unit", FROM_SI)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from earthspin.bodies import BODIES, IAU_2006, PLANETS, Body
+from earthspin.bodies import BODIES, PLANETS, Body
 from earthspin.choosing.promises import MARGIN
 from earthspin.constants import DAY
 from earthspin.engine.part import part
@@ -78,16 +78,17 @@ def averages_on_offer(
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
     from earthspin.choosing.averages import Pull, Pushed, average_choices
-    from earthspin.sky.equator import angle, orbit_normal, pole_at
+    from earthspin.sky.equator import angle
     from earthspin.torque.average import best_window
 
     cycle = max(p.cycle for p in perturbers)
-    normal = orbit_normal(body.needed("pole"), body.orbit_pole)
+    pole = body.needed("pole")
+    normal = pole.orbit_normal(body.orbit_pole)
     pushed = Pushed(
         code=body.naif[0],
-        obliquity=angle(pole_at(body.needed("pole"), 0.0), normal),
+        obliquity=angle(pole.true(0.0), normal),
         normal=normal,
-        moving=body.pole == IAU_2006,
+        moving=pole.of_the_iau,
         pulls={p.name: Pull(p.naif[0], float(p.gm), p.slow_swing) for p in perturbers},
         cycle=cycle,
     )

@@ -92,7 +92,6 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
     """Forces with some effects switched on and no other evaluated."""
     from earthspin.mass.inertia import inverse_polar_moment
     from earthspin.motion.forces import Figure, Forces
-    from earthspin.sky.equator import mean_pole
 
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
     zonal = {n: body.number(f"j{n}") for n in (3, 4) if f"j{n}" in effects}
@@ -115,13 +114,11 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
         positions=lambda times: pulls.positions(names, times, keep),
         near=pulls.near,
         primary="sun" if "geodesic" in effects and "sun" in names else None,
-        mean_pole=None if "second-order" in effects else lambda times: mean_pole(pole, times / DAY),
+        mean_pole=None if "second-order" in effects else lambda times: pole.mean(times / DAY),
     )
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:
     """Figure axis to start with, and when (s): J2000.0, or as near as the kernel reaches."""
-    from earthspin.sky.equator import pole_at
-
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
-    return pole_at(body.needed("pole"), epoch / DAY), epoch
+    return body.needed("pole").true(epoch / DAY), epoch

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from earthspin.bodies import IAU_2006, Body
+from earthspin.bodies import Body
 
 
 def no_iau_model(body: Body) -> str | None:
     """Leave out what stands on the IAU's models, for a body that has none."""
-    if body.pole != IAU_2006:
-        return f"the IAU has no precession model for {body.name}"
-    return None
+    described = body.pole is not None and body.pole.of_the_iau
+    return None if described else f"the IAU has no precession model for {body.name}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:

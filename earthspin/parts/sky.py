@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,10 +49,20 @@ class Pulled(Question):
     perturbers: tuple[Body, ...] = key((SUN, MOON), doc="what pulls on it")
     ephemeris: Annotated[str, KernelName()] = key("de421", doc="where the bodies are")
 
+    #: What the question needs to know of the body, beside its mass.
+    needs: ClassVar[tuple[str, ...]] = (
+        "radius",
+        "j2",
+        "dynamical_flattening",
+        "spin_period",
+        "pole",
+    )
+
     def check(self) -> None:
         """A body with a mass, and others that pull on it, each once."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+        self.body.require(self.needs)
         names = [p.name for p in self.perturbers]
         if not names:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")

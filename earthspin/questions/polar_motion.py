@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, IAU_2006, Body
+from earthspin.bodies import EARTH, Body
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import ask
@@ -19,6 +19,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.parts.reasons import no_iau_model
 from earthspin.units import Days, FloatArray, Number, Numbers, kind_of
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ OBSERVED = {
 
 def not_observed(body: Body) -> str | None:
     """Leave out a body whose pole no table holds."""
-    return None if body.pole == IAU_2006 else f"no polar motion of {body.name} is kept"
+    return f"no polar motion of {body.name} is kept" if no_iau_model(body) else None
 
 
 @part(gives=OBSERVED, unless=not_observed)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.bodies import IAU_2006, Body
+from earthspin.bodies import Body
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
@@ -16,6 +16,7 @@ from earthspin.engine.labels import Variable, build, si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.errors import UndefinedError
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     Shift,
@@ -155,16 +156,21 @@ def axes(
     return result
 
 
+#: An axis closer to the normal of the orbit than this has no longitude, rad.
+UPRIGHT = 2e-7
+
+
 def no_longitude(body: Body) -> str | None:
     """Angles need an orbit, and an axis that does not stand on it."""
-    if body.pole == IAU_2006:
-        return None
-    if body.orbit_pole is None or not isinstance(body.pole, tuple):
+    from earthspin.sky.equator import angle
+
+    pole = body.needed("pole")
+    try:
+        normal = pole.orbit_normal(body.orbit_pole)
+    except UndefinedError:
         return f"psi is counted along the orbit, and {body.name} has no orbit_pole"
-    (ra, dec), (ra0, dec0) = body.pole, body.orbit_pole
-    half = math.sin((dec - dec0) / 2) ** 2
-    half += math.cos(dec) * math.cos(dec0) * math.sin((ra - ra0) / 2) ** 2
-    if half < 1e-14 or half > 1 - 1e-14:
+    tilt = angle(pole.true(0.0), normal)
+    if min(tilt, math.pi - tilt) < UPRIGHT:
         return "the axis stands upright on the orbit: its longitude psi is not defined"
     return None
 
@@ -181,10 +187,9 @@ ANGLES = {
 def pole_angles(axes: xr.Dataset, body: Body) -> xr.Dataset:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
     from earthspin.nutation.angles import on_fixed_ecliptic
-    from earthspin.sky.equator import ecliptic_axes
 
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
-    ecliptic = ecliptic_axes(body.needed("pole"), body.orbit_pole)
+    ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
     return build(
         ANGLES,

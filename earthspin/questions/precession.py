@@ -115,7 +115,7 @@ def torque_samples(
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
     """Torque of each perturber through the window that converges fastest."""
-    from earthspin.sky.equator import angle, equator_of_date, orbit_normal, rotate
+    from earthspin.sky.equator import angle, rotate
     from earthspin.torque.average import best_window, precessing_push
     from earthspin.torque.gravity import torque_from_position
 
@@ -128,9 +128,9 @@ def torque_samples(
     times = window.sample_times(step)
     days = times / DAY
 
-    equator, normal = equator_of_date(pole, orbit, days), orbit_normal(pole, orbit)
+    equator, normal = pole.equator(orbit, days), pole.orbit_normal(orbit)
     axis = equator[..., 2, :]
-    axis_at_epoch = equator_of_date(pole, orbit, np.array([window.centre / DAY]))[..., 2, :]
+    axis_at_epoch = pole.equator(orbit, np.array([window.centre / DAY]))[..., 2, :]
     _refuse_locked(sky, body, window.centre, axis_at_epoch.reshape(3))
     positions = sky.positions(days)
     torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in perturbers]
@@ -566,14 +566,14 @@ STANDSTILLS = {
 @part(gives=STANDSTILLS, unless=no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     """Major and minor standstills of the moon: dates and extreme declinations."""
-    from earthspin.sky.equator import equator_of_date, rotate, spherical
+    from earthspin.sky.equator import rotate, spherical
     from earthspin.sky.standstill import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 
     def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
         position = sky.ephemeris.positions(moon, sky.centre, days)["moon"]
-        equator = equator_of_date(body.needed("pole"), body.orbit_pole, days)
+        equator = body.needed("pole").equator(body.orbit_pole, days)
         return spherical(rotate(equator, position))[1]
 
     kernel_error, _ = sky.error(sky.targets["moon"])

@@ -59,6 +59,7 @@ class Spheroid(
         """A spheroid has a mass."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+        self.body.require(("radius", "flattening"))
 
 
 _VECTOR = ("point", "component")

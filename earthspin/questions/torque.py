@@ -63,6 +63,8 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
     )
 
+    needs = ("radius", "j2", "pole")
+
     def check(self) -> None:
         """The true equator needs a model of nutation."""
         super().check()
@@ -116,7 +118,7 @@ def torques(
     import xarray as xr
 
     from earthspin.mass.inertia import moment_difference
-    from earthspin.sky.equator import equator_of_date, rotate, spherical
+    from earthspin.sky.equator import rotate, spherical
     from earthspin.torque.gravity import torque_error, torque_from_declination
 
     if block is None:
@@ -125,7 +127,7 @@ def torques(
         )
         block = Block(0, epochs.size)
     now = epochs.days(block.first, block.last)
-    axes = equator_of_date(body.needed("pole"), body.orbit_pole, now, nutation)
+    axes = body.needed("pole").equator(body.orbit_pole, now, nutation)
     positions = sky.positions(now)
     names = list(sky.targets)
     seen = {name: spherical(rotate(axes, positions[name])) for name in names}

@@ -70,6 +70,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         """A body with a mass, and an interior that is known."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+        self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
         name = self.body.interior
         if name not in (None, "none", *INTERIORS):
             raise self.error("body.interior", name, nearest(name, INTERIORS))

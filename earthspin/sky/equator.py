@@ -11,9 +11,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import UndefinedError
-from earthspin.sky import iau
-
 FloatArray = NDArray[np.float64]
 
 
@@ -26,87 +23,6 @@ def direction(right_ascension: float, declination: float) -> FloatArray:
             math.sin(declination),
         ]
     )
-
-
-def orbit_normal(pole: str | tuple[float, float], orbit: tuple[float, float] | None) -> FloatArray:
-    """Unit normal of the plane on which precession is counted, in the ICRF.
-
-    Parameters
-    ----------
-    pole : str or tuple
-        The body's pole; the word ``"iau2006"`` brings the ecliptic of J2000.0 with it.
-    orbit : tuple or None
-        Right ascension and declination of the orbit's normal, rad.
-
-    Raises
-    ------
-    UndefinedError
-        If there is no orbit to refer to.
-    """
-    if isinstance(pole, str):
-        return iau.ecliptic_pole()
-    if orbit is None:
-        raise UndefinedError("precession is counted along the orbit; set the body's orbit_pole")
-    return direction(*orbit)
-
-
-def equator_of_date(
-    pole: str | tuple[float, float],
-    orbit: tuple[float, float] | None,
-    days: FloatArray,
-    nutation: iau.Nutation | None = None,
-) -> FloatArray:
-    """Matrices from the ICRF to equator and equinox of date.
-
-    Parameters
-    ----------
-    pole : str or tuple
-        ``"iau2006"``, or a fixed direction (right ascension, declination, rad).
-    orbit : tuple or None
-        Normal of the orbit, for a fixed pole.
-    days : ndarray, shape (n,)
-        Days from J2000.0 TDB.
-    nutation : Nutation, optional
-        With it the equator is the true one, without it the mean one. A fixed pole has none.
-
-    Returns
-    -------
-    ndarray, shape (n, 3, 3), or (3, 3) for a fixed pole
-    """
-    if not isinstance(pole, str):
-        return fixed_equator(direction(*pole), orbit_normal(pole, orbit))
-    if nutation is None:
-        return iau.mean_equator(days)
-    return nutation.true_equator(days)
-
-
-def pole_at(pole: str | tuple[float, float], day: float) -> FloatArray:
-    """Pole at a day from J2000.0 TDB, frame bias and nutation included, shape (3,)."""
-    if isinstance(pole, str):
-        return np.asarray(iau.true_pole(np.array([day]))[0])
-    return direction(*pole)
-
-
-def mean_pole(pole: str | tuple[float, float], days: FloatArray) -> FloatArray:
-    """Pole without nutation, shape (n, 3); a fixed pole does not move."""
-    if isinstance(pole, str):
-        return np.asarray(iau.mean_equator(days)[..., 2, :])
-    return np.broadcast_to(direction(*pole), (days.size, 3))
-
-
-def ecliptic_axes(pole: str | tuple[float, float], orbit: tuple[float, float] | None) -> FloatArray:
-    """Matrix from the ICRF to the plane of the orbit and the equinox of J2000.0, shape (3, 3).
-
-    Raises
-    ------
-    UndefinedError
-        If there is no orbit to refer to.
-    """
-    normal = orbit_normal(pole, orbit)
-    if isinstance(pole, str):
-        return iau.fixed_ecliptic()
-    equinox = fixed_equator(direction(*pole), normal)[0]
-    return np.stack([equinox, np.cross(normal, equinox), normal])
 
 
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:

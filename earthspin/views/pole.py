@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.constants import DAY, MOON_NODE_PERIOD
+from earthspin.bodies import MOON
+from earthspin.constants import DAY
 from earthspin.views.drawing import Drawing, axes, drawn, style
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Table, along, date
@@ -64,7 +65,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     of = answer_of(result).sel(axis=axis)
     days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
     angles = np.stack([of.psi * np.sin(np.radians(of.eps / 3600)), of.eps], axis=1)
-    turn = 2 * np.pi * days * DAY / MOON_NODE_PERIOD.value
+    turn = 2 * np.pi * days * DAY / MOON.cycle
     design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
     line = np.linalg.lstsq(design, angles, rcond=None)[0]
     x, y = (angles - design[:, :2] @ line[:2]).T

@@ -16,8 +16,8 @@ import skyfield_data
 from skyfield.api import Loader
 
 import earthspin
+from earthspin import MOON, SUN
 from earthspin.bodies import EARTH
-from earthspin.constants import GM_MOON, GM_SUN
 
 RUNS = 5
 
@@ -27,7 +27,7 @@ def obvious_series(days: np.ndarray, loader: Loader) -> dict[str, tuple[np.ndarr
     kernel, scale = loader("de421.bsp"), loader.timescale(builtin=True)
     bulge = EARTH.j2 * EARTH.mass * EARTH.radius**2
     found = {}
-    for name, gm in (("sun", GM_SUN.value), ("moon", GM_MOON.value)):
+    for name, gm in (("sun", SUN.gm), ("moon", MOON.gm)):
         t = scale.tdb_jd(2451545.0 + days)
         ra, dec, distance = (kernel[name] - kernel["earth"]).at(t).radec(epoch="date")
         size = -3 * gm * bulge / distance.m**3 * np.sin(dec.radians) * np.cos(dec.radians)

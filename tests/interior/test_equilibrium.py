@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from earthspin.constants import EARTH_SPIN_PERIOD
+from earthspin import EARTH
 from earthspin.interior.equilibrium import equilibrium, hydrostatic_core
 from earthspin.interior.layers import tidal_inertia
 from earthspin.interior.love import elastic, yielding
@@ -11,7 +11,7 @@ from tests.conftest import load_pins
 from tests.interior.shells import sphere
 
 PINS = load_pins("wobble")
-SPIN = 2 * np.pi / EARTH_SPIN_PERIOD.value
+SPIN = 2 * np.pi / EARTH.spin_period
 
 
 def test_without_rigidity_the_body_takes_clairauts_shape() -> None:

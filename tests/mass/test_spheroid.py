@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from earthspin.constants import GM_EARTH, GM_SUN, G
+from earthspin import EARTH, SUN
+from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass import spheroid
 from earthspin.mass.figure import spheroid_moments
@@ -231,8 +232,8 @@ def test_the_torque_keeps_its_digits_at_the_distance_of_the_sun() -> None:
     """The attraction's closed form, differenced, has none left there."""
     pin = PINS["torque of the Sun on a homogeneous Earth"]
     r = 149597870700.0 * np.array([np.cos(0.4), 0.0, np.sin(0.4)])
-    mass_sun = GM_SUN.value / G.value
-    torque = spheroid.spheroid_torque(GM_EARTH.value, 6378137.0, 1 / 298.257, mass_sun, r)
+    mass_sun = SUN.gm / G.value
+    torque = spheroid.spheroid_torque(EARTH.gm, 6378137.0, 1 / 298.257, mass_sun, r)
     pin.check(torque[1])
     assert torque[0] == torque[2] == 0
 

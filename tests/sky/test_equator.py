@@ -69,12 +69,12 @@ def test_one_matrix_or_one_each() -> None:
 
 def test_mean_and_true_differ_by_nutation() -> None:
     days = np.linspace(0, 6800, 300)
-    mean = equator.equator_of_date(EARTH.pole, None, days)
-    true = equator.equator_of_date(EARTH.pole, None, days, iau.Nutation(0, 6800))
+    mean = EARTH.needed("pole").equator(None, days)
+    true = EARTH.needed("pole").equator(None, days, iau.Nutation(0, 6800))
     apart = np.linalg.norm(mean[:, 2] - true[:, 2], axis=1) * 206264.8
     assert 9 < apart.max() < 11  # 9.2 arcsec of the node's term and the half-yearly one
 
 
 def test_an_orbit_is_needed() -> None:
     with pytest.raises(UndefinedError, match="orbit_pole"):
-        equator.orbit_normal(MARS.pole, None)
+        MARS.needed("pole").orbit_normal(None)

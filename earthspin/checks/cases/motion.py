@@ -28,7 +28,6 @@ from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import Samples, torque_samples
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
-from earthspin.sky.equator import pole_at
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 
@@ -185,7 +184,7 @@ def _average_and_pole() -> float:
     samples = _samples()
     window, times = samples.window, samples.times
     averaged = precession_rate(window.mean(times, samples.push).sum(), H, SPIN)
-    start = pole_at(BODY.needed("pole"), 0.0)
+    start = BODY.needed("pole").true(0.0)
     path = axis_path(_forces(), start, 0.0, (times[0] - DAY, times[-1] + DAY))
     before, after = (_psi(path.at(times + s * DAY / 2)["angular_momentum"]) for s in (-1, 1))
     followed = float(window.mean(times, after - before)) / DAY

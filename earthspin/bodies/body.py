@@ -1,20 +1,23 @@
 """Bodies as data: named, cited, frozen; plain SI floats, or arrays with named dimensions.
 
-The Earth is one of them and the default of a scene; nothing outside this file and the
-scenes knows it by name. A body that spins needs its figure (`j2`, `dynamical_flattening`,
-`radius`), its `spin_period` and its `pole`; a body that only pulls needs `gm` and `naif`.
+A body that spins needs its figure (`j2`, `dynamical_flattening`, `radius`), its `spin_period`
+and its `pole`; a body that only pulls needs `gm` and `naif`. Each world stands in a file beside
+this one, with the source and uncertainty of every number.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields
 from dataclasses import replace as _replace
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
+from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, Uncertainties
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
+from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
+from earthspin.units import kind_of
 
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
@@ -24,14 +27,6 @@ _LARGEST_GM, _LONGEST_DAY = 1e60, 1e30
 
 #: What a table starts from that names every number of its body.
 NOTHING = "nothing"
-
-#: Word for a pole of date and an ecliptic that follow the IAU 2006 models.
-IAU_2006 = "iau2006"
-
-
-def _in(unit: str, example: str) -> dict[str, str]:
-    """Say in which unit a field is kept, and how one would write it."""
-    return {"unit": unit, "example": example}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,11 +60,12 @@ class Body:
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
         One turn relative to the stars, s; negative if retrograde.
-    pole : str or tuple of float
-        ``"iau2006"``, or right ascension and declination of the spin axis (ICRF, J2000.0, rad).
-    orbit_pole : tuple of float or None
+    pole : Pole
+        Of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right ascension
+        and a declination may be given (ICRF, J2000.0, rad).
+    orbit_pole : Direction or None
         Right ascension and declination of the orbit's normal (ICRF, rad); not used with
-        ``"iau2006"``, which brings its own ecliptic.
+        `IAU_2006`, which brings its own ecliptic.
     orbital_period : float
         Sidereal, s.
     cycle : float
@@ -94,28 +90,29 @@ class Body:
     """
 
     name: str
-    gm: Numeric = field(metadata=_in("m3/s2", "3.986e14 m3/s2"))
-    naif: tuple[int, ...] = ()
-    radius: Numeric | None = field(default=None, metadata=_in("m", "6378 km"))
-    j2: Numeric | None = field(default=None, metadata=_in("", "1.08e-3"))
-    dynamical_flattening: Numeric | None = field(default=None, metadata=_in("", "3.27e-3"))
-    triaxiality: Numeric = field(default=0.0, metadata=_in("", "7.26e-6"))
-    j3: Numeric = field(default=0.0, metadata=_in("", "-2.53e-6"))
-    j4: Numeric = field(default=0.0, metadata=_in("", "-1.62e-6"))
-    j2_rate: Numeric = field(default=0.0, metadata=_in("1/s", "-9.5e-19 1/s"))
-    meridian: float = field(default=0.0, metadata=_in("rad", "10 deg"))
-    flattening: Numeric | None = field(default=None, metadata=_in("", "3.35e-3"))
-    spin_period: Numeric | None = field(default=None, metadata=_in("s", "23.93 h"))
-    pole: str | tuple[float, float] | None = None
-    orbit_pole: tuple[float, float] | None = None
-    orbital_period: float | None = field(default=None, metadata=_in("s", "365.25 d"))
-    cycle: float = field(default=c.JUPITER_ORBITAL_PERIOD.value, metadata=_in("s", "4333 d"))
-    slow_swing: float = field(
-        default=2e-7, metadata=_in("", "2e-7")
-    )  # measured: `python -m data_tools windows`
+    gm: Annotated[Numeric, Magnitude("m3/s2", "3.986e14 m3/s2")]
+    naif: Annotated[tuple[int, ...], Codes()] = ()
+    radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
+    j2: Annotated[Numeric | None, Magnitude("", "1.08e-3")] = None
+    dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3")] = None
+    triaxiality: Annotated[Numeric, Magnitude("", "7.26e-6")] = 0.0
+    j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
+    j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
+    j2_rate: Annotated[Numeric, Magnitude("1/s", "-9.5e-19 1/s")] = 0.0
+    meridian: Annotated[float, Magnitude("rad", "10 deg")] = 0.0
+    flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3")] = None
+    spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
+    pole: Annotated[Pole | None, Angles()] = None
+    orbit_pole: Annotated[Direction | None, Angles()] = None
+    orbital_period: Annotated[float | None, Magnitude("s", "365.25 d")] = None
+    cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
+    # measured: `python -m data_tools windows`
+    slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
     interior: str | None = None
-    observed_wobble: c.Constant | None = None
-    relative_uncertainty: Mapping[str, float] = field(default_factory=dict)
+    observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
+    relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
+        default_factory=dict
+    )
     reference: str = ""
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
@@ -213,19 +210,17 @@ class Body:
                     )
 
     def _check_directions(self) -> None:
-        """A pole is the known word, or a right ascension and a declination."""
-        for name in ("pole", "orbit_pole"):
+        """Keep a pole as what it is, also where a word or two angles were given."""
+        words = " or ".join(f"'{name}'" for name in NAMED_POLES)
+        allowed = f"write {words} or right ascension and declination, -90 to 90 deg, in rad"
+        for name, of in (("pole", pole_of), ("orbit_pole", Direction.of)):
             value = getattr(self, name)
-            if value is None or (name == "pole" and value == IAU_2006):
+            if value is None:
                 continue
-            allowed = (
-                f"write '{IAU_2006}' or right ascension and declination, -90 to 90 deg, in rad"
-            )
-            if not isinstance(value, tuple) or len(value) != 2:
-                raise BodyError(self.name, name, value, allowed)
-            ra, dec = value
-            if not (math.isfinite(ra) and abs(dec) <= math.pi / 2):
-                raise BodyError(self.name, name, value, allowed)
+            try:
+                object.__setattr__(self, name, of(value))
+            except (ValueError, TypeError):
+                raise BodyError(self.name, name, value, allowed) from None
 
     def _require(self, name: str, holds: Any, allowed: str) -> None:
         value = getattr(self, name)
@@ -257,7 +252,7 @@ class Body:
         """Every field that is set, with its unit."""
         told = []
         for one in fields(self):
-            value, unit = getattr(self, one.name), UNITS.get(one.name, ("", ""))[0]
+            value, unit = getattr(self, one.name), UNITS.get(one.name, "")
             many = hasattr(value, "dims")
             if value is None or one.name == "name" or (not many and value in ((), {}, "")):
                 continue
@@ -266,6 +261,28 @@ class Body:
         return told
 
     # --- from and to a scene -----------------------------------------------------------------
+
+    @classmethod
+    def cited(cls, name: str, numbers: Mapping[str, c.Constant], **others: Any) -> Body:
+        """Make a body that can be named, of numbers that each have a source and an uncertainty.
+
+        Parameters
+        ----------
+        name : str
+        numbers : mapping of str to Constant
+            By field, in the unit that the field is kept in. An angle has no relative uncertainty.
+        **others
+            Fields that are no numbers.
+        """
+        values: dict[str, Any] = {key: number.value for key, number in numbers.items()}
+        uncertainty = {
+            key: number.relative_uncertainty
+            for key, number in numbers.items()
+            if number.uncertainty and number.unit != "rad"
+        }
+        made = cls(name=name, relative_uncertainty=uncertainty, **values, **others)
+        BODIES[name], NUMBERS[name] = made, dict(numbers)
+        return made
 
     @classmethod
     def read(cls, given: object, where: Where) -> Body:
@@ -281,13 +298,18 @@ class Body:
         if not isinstance(given, Mapping):
             return body(given, where)
         table = dict(given)
-        start = table.pop("from", EARTH.name)
-        changes = {key: _read_field(key, value, where.at(key)) for key, value in table.items()}
+        start = table.pop("from", "earth")
+        for key, value in table.items():
+            if key not in _READ_AS:
+                raise where.at(key).error(value, nearest(key, ["from", *_READ_AS]))
+        changes = {key: _READ_AS[key].read(value, where.at(key)) for key, value in table.items()}
         try:
             if start == NOTHING:
-                missing = [name for name in ("name", "gm") if name not in changes]
+                missing = [f"{name} = {e}" for name, e in _LEAST.items() if name not in changes]
                 if missing:
-                    raise where.error(dict(table), f"a body from nothing needs {missing[0]}")
+                    raise where.error(
+                        dict(table), f"a body from nothing needs more, like {', '.join(missing)}"
+                    )
                 return cls(**changes)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
@@ -297,8 +319,8 @@ class Body:
 
     def write(self) -> Any:
         """Give the table of every number."""
-        given = {one.name: getattr(self, one.name) for one in fields(self)}
-        table = {n: _write_field(n, value) for n, value in given.items() if value is not None}
+        given = {name: getattr(self, name) for name in KINDS}
+        table = {n: KINDS[n].write(value) for n, value in given.items() if value is not None}
         return {"from": NOTHING} | table
 
     @property
@@ -313,7 +335,7 @@ class Body:
             if hasattr(value, "dims"):
                 words.append(f"{name} along {', '.join(map(str, value.dims))}")
             elif value != before:
-                unit = UNITS.get(name, ("", ""))[0]
+                unit = UNITS.get(name, "")
                 words.append(f"{name} = {value}{unit and ' '}{unit}")
         return "; ".join(words)
 
@@ -347,10 +369,25 @@ class Body:
         BodyError
             If the field is not set.
         """
-        value = getattr(self, name)
-        if value is None:
-            raise BodyError(self.name, name, None, f"this question needs it; set {name}")
-        return value
+        self.require((name,))
+        return getattr(self, name)
+
+    def require(self, names: Iterable[str]) -> None:
+        """Refuse at once all that this body lacks, with an example of how to give it.
+
+        Parameters
+        ----------
+        names : iterable of str
+            Fields that must be set.
+
+        Raises
+        ------
+        BodyError
+            If one or more are not.
+        """
+        missing = [name for name in names if getattr(self, name) is None]
+        if missing:
+            raise BodyError.lacking(self.name, {name: KINDS[name].example for name in missing})
 
     def number(self, name: str) -> float:
         """Return a field as one float.
@@ -388,7 +425,11 @@ class Body:
         UnitsError
             If a unit is missing, unknown, or of another kind.
         """
-        changes = {key: _as_field(key, value) for key, value in changes.items()}
+        for key, value in changes.items():
+            if key not in _READ_AS:
+                raise BodyError(self.name, key, value, nearest(key, _READ_AS))
+            if type(value) is not float and value is not None:
+                changes[key] = _READ_AS[key].read(value, Where(key))
         if "mass" in changes:
             if "gm" in changes:
                 raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
@@ -407,11 +448,6 @@ class Body:
             changes["dynamical_flattening"] = (
                 self.needed("dynamical_flattening") * changes["j2"] / self.j2
             )
-        unknown = set(changes) - {f.name for f in fields(self)}
-        if unknown:
-            word = sorted(unknown)[0]
-            words = {f.name for f in fields(self)} | {"mass", "moments"}
-            raise BodyError(self.name, word, changes[word], nearest(word, words))
         # A changed number is the user's own: what was known about the old one no longer holds.
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         made = _replace(self, **({"relative_uncertainty": known} | changes))
@@ -455,12 +491,25 @@ class Body:
         }
 
 
-#: Unit and an example of every numeric field, in which it is kept and read.
-UNITS: dict[str, tuple[str, str]] = {
-    f.name: (f.metadata["unit"], f.metadata["example"])
-    for f in fields(Body)
-    if "unit" in f.metadata
+#: How each field is read and written.
+KINDS: dict[str, Any] = {
+    name: kind_of(hint)
+    for name, hint in get_type_hints(Body, include_extras=True).items()
+    if get_origin(hint) is not ClassVar
 }
+
+#: Unit of every numeric field.
+UNITS: dict[str, str] = {
+    name: kind.unit for name, kind in KINDS.items() if isinstance(kind, Magnitude)
+}
+
+#: How all is read that a body can be made or changed by.
+_READ_AS: dict[str, Any] = {
+    **KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
+}  # fmt: skip
+
+#: What no body is without, and how one would write it.
+_LEAST = {"name": '"ceres"', "gm": '"62.6 km3/s2"'}
 
 #: Fields that a body's short form shows.
 _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
@@ -468,130 +517,6 @@ _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 #: Numbers that the free wobble follows from, and how far a body may be from the one observed.
 _OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
 SAME_BODY = 0.01
-
-
-def _read_field(key: str, value: Any, where: Where) -> Any:
-    """Read one key of a body's table."""
-    from earthspin.units import quantity, unpack
-
-    if key == "moments":
-        if not isinstance(value, (list, tuple)) or len(value) != 3:
-            raise where.error(value, "give three moments")
-        return [quantity(v, "kg m2", where, "8.03e37 kg m2") for v in value]
-    if key in ("pole", "orbit_pole") and not isinstance(value, str):
-        if not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise where.error(value, "give right ascension and declination")
-        return tuple(quantity(v, "rad", where, "317.7 deg") for v in value)
-    if key in ("name", "reference", "interior") and not isinstance(value, str):
-        raise where.error(value, "it is a line of text")
-    if key == "observed_wobble":
-        return _read_constant(value, where)
-    if key == "relative_uncertainty":
-        if not isinstance(value, Mapping):
-            raise where.error(value, "give a table of one number for each field")
-        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
-    if key == "naif":
-        whole = isinstance(value, (list, tuple)) and all(type(code) is int for code in value)
-        if not whole:
-            raise where.error(value, "give a list of whole numbers, like [399]")
-        return tuple(value)
-    units = UNITS | {"mass": ("kg", "5.97e24 kg")}
-    if key in units:
-        if isinstance(value, Mapping):
-            return _labelled(value, unpack(value, where), where)
-        return quantity(value, *units[key][:1], where, units[key][1])
-    words = ("from", "moments", "mass", *(f.name for f in fields(Body)))
-    if key not in words:
-        raise where.error(value, nearest(key, words))
-    return value
-
-
-def _as_field(key: str, value: Any) -> Any:
-    """A changed field as it is kept: SI floats; text and Quantities carry their units."""
-    plain = type(value) is float or value is None or isinstance(value, c.Constant)
-    known = key in UNITS or key in ("mass", "moments", *(f.name for f in fields(Body)))
-    if plain or not known or (hasattr(value, "dims") and key in UNITS):
-        return value
-    if key == "relative_uncertainty" and isinstance(value, Mapping):
-        return dict(value)
-    return _read_field(key, value, Where(key))
-
-
-def _read_constant(value: Any, where: Where) -> c.Constant:
-    """A cited figure from a table of its fields."""
-    from earthspin.units import quantity
-
-    try:
-        table: dict[str, Any] = {"uncertainty": None} | dict(value)
-        for name in ("value", "uncertainty"):
-            if table[name] is not None:
-                table[name] = quantity(table[name], "", where.at(name), "433.0")
-        if table.get("unit") != "d" or not table["value"] > 0:
-            raise where.error(value, "a period in days, unit = 'd', greater than zero")
-        return c.Constant(**table)
-    except (KeyError, TypeError, ValueError) as error:
-        if isinstance(error, EarthspinError):
-            raise
-        words = ", ".join(f.name for f in fields(c.Constant))
-        raise where.error(value, f"give a table of {words}") from None
-
-
-def _labelled(table: Mapping[str, Any], values: Any, where: Where) -> Any:
-    """A labelled array as `_write_field` wrote it.
-
-    Raises
-    ------
-    SceneError
-        If its dimensions or labels do not fit.
-    """
-    import numpy as np
-    import xarray as xr
-
-    from earthspin.units import unpack
-
-    try:
-        labels = {
-            name: (
-                of["dims"],
-                unpack(of, where) if "float64" in of else np.asarray(of["values"], of["dtype"]),
-            )
-            for name, of in table.get("labels", {}).items()
-        }
-        return xr.DataArray(values, labels, table["dims"])
-    except (KeyError, TypeError, ValueError, AttributeError, xr.CoordinateValidationError):
-        raise where.error("a table", "give an array with its dims and labels") from None
-
-
-def _labels_of(array: Any) -> dict[str, Any]:
-    """Labels of an array, of whatever kind, as tables."""
-    from earthspin.units import pack
-
-    told: dict[str, Any] = {}
-    for name, of in array.coords.items():
-        floats = of.dtype.kind == "f" and of.size
-        dates = of.dtype.kind == "M"
-        told[str(name)] = {"dims": list(map(str, of.dims)), "dtype": str(of.dtype)} | (
-            pack(of.values)
-            if floats
-            else {"values": (of.values.astype(str) if dates else of.values).tolist()}
-        )
-    return told
-
-
-def _write_field(name: str, value: Any) -> Any:
-    """One number, direction or array as a table holds it."""
-    if hasattr(value, "dims"):
-        from earthspin.units import pack
-
-        table = pack(value.values) | {"dims": list(map(str, value.dims))}
-        return table | {"labels": _labels_of(value)}
-    if name in UNITS and UNITS[name][0]:
-        return f"{float(value)!r} {UNITS[name][0]}"
-    if name in ("pole", "orbit_pole") and not isinstance(value, str):
-        return [f"{float(angle)!r} rad" for angle in value]
-    if isinstance(value, c.Constant):
-        return {k: v for k, v in asdict(value).items() if v is not None}
-    return list(value) if isinstance(value, tuple) else value
 
 
 def _close(value: Numeric | None, other: Numeric | None) -> bool:
@@ -618,102 +543,9 @@ def all_of(condition: Any) -> bool:
     return bool(condition.all()) if hasattr(condition, "all") else bool(condition)
 
 
-EARTH = Body(
-    name="earth",
-    gm=c.GM_EARTH.value,
-    naif=(399,),
-    radius=c.EARTH_RADIUS.value,
-    j2=c.EARTH_J2.value,
-    dynamical_flattening=c.EARTH_H.value,
-    triaxiality=c.EARTH_TRIAXIALITY.value,
-    j3=c.EARTH_J3.value,
-    j4=c.EARTH_J4.value,
-    j2_rate=c.EARTH_J2_RATE.value,
-    meridian=c.EARTH_MERIDIAN.value,
-    flattening=c.EARTH_FLATTENING.value,
-    spin_period=c.EARTH_SPIN_PERIOD.value,
-    pole=IAU_2006,
-    orbital_period=c.SIDEREAL_YEAR.value,
-    interior="prem",
-    observed_wobble=c.CHANDLER_PERIOD,
-    relative_uncertainty={
-        "gm": c.GM_EARTH.relative_uncertainty,
-        "radius": c.EARTH_RADIUS.relative_uncertainty,
-        "j2": c.EARTH_J2.relative_uncertainty,
-        "dynamical_flattening": c.EARTH_H.relative_uncertainty,
-        "flattening": c.EARTH_FLATTENING.relative_uncertainty,
-    },
-    reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
-)
-
-MARS = Body(
-    name="mars",
-    gm=c.GM_MARS.value,
-    naif=(499, 4),
-    radius=c.MARS_RADIUS.value,
-    j2=c.MARS_J2.value,
-    dynamical_flattening=c.MARS_J2.value / c.MARS_POLAR_MOMENT.value,
-    triaxiality=c.MARS_TRIAXIALITY.value,
-    flattening=c.MARS_FLATTENING.value,
-    spin_period=c.MARS_SPIN_PERIOD.value,
-    # Archinal et al. 2011, Celest. Mech. 109, 101, at J2000.0
-    pole=(math.radians(317.68143), math.radians(52.88650)),
-    # from i = 1.84969142, node = 49.55953891 deg to the ecliptic (Standish & Williams)
-    orbit_pole=(math.radians(273.37323), math.radians(65.32299)),
-    orbital_period=c.MARS_ORBITAL_PERIOD.value,
-    interior="mars-insight",
-    observed_wobble=c.MARS_CHANDLER_PERIOD,
-    relative_uncertainty={
-        "j2": c.MARS_J2.relative_uncertainty,
-        "dynamical_flattening": c.MARS_POLAR_MOMENT.relative_uncertainty,
-        "flattening": c.MARS_FLATTENING.relative_uncertainty,
-    },
-    reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
-)
-
-SUN = Body(
-    name="sun",
-    gm=c.GM_SUN.value,
-    naif=(10,),
-    relative_uncertainty={"gm": c.GM_SUN.relative_uncertainty},
-    reference=c.GM_SUN.source,
-)
-
-MOON = Body(
-    name="moon",
-    gm=c.GM_MOON.value,
-    naif=(301,),
-    cycle=c.MOON_NODE_PERIOD.value,
-    relative_uncertainty={"gm": c.GM_MOON.relative_uncertainty},
-    reference=c.GM_MOON.source,
-)
-
-
-def _planet(name: str, code: int, gm: c.Constant) -> Body:
-    """A planet as a perturber: its mean pull swings through centuries by up to 1e-3 of itself."""
-    return Body(
-        name=name,
-        gm=gm.value,
-        naif=(100 * code + 99, code),
-        slow_swing=1e-3,
-        reference=gm.source,
-    )
-
-
-_PLANETS = (
-    _planet("mercury", 1, c.GM_MERCURY),
-    _planet("venus", 2, c.GM_VENUS),
-    _planet("jupiter", 5, c.GM_JUPITER),
-    _planet("saturn", 6, c.GM_SATURN),
-    _planet("uranus", 7, c.GM_URANUS),
-    _planet("neptune", 8, c.GM_NEPTUNE),
-)
-
-#: Every named body.
-BODIES: dict[str, Body] = {b.name: b for b in (EARTH, MARS, SUN, MOON, *_PLANETS)}
-
-#: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
-PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
+#: Every named body, and the source and uncertainty of its numbers; filled by the files of worlds.
+BODIES: dict[str, Body] = {}
+NUMBERS: dict[str, dict[str, c.Constant]] = {}
 
 
 def body(name: object, where: Where | None = None) -> Body:

@@ -1,0 +1,13 @@
+"""Bodies as data: the class, and one cited file for each world."""
+
+from earthspin.bodies.body import BODIES, NUMBERS, Body, Numeric, all_of, body
+from earthspin.bodies.earth import EARTH
+from earthspin.bodies.mars import MARS
+from earthspin.bodies.moon import MOON
+from earthspin.bodies.planets import PLANETS
+from earthspin.bodies.sun import SUN
+
+__all__ = [
+    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric", "all_of",
+    "body",
+]  # fmt: skip

@@ -1,0 +1,63 @@
+"""The Earth."""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.bodies.body import Body
+from earthspin.constants import DAY, DE440, IERS_2010, P03, SIDEREAL_YEAR, Constant
+from earthspin.sky.poles import IAU_2006
+
+_EGM2008 = "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
+_ROTATION_ANGLE = "Capitaine, Guinot & McCarthy 2000, A&A 355, 398, eq. 14"
+
+# Normalised coefficients of EGM2008, of degree and order 2.
+_C22, _S22 = 2.43938357e-6, -1.40027370e-6
+#: Turns of the Earth Rotation Angle in a day of UT1, and its start at J2000.0 UT1.
+_TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
+
+NUMBERS = {
+    "gm": Constant(398600.435507e9, "m3 s-2", 8e5, DE440 + "; uncertainty from " + IERS_2010),
+    "radius": Constant(6378136.6, "m", 0.1, IERS_2010 + " (equatorial, zero-tide)"),
+    "j2": Constant(1.0826359e-3, "", 1e-10, IERS_2010 + " (zero-tide)"),
+    "dynamical_flattening": Constant(
+        0.0032737949,
+        "",
+        1e-9,
+        "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068; uncertainty from " + IERS_2010,
+    ),
+    # (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|
+    "triaxiality": Constant(7.2624e-6, "", None, _EGM2008 + ", degree 2, order 2"),
+    # J_n = -sqrt(2n + 1) C_n0 of the normalised coefficients
+    "j3": Constant(-9.57161207e-7 * math.sqrt(7.0), "", None, _EGM2008),
+    "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008),
+    "j2_rate": Constant(
+        -3.001e-9 / (36525.0 * DAY), "s-1", None, P03 + ": -3.001e-9 a century, sect. 4.1"
+    ),
+    # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
+    # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude atan2(S22, C22)/2 = -14.93 deg.
+    "meridian": Constant(
+        2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY) + math.atan2(_S22, _C22) / 2,
+        "rad",
+        1e-4,
+        f"{_ROTATION_ANGLE}; {_EGM2008}",
+    ),
+    "flattening": Constant(1 / 298.25642, "", 1.1e-10, IERS_2010 + " (zero-tide)"),
+    # one turn relative to the stars
+    "spin_period": Constant(
+        DAY / _TURNS_A_DAY, "s", 0.0, _ROTATION_ANGLE + " (IAU 2000 Resolution B1.8)"
+    ),
+    "orbital_period": SIDEREAL_YEAR,
+}
+
+EARTH = Body.cited(
+    "earth",
+    NUMBERS,
+    naif=(399,),
+    pole=IAU_2006,
+    interior="prem",
+    observed_wobble=Constant(
+        430.9, "d", 0.7, "Nastula & Gross 2015, JGR Solid Earth 120, 6474: observed, with Q = 127"
+    ),
+    reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
+)

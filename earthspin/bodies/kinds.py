@@ -1,0 +1,167 @@
+"""How the fields of a body are read from text, tables and Quantities, and written back exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from typing import Any
+
+from earthspin.constants import Constant
+from earthspin.errors import EarthspinError, Where
+from earthspin.units import Plain, pack, quantity, unpack
+
+
+@dataclass(frozen=True)
+class Magnitude:
+    """A number with a unit, or an array of numbers with named dimensions.
+
+    Attributes
+    ----------
+    unit : str
+        In which it is kept.
+    text : str
+        An example: number and unit.
+    """
+
+    unit: str
+    text: str
+
+    words, hint = "a number with its unit", "float | str | Quantity | DataArray"
+
+    @property
+    def example(self) -> str:
+        """How one would write it in a scene."""
+        return f'"{self.text}"' if self.unit else self.text
+
+    def read(self, given: object, where: Where) -> Any:
+        """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""
+        if isinstance(given, Mapping):
+            return _labelled(given, where)
+        if hasattr(given, "dims"):
+            return given
+        return quantity(given, self.unit, where, self.text)
+
+    def write(self, value: Any) -> Plain:
+        """Give a number with its unit; an array as a table of its bytes, dims and labels."""
+        if hasattr(value, "dims"):
+            table = pack(value.values) | {"dims": list(map(str, value.dims))}
+            return table | {"labels": _labels_of(value)}
+        return f"{float(value)!r} {self.unit}" if self.unit else value
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Three principal moments, the polar one last."""
+
+    words, hint = "three moments, the polar one last", "Sequence[float | str]"
+
+    def read(self, given: object, where: Where) -> list[Any]:
+        """Read each."""
+        if not isinstance(given, (list, tuple)) or len(given) != 3:
+            raise where.error(given, "give three moments")
+        return [quantity(one, "kg m2", where, "8.03e37 kg m2") for one in given]
+
+
+@dataclass(frozen=True)
+class Codes:
+    """Codes by which kernels know a body."""
+
+    words, hint = "whole numbers, like [499, 4]", "Sequence[int]"
+
+    def read(self, given: object, where: Where) -> tuple[int, ...]:
+        """Check that they are whole numbers."""
+        if not isinstance(given, (list, tuple)) or not all(type(code) is int for code in given):
+            raise where.error(given, "give a list of whole numbers, like [499, 4]")
+        return tuple(given)
+
+    def write(self, value: tuple[int, ...]) -> Plain:
+        """Give the list."""
+        return list(value)
+
+
+@dataclass(frozen=True)
+class Uncertainties:
+    """One standard deviation over value, by field."""
+
+    words, hint = "one standard deviation over value, by field", "Mapping[str, float]"
+
+    def read(self, given: object, where: Where) -> dict[str, float]:
+        """Read each; the body knows which names it has."""
+        if not isinstance(given, Mapping):
+            raise where.error(given, "give a table of one number for each field")
+        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in given.items()}
+
+    def write(self, value: Mapping[str, float]) -> Plain:
+        """Give the table."""
+        return dict(value)
+
+
+@dataclass(frozen=True)
+class CitedPeriod:
+    """A period in days with its uncertainty and source."""
+
+    words, hint = (
+        "a table of value, unit, uncertainty and source",
+        "Mapping[str, object] | Constant",
+    )
+
+    def read(self, given: object, where: Where) -> Constant:
+        """Take a constant, or a table of its fields."""
+        if isinstance(given, Constant):
+            return given
+        try:
+            table: dict[str, Any] = {"uncertainty": None} | dict(given)  # type: ignore[call-overload]
+            for name in ("value", "uncertainty"):
+                if table[name] is not None:
+                    table[name] = quantity(table[name], "", where.at(name), "433.0")
+            if table.get("unit") != "d" or not table["value"] > 0:
+                raise where.error(given, "a period in days, unit = 'd', greater than zero")
+            return Constant(**table)
+        except (KeyError, TypeError, ValueError) as error:
+            if isinstance(error, EarthspinError):
+                raise
+            words = ", ".join(one.name for one in fields(Constant))
+            raise where.error(given, f"give a table of {words}") from None
+
+    def write(self, value: Constant) -> Plain:
+        """Give the table of what is known."""
+        return {name: known for name, known in asdict(value).items() if known is not None}
+
+
+def _labelled(table: Mapping[str, Any], where: Where) -> Any:
+    """A labelled array as `Magnitude.write` wrote it.
+
+    Raises
+    ------
+    SceneError
+        If its dimensions or labels do not fit.
+    """
+    import numpy as np
+    import xarray as xr
+
+    values = unpack(table, where)
+    try:
+        labels = {
+            name: (
+                of["dims"],
+                unpack(of, where) if "float64" in of else np.asarray(of["values"], of["dtype"]),
+            )
+            for name, of in table.get("labels", {}).items()
+        }
+        return xr.DataArray(values, labels, table["dims"])
+    except (KeyError, TypeError, ValueError, AttributeError, xr.CoordinateValidationError):
+        raise where.error("a table", "give an array with its dims and labels") from None
+
+
+def _labels_of(array: Any) -> dict[str, Any]:
+    """Labels of an array, of whatever kind, as tables."""
+    told: dict[str, Any] = {}
+    for name, of in array.coords.items():
+        floats = of.dtype.kind == "f" and of.size
+        dates = of.dtype.kind == "M"
+        told[str(name)] = {"dims": list(map(str, of.dims)), "dtype": str(of.dtype)} | (
+            pack(of.values)
+            if floats
+            else {"values": (of.values.astype(str) if dates else of.values).tolist()}
+        )
+    return told
