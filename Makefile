@@ -16,6 +16,7 @@ check: $(VENV)/.check
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python -m data_tools cf
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
 
 docs: $(VENV)/.check

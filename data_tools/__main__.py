@@ -7,6 +7,7 @@ import sys
 
 from data_tools import (
     accuracy_pages,
+    cf,
     error_models,
     hashes,
     kernels,
@@ -20,6 +21,7 @@ from earthspin.errors import EarthspinError
 
 VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
+    "cf": (cf.main, "check files of every question against the CF conventions"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
     "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),

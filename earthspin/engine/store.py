@@ -77,7 +77,7 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
             mode="a" if number else "w",
             group=group,
             engine="netcdf4",
-            encoding=_encoding(node),
+            encoding=_encoding(node, characters=True),
         )
 
 
@@ -332,12 +332,21 @@ def _is_alive(process: int) -> bool:
     return True
 
 
-def _encoding(result: xr.Dataset, chunked: bool = False) -> dict[str, dict[str, Any]]:
+def _encoding(
+    result: xr.Dataset, *, chunked: bool = False, characters: bool = False
+) -> dict[str, dict[str, Any]]:
+    """How variables are laid down: chunks for Zarr, words along a dimension for netCDF.
+
+    A coordinate variable is a number to the CF conventions; words along a dimension stand as rows
+    of characters, which xarray reads as the labels that they were.
+    """
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in result.variables.items():
         entry: dict[str, Any] = {}
         if variable.dtype.kind == "M":
             entry |= TIME_ENCODING
+        if characters and variable.dims == (name,) and variable.dtype.kind in "UO":
+            entry["dtype"] = "S1"
         if chunked and "time" in variable.dims:
             entry["chunks"] = variable.shape
         if variable.dtype.kind == "f":

@@ -414,7 +414,10 @@ def angles(pole_analysis: Analysed) -> xr.Dataset:
             "angle_coefficient": polynomials(t, ours, SLOW_DEGREE),
             "angle_coefficient_iau": polynomials(t, theirs, SLOW_DEGREE),
         },
-        coords={"angle": list(NAMES), "degree": np.arange(SLOW_DEGREE + 1.0)},
+        coords={
+            "angle": list(NAMES),
+            "degree": ("degree", np.arange(SLOW_DEGREE + 1.0), {"long_name": "power of time"}),
+        },
     )
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood", "least-squares"]
-_SCALE = {"long_name": "time", "comment": "0h UTC in daily tables"}
+_SCALE = {"long_name": "time", "standard_name": "time", "comment": "0h UTC in daily tables"}
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
 #: Day of the modified Julian date 0 from J2000.0.

@@ -385,7 +385,9 @@ def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
     )
     rate = rates.precession_rate(push, body.needed("dynamical_flattening"), body.spin_rate)
     length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
-    return build(CONVERGENCE, {"rate_by_window": rate, "window_length": length})
+    result = build(CONVERGENCE, {"rate_by_window": rate, "window_length": length})
+    result["window_cycles"].attrs["long_name"] = "length of the averaging window in cycles"
+    return result
 
 
 def no_figure(body: Body) -> str | None:
