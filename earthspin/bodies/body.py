@@ -15,6 +15,7 @@ from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
 from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, Uncertainties
+from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
 from earthspin.units import kind_of
@@ -241,12 +242,16 @@ class Body:
         return f"<Body {self.name}: {told}>"
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        rows = "".join(
-            f"<tr><th>{name}</th><td>{escape(words)}</td></tr>" for name, words in self._in_words()
+        return card(
+            self.name, [(name, words, self._source(name)) for name, words in self._in_words()]
         )
-        return f"<table><caption>{escape(self.name)}</caption>{rows}</table>"
+
+    def _source(self, name: str) -> str:
+        """Where a number comes from; empty if it has been changed."""
+        own, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
+        if isinstance(own, c.Constant):
+            return own.source
+        return cited.source if cited is not None and _same(cited.value, own) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
         """Every field that is set, with its unit."""
@@ -254,9 +259,13 @@ class Body:
         for one in fields(self):
             value, unit = getattr(self, one.name), UNITS.get(one.name, "")
             many = hasattr(value, "dims")
-            if value is None or one.name == "name" or (not many and value in ((), {}, "")):
+            if value is None or one.name in _NOT_TOLD or (not many and value in ((), {}, "")):
                 continue
             words = f"an array along {', '.join(map(str, value.dims))}" if many else f"{value}"
+            if isinstance(value, c.Constant):
+                words, unit = f"{value.value} ± {value.uncertainty}", value.unit
+            elif one.name in self.relative_uncertainty and not many:
+                words += f" ± {abs(value) * self.relative_uncertainty[one.name]:.2g}"
             told.append((one.name, f"{words} {unit}".rstrip()))
         return told
 
@@ -511,7 +520,8 @@ _READ_AS: dict[str, Any] = {
 #: What no body is without, and how one would write it.
 _LEAST = {"name": '"ceres"', "gm": '"62.6 km3/s2"'}
 
-#: Fields that a body's short form shows.
+#: Fields that a body's short form shows, and those that stand elsewhere in its card.
+_NOT_TOLD = {"name", "relative_uncertainty"}
 _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 
 #: Numbers that the free wobble follows from, and how far a body may be from the one observed.

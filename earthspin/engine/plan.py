@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from graphlib import TopologicalSorter
 from typing import Any
 
+from earthspin.card import card
 from earthspin.engine.part import Part
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import SceneError, nearest
@@ -80,14 +81,18 @@ class Plan:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        cells = "".join(
-            f"<tr><td>{escape(r.part)}</td><td>{r.status}</td><td>{escape(r.reason)}</td>"
-            f"<td>{'' if r.seconds is None else f'{r.seconds * 1e3:.1f} ms'}</td></tr>"
-            for r in self.rows
+        return card(
+            self.question.title,
+            [
+                (
+                    r.part,
+                    r.status,
+                    r.reason,
+                    "" if r.seconds is None else f"{r.seconds * 1e3:.1f} ms",
+                )
+                for r in self.rows
+            ],
         )
-        return f"<table><caption>{escape(self.question.title)}</caption>{cells}</table>"
 
 
 NOT_ASKED = "its section is not asked for"

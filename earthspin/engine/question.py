@@ -12,6 +12,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
 from typing import Any, ClassVar, Self, get_type_hints
 
+from earthspin.card import card
 from earthspin.engine.part import BLOCK, Part
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
@@ -233,6 +234,18 @@ class Question:
         made = type(self).__new__(type(self))
         made._fill(kept | {"title": self.title} | changes, self.source, in_scene=False)
         return made
+
+    def _repr_html_(self) -> str:
+        """Every key with its value, the given ones marked, and what it means."""
+        rows = [
+            (name, _shown(value, one.kind), "given" if name in self.given else "default", one.doc)
+            for name, one in keys_of(type(self)).items()
+            if (value := getattr(self, name)) is not None and name != "title"
+        ]
+        return card(
+            f"{self.title}: compute = {self.word}",
+            [(name, str(value), *rest) for name, value, *rest in rows],
+        )
 
     def __repr__(self) -> str:
         shown = [

@@ -1,0 +1,22 @@
+"""What a notebook shows of a body, a question or a plan: a caption and a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+
+def card(caption: str, rows: Iterable[tuple[str, ...]]) -> str:
+    """HTML of a table; the first cell of each row is its heading.
+
+    Parameters
+    ----------
+    caption : str
+    rows : iterable of tuple of str
+        Plain text: it is escaped here.
+    """
+    body = "".join(
+        f"<tr><th>{escape(first)}</th>{''.join(f'<td>{escape(cell)}</td>' for cell in rest)}</tr>"
+        for first, *rest in rows
+    )
+    return f"<table><caption>{escape(caption)}</caption>{body}</table>"
