@@ -24,6 +24,11 @@ class Row:
     reason: str
     seconds: float | None = None
 
+    @property
+    def run_time(self) -> str:
+        """Its run time in words; empty before it has run."""
+        return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -74,7 +79,7 @@ class Plan:
             if heading != shown:
                 lines += [""] * bool(shown) + [heading]
                 shown = heading
-            cost = "" if row.seconds is None else f"  [{row.seconds * 1e3:.1f} ms]"
+            cost = f"  [{row.run_time}]" if row.run_time else ""
             lines.append(f"  {row.part:<{width}}  {row.reason}{cost}")
         return "\n".join(lines)
 
@@ -83,15 +88,7 @@ class Plan:
     def _repr_html_(self) -> str:
         return card(
             self.question.title,
-            [
-                (
-                    r.part,
-                    r.status,
-                    r.reason,
-                    "" if r.seconds is None else f"{r.seconds * 1e3:.1f} ms",
-                )
-                for r in self.rows
-            ],
+            [(row.part, row.status, row.reason, row.run_time) for row in self.rows],
         )
 
 
