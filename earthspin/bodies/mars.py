@@ -14,8 +14,13 @@ _MRO110B = "Konopliv et al. 2011, Icarus 211, 401 (MRO110B)"
 _C20, _C22, _S22 = -8.7502e-4, -8.4636e-5, 4.8935e-5
 
 J2 = Constant(-_C20 * math.sqrt(5.0), "", 1e-9, _MRO110B + ", normalised C20 = -8.7502e-4")
-#: C/(M R2).
-POLAR_MOMENT = Constant(0.3644, "", 0.0005, "C/(M R2), Konopliv et al. 2011, Icarus 211, 401")
+#: C/(M R2). With it our rate, geodesic precession included, is that observed from the ground.
+POLAR_MOMENT = Constant(
+    0.36367,
+    "",
+    0.00010,
+    "C/(M R2) after the precession observed by landers; as recalled, not seen in a public copy",
+)
 #: Rate of precession of the spin axis.
 PRECESSION = Constant(
     -7.576, "arcsec yr-1", 0.035, "Folkner et al. 1997, Science 278, 1749 (Viking and Pathfinder)"

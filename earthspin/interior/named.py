@@ -76,9 +76,9 @@ class Interior:
         return self.k2, self.core_fraction, self.core_ellipticity
 
 
-#: Core radius 1830 (40) km and mean density 6000 (300) kg m-3 (Staehler et al. 2021), over
-#: A = 0.3634 M R2 (Konopliv et al. 2011).
-_MARS_CORE = 8 * math.pi / 15 * 6000.0 * 1830e3**5 / (0.3634 * 6.4171e23 * 3396e3**2)
+#: Core radius 1835 (55) km (Le Maistre et al. 2023) and mean density 6000 (300) kg m-3 (Staehler et
+#: al. 2021), over A = (0.36367 - J2) M R2.
+_MARS_CORE = 8 * math.pi / 15 * 6000.0 * 1835e3**5 / (0.36171 * 6.4171e23 * 3396e3**2)
 
 INTERIORS: dict[str, Interior] = {
     interior.name: interior
@@ -102,15 +102,17 @@ INTERIORS: dict[str, Interior] = {
             name="mars-insight",
             reference=(
                 "k2 = 0.174 (8): Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; "
-                "core: Staehler et al. 2021, Science 373, 443; its ellipticity such that the "
-                "free core nutation has the -242 d of Le Maistre et al. 2023, Nature 619, 733"
+                "core: radius from Le Maistre et al. 2023, Nature 619, 733, density from Staehler "
+                "et al. 2021, Science 373, 443; its ellipticity such that the free core nutation "
+                "has the -242 d of Le Maistre et al. 2023"
             ),
             k2=0.174,
             core_fraction=_MARS_CORE,
             core_ellipticity=3.91e-3,
             relative_uncertainty={
                 "k2": 0.008 / 0.174,
-                "core_fraction": 0.12,
+                # five times that of the radius, and that of the density
+                "core_fraction": 0.16,
                 "core_ellipticity": 0.1,
             },
         ),

@@ -112,6 +112,15 @@ def test_mars_under_the_sun() -> None:
     assert abs(float(result.obliquity) - 25.19) < 0.01
 
 
+def test_mars_turns_as_it_is_observed_to() -> None:
+    """C/(M R2) and geodesic precession together give the rate that landers have measured."""
+    path = earthspin.pole(
+        "1950-01-01", "2050-01-01", "50 d", body="mars", perturbers=["sun"], effects=["geodesic"]
+    ).sel(axis="figure")
+    years = (path.time - path.time[0]) / np.timedelta64(36525, "D") * 100
+    PINS["mars rate with geodesic precession"].check(np.polyfit(years, path.psi, 1)[0])
+
+
 def test_ten_thousand_bodies_are_one_call() -> None:
     h = xr.DataArray(EARTH.dynamical_flattening * np.linspace(0.9, 1.1, 10_000), dims="draw")
     scene = earthspin.load_scene("precession").replace(body=EARTH.replace(dynamical_flattening=h))
