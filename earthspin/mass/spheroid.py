@@ -39,7 +39,8 @@ _BODY = "spheroid"
 #: Farther away, in radii, the fifth power of the distance overflows.
 _FARTHEST = 1e50
 
-#: Relative error that the closed form keeps. Measured: 7e-15 on 3000 spheroids, disc to needle.
+#: Relative error that the closed form keeps away from the focal ring. Measured: 7e-15 on 3000
+#: spheroids, disc to needle.
 CLOSED_FORM_ERROR = 5e-14
 
 
@@ -92,6 +93,37 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
     across = np.where(oblate, smaller + focal, smaller)
     along = np.where(oblate, smaller, smaller + focal)
     return across, along
+
+
+def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
+    """Relative error of potential, attraction and torque, of which rounding is the most.
+
+    Near the focal ring (the rim of a thin disc, the tips of a needle) the confocal coordinate
+    magnifies the rounding of the position: no method can know the field better than that. A unit
+    in the last place moves p by the sum of what it is made of, and the smaller root by that over
+    the square root of its discriminant.
+
+    Parameters
+    ----------
+    flattening : array_like
+        f.
+    position : array_like, shape (..., 3)
+        In units of the equatorial radius, z along the axis.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Measured on 3000 points down to 1e-8 radii from the ring: the error stays below half of it.
+    """
+    f = check_flattening(flattening)
+    square = np.asarray(position, dtype=float) ** 2
+    focal = np.abs(eccentricity_squared(f))
+    p = np.sum(square, axis=-1) - focal
+    w = focal * np.where(f >= 0, square[..., 2], square[..., 0] + square[..., 1])
+    discriminant = np.maximum(np.hypot(p, 2 * np.sqrt(w)), np.finfo(float).tiny)
+    moved = np.finfo(float).eps * (2 * np.sum(square, axis=-1) + focal)
+    inside = square[..., 0] + square[..., 1] + square[..., 2] / (1 - f) ** 2 <= 1
+    return np.asarray(CLOSED_FORM_ERROR + np.where(inside, 0.0, 0.75 * moved / discriminant))
 
 
 def attraction_integrals(

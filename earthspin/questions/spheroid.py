@@ -68,6 +68,9 @@ FIELD = {
     "potential": Variable(("point",), "J/kg", "gravitational potential"),
     "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
     "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
+    "relative_error": Variable(
+        ("point",), "1", "95 % half-width of potential, attraction and torque over their sizes"
+    ),
 }
 
 
@@ -77,6 +80,7 @@ def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
     from earthspin.mass import spheroid
 
     figure = body.number("gm"), body.number("radius"), body.number("flattening")
+    scaled = position / body.number("radius")
     return build(
         FIELD,
         {
@@ -84,6 +88,7 @@ def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
             "potential": spheroid.spheroid_potential(*figure, position),
             "attraction": spheroid.spheroid_attraction(*figure, position),
             "torque": spheroid.spheroid_torque(*figure, point_mass, position),
+            "relative_error": spheroid.error_bound(body.number("flattening"), scaled),
         },
         coords={"component": ["x", "y", "z"]},
         frame="principal axes of the spheroid, z along its axis",
@@ -96,10 +101,8 @@ PROMISE = promise("1", "relative, of potential, attraction and torque")
 @part(gives=PROMISE, unless=no_accuracy)
 def field_accuracy(field: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the field: asked, estimated, and the method."""
-    from earthspin.mass.spheroid import CLOSED_FORM_ERROR
-
-    points = field.sizes["point"]
-    return closed_form(PROMISE, accuracy, CLOSED_FORM_ERROR, "exact closed form", points)
+    points, worst = field.sizes["point"], float(field.relative_error.max())
+    return closed_form(PROMISE, accuracy, worst, "exact closed form", points)
 
 
 @part

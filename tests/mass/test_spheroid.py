@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
+import earthspin
 from earthspin import EARTH, SUN
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
@@ -290,3 +291,45 @@ def test_points_that_cannot_be() -> None:
         spheroid.spheroid_attraction(1.0, 1.0, 0.1, [1.0, np.nan, 0.0])
     with pytest.raises(UndefinedError, match=r"shape \(2,\)"):
         spheroid.spheroid_attraction(1.0, 1.0, 0.1, [1.0, 2.0])
+
+
+def _integrals(f: float, place: np.ndarray) -> tuple[mp.mpf, ...]:
+    """I0, A1, A3, A3 - A1 outside an oblate spheroid with 50 digits; lambda by its own root."""
+    with mp.workdps(50):
+        x, y, z = (mp.mpf(float(value)) for value in place)
+        c2, across2 = (1 - mp.mpf(f)) ** 2, x * x + y * y
+        b = 1 + c2 - across2 - z * z
+        root = (-b + mp.sqrt(b * b - 4 * (c2 - across2 * c2 - z * z))) / 2
+        across, along = 1 + root, c2 + root
+        a1 = mp.mpf(2) / 3 * mp.elliprd(along, across, across)
+        a3 = mp.mpf(2) / 3 * mp.elliprd(across, across, along)
+        return 2 * mp.elliprc(along, across), a1, a3, a3 - a1
+
+
+@pytest.mark.parametrize("distance", [1e-1, 1e-3, 1e-5, 1e-8])
+def test_beside_the_rim_of_a_disc_the_bound_grows_as_the_error_does(distance: float) -> None:
+    rng = np.random.default_rng(int(-np.log10(distance)))
+    used = 0.0
+    for _ in range(40):
+        f = 1 - 10 ** rng.uniform(-9, -2)
+        ring = np.sqrt(-np.expm1(2 * np.log1p(-f)))
+        around, turn = rng.uniform(0, 2 * np.pi), rng.uniform(-0.4, np.pi / 2)
+        out = ring + distance * np.cos(turn)
+        place = np.array([out * np.cos(around), out * np.sin(around), distance * np.sin(turn)])
+        if np.sum(place[:2] ** 2) + (place[2] / (1 - f)) ** 2 <= 1:
+            continue
+        found, true = spheroid.attraction_integrals(1.0, f, place), _integrals(f, place)
+        worst = max(float(abs(mp.mpf(float(a)) / b - 1)) for a, b in zip(found, true, strict=True))
+        used = max(used, worst / float(spheroid.error_bound(f, place)))
+    # measured: 0.15 to 0.45 of the bound; below 1e-3 of a bound it would be no bound but a guess
+    assert 1e-3 < used < 1.0
+
+
+def test_the_answer_says_how_wrong_it_may_be() -> None:
+    disc = EARTH.replace(flattening=0.99999, radius=1.0)
+    field = earthspin.spheroid_field(position=[[1.00001, 0, 1e-6], [3.0, 1.0, 2.0]], body=disc)
+    near, away = field.relative_error.values
+    assert near > 1e-11
+    assert spheroid.CLOSED_FORM_ERROR <= away < 2 * spheroid.CLOSED_FORM_ERROR
+    with pytest.raises(earthspin.EarthspinError, match="accuracy"):
+        earthspin.spheroid_field(position=[[1.00001, 0, 1e-6]], body=disc, accuracy=1e-12)
