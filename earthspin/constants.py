@@ -83,7 +83,10 @@ FIRST_ORDER_RATE = Constant(
 J2_AND_TILT_RATE = Constant(-269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2, planetary tilt")
 
 PREM_MEAN_MOMENT = Constant(
-    0.330799, "", None, "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published"
+    0.330799,
+    "",
+    5e-7,
+    "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published; half its last digit",
 )
 PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981")
 

@@ -83,12 +83,18 @@ class Variable:
         In plain words.
     attrs : tuple of pairs
         Further attributes, such as cell_methods or references.
+    error : str
+        Names of the variables that hold its error, where they are not called after it.
+    no_error : str
+        Why it carries no error.
     """
 
     dims: tuple[str, ...]
     units: str
     long_name: str
     attrs: tuple[tuple[str, str], ...] = ()
+    error: str = ""
+    no_error: str = ""
 
 
 Schema = Mapping[str, Variable]
@@ -183,8 +189,10 @@ def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]
     if variable.units:
         attributes["units"] = variable.units
     companions = [other for other in schema if other.startswith(f"{name}_error")]
-    if companions:
-        attributes["ancillary_variables"] = " ".join(companions)
+    if companions or variable.error:
+        attributes["ancillary_variables"] = variable.error or " ".join(companions)
+    if variable.no_error:
+        attributes["no_error"] = variable.no_error
     return attributes | dict(variable.attrs)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from earthspin.constants import (
@@ -12,9 +13,11 @@ from earthspin.constants import (
     EPSILON_0,
     FIRST_ORDER_RATE,
     J2_AND_TILT_RATE,
+    NORMAL_95,
     OMEGA_A_RATE,
     PUBLISHED_EFFECTS,
 )
+from earthspin.nutation.analysis import Secular
 
 Numeric = Any
 
@@ -81,3 +84,98 @@ def full_closure(rate: float, iau_rate: float) -> float:
 def iau_omega_rate() -> float:
     """Rate of omega_A at J2000.0 in IAU 2006, rad/s."""
     return OMEGA_A_RATE.value * ARCSEC_PER_YEAR
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Rates of psi_A and omega_A at J2000.0, rad/s, by effect; the first order is the first.
+
+    Attributes
+    ----------
+    psi, psi_published, omega : dict of str to float
+        Contributions.
+    psi_error, omega_error : dict of str to float
+        95 % half-widths: by what the analysis misses the rate of a pole whose rate is known, and
+        the uncertainty of H in the first order, which alone is large enough to show it.
+    psi_total, omega_total : float
+        Ours.
+    psi_total_error, omega_total_error : float
+        95 % half-widths.
+    psi_iau, omega_iau : float
+        IAU 2006.
+    closure, omega_closure : float
+        Ours, with the published non-linear term, less the IAU's.
+    psi_analysis_error, omega_analysis_error : float
+        By what the analysis misses the rates of the IAU's own pole.
+    """
+
+    psi: dict[str, float]
+    psi_published: dict[str, float]
+    omega: dict[str, float]
+    psi_error: dict[str, float]
+    omega_error: dict[str, float]
+    psi_total: float
+    omega_total: float
+    psi_total_error: float
+    omega_total_error: float
+    psi_iau: float
+    omega_iau: float
+    closure: float
+    omega_closure: float
+    psi_analysis_error: float
+    omega_analysis_error: float
+
+
+def budget_of(
+    ours: Secular,
+    theirs: Secular,
+    without: Mapping[str, Secular],
+    off: Sequence[str],
+    psi_iau: float,
+    u_h: float,
+) -> Budget:
+    """Rates effect by effect, each measured by switching it off.
+
+    Parameters
+    ----------
+    ours, theirs : Secular
+        Our pole with everything switched on, and the IAU's, analysed alike.
+    without : mapping of str to Secular
+        Ours with one effect switched off.
+    off : sequence of str
+        Effects that are not switched on, or that do not act on a rate; their share is zero.
+    psi_iau : float
+        Rate of psi_A at J2000.0 in IAU 2006, rad/s.
+    u_h : float
+        Relative standard uncertainty of H.
+    """
+    none = dict.fromkeys(off, 0.0)
+    psi = contributions(ours.psi_rate, {e: path.psi_rate for e, path in without.items()}) | none
+    omega = (
+        contributions(ours.omega_rate, {e: path.omega_rate for e, path in without.items()}) | none
+    )
+    psi_missed = abs(theirs.psi_rate - psi_iau)
+    omega_missed = abs(theirs.omega_rate - iau_omega_rate())
+
+    def errors(shares: Mapping[str, float], missed: float) -> dict[str, float]:
+        of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
+        return {e: 0.0 if e in none else math.hypot(missed, of_h.get(e, 0.0)) for e in shares}
+
+    psi_error, omega_error = errors(psi, psi_missed), errors(omega, omega_missed)
+    return Budget(
+        psi=psi,
+        psi_published=published_contributions(list(psi)),
+        omega=omega,
+        psi_error=psi_error,
+        omega_error=omega_error,
+        psi_total=ours.psi_rate,
+        omega_total=ours.omega_rate,
+        psi_total_error=psi_error[FIRST_ORDER],
+        omega_total_error=omega_error[FIRST_ORDER],
+        psi_iau=psi_iau,
+        omega_iau=iau_omega_rate(),
+        closure=full_closure(ours.psi_rate, psi_iau),
+        omega_closure=ours.omega_rate - iau_omega_rate(),
+        psi_analysis_error=psi_missed,
+        omega_analysis_error=omega_missed,
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import NORMAL_95, PREM_MEAN_MOMENT, PREM_RADIUS, PUBLISHED_EFFECTS
+from earthspin.constants import NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
+from earthspin.engine.labels import Schema, Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
@@ -33,6 +34,7 @@ from earthspin.progress import progress
 if TYPE_CHECKING:
     import xarray as xr
 
+    from earthspin.nutation.budget import Budget
     from earthspin.nutation.response import Response
 
 #: The terms of the nutation table.
@@ -73,83 +75,64 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
 # --- the answer: rates effect by effect ----------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Budget:
-    """Rates at J2000.0, rad/s, by effect; the first order is the first.
-
-    Attributes
-    ----------
-    psi, psi_published, omega : dict of str to float
-        Contributions.
-    psi_total, omega_total : float
-        Ours.
-    closure : float
-        Of psi, after the published non-linear term.
-    psi_analysis_error, omega_analysis_error : float
-        By what the analysis misses the rates of the IAU's own pole.
-    """
-
-    psi: dict[str, float]
-    psi_published: dict[str, float]
-    omega: dict[str, float]
-    psi_total: float
-    omega_total: float
-    closure: float
-    psi_analysis_error: float
-    omega_analysis_error: float
-
-
 @part
 def rates_by_effect(
     pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
     """Rates at J2000.0 effect by effect, each measured by switching it off."""
-    from earthspin.nutation import budget as book
+    from earthspin.nutation.budget import budget_of
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
-    psi: dict[str, float] = {}
-    omega: dict[str, float] = {}
+    without = {}
     with progress("budget", len(on)) as advance:
         for effect in on:
             rest = [e for e in on if e != effect]
             path = path_over(body, pulls, rest, done.start, done.days)
-            without = done.analysis.secular(done.pole(path, done.days))
-            psi[effect], omega[effect] = without.psi_rate, without.omega_rate
+            without[effect] = done.analysis.secular(done.pole(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
-    none = {e: 0.0 for e in (*ALL_BUT_NONRIGID, NONRIGID) if e not in on}
-    psi_by_effect = book.contributions(done.ours.psi_rate, psi) | none
-    iau_rate = precession_rates(0.0).psi_a
-    return Budget(
-        psi=psi_by_effect,
-        psi_published=book.published_contributions(list(psi_by_effect)),
-        omega=book.contributions(done.ours.omega_rate, omega) | none,
-        psi_total=done.ours.psi_rate,
-        omega_total=done.ours.omega_rate,
-        closure=book.full_closure(done.ours.psi_rate, iau_rate),
-        psi_analysis_error=abs(done.theirs.psi_rate - iau_rate),
-        omega_analysis_error=abs(done.theirs.omega_rate - book.iau_omega_rate()),
-    )
+    off = [e for e in (*ALL_BUT_NONRIGID, NONRIGID) if e not in on]
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return budget_of(done.ours, done.theirs, without, off, precession_rates(0.0).psi_a, u_h)
 
 
 _EFFECT = ("effect",)
+_PUBLISHED = "the table that it stands in gives none"
+_MODEL = "a model that was adopted, exact by definition"
 BUDGET = {
-    "psi_rate": Variable(
-        _EFFECT, "arcsec/yr", "contribution to the rate of psi_A at J2000.0, by switching"
+    **with_error(
+        "psi_rate",
+        Variable(
+            _EFFECT, "arcsec/yr", "contribution to the rate of psi_A at J2000.0, by switching"
+        ),
     ),
     "psi_rate_published": Variable(
-        _EFFECT, "arcsec/yr", "published contribution; 0 where the table has none"
+        _EFFECT,
+        "arcsec/yr",
+        "published contribution; 0 where the table has none",
+        no_error=_PUBLISHED,
     ),
-    "omega_rate": Variable(_EFFECT, "arcsec/yr", "contribution to the rate of omega_A"),
-    "psi_rate_total": Variable((), "arcsec/yr", "our rate of psi_A at J2000.0"),
-    "omega_rate_total": Variable((), "arcsec/yr", "our rate of omega_A at J2000.0"),
-    "psi_rate_iau": Variable((), "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006"),
-    "omega_rate_iau": Variable((), "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006"),
+    **with_error(
+        "omega_rate", Variable(_EFFECT, "arcsec/yr", "contribution to the rate of omega_A")
+    ),
+    **with_error("psi_rate_total", Variable((), "arcsec/yr", "our rate of psi_A at J2000.0")),
+    **with_error("omega_rate_total", Variable((), "arcsec/yr", "our rate of omega_A at J2000.0")),
+    "psi_rate_iau": Variable(
+        (), "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_MODEL
+    ),
+    "omega_rate_iau": Variable(
+        (), "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_MODEL
+    ),
     "closure": Variable(
-        (), "arcsec/yr", "our rate plus the published non-linear term less the IAU's"
+        (),
+        "arcsec/yr",
+        "our rate plus the published non-linear term less the IAU's",
+        error="psi_rate_total_error",
     ),
-    "omega_closure": Variable((), "arcsec/yr", "our rate of omega_A less the IAU's"),
+    "omega_closure": Variable(
+        (), "arcsec/yr", "our rate of omega_A less the IAU's", error="omega_rate_total_error"
+    ),
     "psi_rate_analysis_error": Variable(
         (), "arcsec/yr", "by what the analysis misses the rate of the IAU's own pole"
     ),
@@ -162,22 +145,23 @@ BUDGET = {
 @part(gives=BUDGET)
 def budget(rates_by_effect: Budget) -> xr.Dataset:
     """Rates effect by effect, beside the published ones; the closure."""
-    from earthspin.nutation.budget import iau_omega_rate
-    from earthspin.sky.iau import precession_rates
-
     of = rates_by_effect
     return build(
         BUDGET,
         {
             "psi_rate": list(of.psi.values()),
+            "psi_rate_error": list(of.psi_error.values()),
             "psi_rate_published": list(of.psi_published.values()),
             "omega_rate": list(of.omega.values()),
+            "omega_rate_error": list(of.omega_error.values()),
             "psi_rate_total": of.psi_total,
+            "psi_rate_total_error": of.psi_total_error,
             "omega_rate_total": of.omega_total,
-            "psi_rate_iau": precession_rates(0.0).psi_a,
-            "omega_rate_iau": iau_omega_rate(),
+            "omega_rate_total_error": of.omega_total_error,
+            "psi_rate_iau": of.psi_iau,
+            "omega_rate_iau": of.omega_iau,
             "closure": of.closure,
-            "omega_closure": of.omega_total - iau_omega_rate(),
+            "omega_closure": of.omega_closure,
             "psi_rate_analysis_error": of.psi_analysis_error,
             "omega_rate_analysis_error": of.omega_analysis_error,
         },
@@ -200,6 +184,8 @@ class Differences:
         As they are, and after a constant and a rate.
     chosen : int
         The model that the effects which are switched on stand for.
+    error : float
+        95 % half-width of either angle: the integration, and H in the nutation.
     """
 
     days: NDArray[np.float64]
@@ -207,6 +193,7 @@ class Differences:
     plain: NDArray[np.float64]
     fitted: NDArray[np.float64]
     chosen: int
+    error: float
 
 
 @part
@@ -230,6 +217,8 @@ def differences(
     sky.ephemeris.check_times(ends[[0, 1]], {*pulls.targets.values(), sky.centre})
     iau_eta = complex_nutation(iau.nutation_of(iau.true_pole(days), days))
 
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+
     def eta_of(on: list[str], axis: str) -> NDArray[np.complex128]:
         path = path_over(body, pulls, on, done.start, ends)
         return complex_nutation(iau.nutation_of(done.pole(path, days, axis), days))
@@ -248,14 +237,27 @@ def differences(
         plain=plain,
         fitted=without_line(days / 36525.0, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID in effects else 1,
+        error=math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta)))),
     )
 
 
+_ERROR = {
+    "residual_error": Variable((), "mas", "95 % half-width of a residual, from H and integration")
+}
 RESIDUALS = {
     "dpsi_sineps": Variable(
-        ("time",), "mas", "our pole less the IAU's in longitude times sin(eps), line removed"
+        ("time",),
+        "mas",
+        "our pole less the IAU's in longitude times sin(eps), line removed",
+        error="residual_error",
     ),
-    "deps": Variable(("time",), "mas", "our pole less the IAU's in obliquity, line removed"),
+    "deps": Variable(
+        ("time",),
+        "mas",
+        "our pole less the IAU's in obliquity, line removed",
+        error="residual_error",
+    ),
+    **_ERROR,
 }
 
 
@@ -265,16 +267,29 @@ def residuals(differences: Differences) -> xr.Dataset:
     chosen = differences.fitted[:, differences.chosen]
     return build(
         RESIDUALS,
-        {"dpsi_sineps": chosen[:, 0], "deps": chosen[:, 1]},
+        {
+            "dpsi_sineps": chosen[:, 0],
+            "deps": chosen[:, 1],
+            "residual_error": differences.error,
+        },
         coords=_dates(differences),
     )
 
 
 _BY_MODEL = {
     "dpsi_sineps_by_model": Variable(
-        ("time", "model"), "mas", "the same in longitude, for three models"
+        ("time", "model"),
+        "mas",
+        "our pole less the IAU's in longitude times sin(eps), for three models, line removed",
+        error="residual_error",
     ),
-    "deps_by_model": Variable(("time", "model"), "mas", "the same in obliquity, for three models"),
+    "deps_by_model": Variable(
+        ("time", "model"),
+        "mas",
+        "our pole less the IAU's in obliquity, for three models, line removed",
+        error="residual_error",
+    ),
+    **_ERROR,
 }
 
 
@@ -284,16 +299,27 @@ def residuals_by_model(differences: Differences) -> xr.Dataset:
     fitted = differences.fitted
     return build(
         _BY_MODEL,
-        {"dpsi_sineps_by_model": fitted[..., 0], "deps_by_model": fitted[..., 1]},
+        {
+            "dpsi_sineps_by_model": fitted[..., 0],
+            "deps_by_model": fitted[..., 1],
+            "residual_error": differences.error,
+        },
         coords=_dates(differences) | {"model": list(differences.models)},
     )
 
 
 _SIZE = ("model", "direction")
 RESIDUAL_SIZES = {
-    "residual_rms": Variable(_SIZE, "mas", "root mean square after constant and rate"),
-    "residual_maximum": Variable(_SIZE, "mas", "largest after constant and rate"),
-    "residual_rms_unfitted": Variable(_SIZE, "mas", "root mean square with nothing fitted"),
+    "residual_rms": Variable(
+        _SIZE, "mas", "root mean square after constant and rate", error="residual_error"
+    ),
+    "residual_maximum": Variable(
+        _SIZE, "mas", "largest after constant and rate", error="residual_error"
+    ),
+    "residual_rms_unfitted": Variable(
+        _SIZE, "mas", "root mean square with nothing fitted", error="residual_error"
+    ),
+    **_ERROR,
 }
 
 
@@ -307,6 +333,7 @@ def residual_sizes(differences: Differences) -> xr.Dataset:
             "residual_rms": np.sqrt(np.mean(fitted**2, axis=0)),
             "residual_maximum": np.max(np.abs(fitted), axis=0),
             "residual_rms_unfitted": np.sqrt(np.mean(plain**2, axis=0)),
+            "residual_error": differences.error,
         },
         coords={"model": list(differences.models), "direction": ["dpsi_sineps", "deps"]},
     )
@@ -320,51 +347,105 @@ def _dates(
 
 
 _TERM = ("term",)
+
+
+def _phases(name: str, unit: str, words: str, error: str = "", no_error: str = "") -> Schema:
+    """An amplitude as the IERS tabulates it: in phase and out of phase."""
+    return {
+        f"{name}_{phase}": Variable(
+            _TERM, unit, f"{words}, {phase.replace('_', ' ')}", error=error, no_error=no_error
+        )
+        for phase in ("in_phase", "out_of_phase")
+    }
+
+
+_FIT = "part of a fit; left_in_phase and left_out_of_phase say what it leaves"
 NUTATION = {
-    "period": Variable(_TERM, "d", "period of the circle in space, negative if retrograde"),
-    "rigid_in_phase": Variable(_TERM, "mas", "our rigid amplitude, in phase"),
-    "rigid_out_of_phase": Variable(_TERM, "mas", "our rigid amplitude, out of phase"),
-    "iau_in_phase": Variable(_TERM, "mas", "amplitude of IAU 2000A, in phase"),
-    "iau_out_of_phase": Variable(_TERM, "mas", "amplitude of IAU 2000A, out of phase"),
-    "ratio_in_phase": Variable(_TERM, "1", "IAU 2000A over ours, real part"),
-    "ratio_out_of_phase": Variable(_TERM, "1", "IAU 2000A over ours, imaginary part"),
-    "transfer_in_phase": Variable(_TERM, "1", "fitted resonance form, real part"),
-    "transfer_out_of_phase": Variable(_TERM, "1", "fitted resonance form, imaginary part"),
-    "left_in_phase": Variable(_TERM, "uas", "IAU less response times ours, in phase"),
-    "left_out_of_phase": Variable(_TERM, "uas", "IAU less response times ours, out of phase"),
+    "period": Variable(
+        _TERM,
+        "d",
+        "period of the circle in space, negative if retrograde",
+        no_error="it follows from the adopted arguments of IERS 2003",
+    ),
+    **_phases("rigid", "mas", "our rigid amplitude", "amplitude_error"),
+    **_phases("iau", "mas", "amplitude of IAU 2000A", "amplitude_error"),
+    "amplitude_error": Variable(
+        _TERM, "mas", "95 % half-width of an amplitude, what is the neighbour's apart"
+    ),
+    "neighbour": Variable(
+        _TERM, "", "term that 150 years do not part from this one; empty where there is none"
+    ),
+    **_phases(
+        "neighbour",
+        "mas",
+        "share of the neighbour in the amplitude of IAU 2000A",
+        no_error="coefficients of the adopted series",
+    ),
+    **_phases("ratio", "1", "IAU 2000A over ours", "ratio_error"),
+    "ratio_error": Variable(_TERM, "1", "95 % half-width of the ratio"),
+    **_phases("transfer", "1", "fitted resonance form", no_error=_FIT),
+    **_phases(
+        "left",
+        "uas",
+        "IAU 2000A less response times ours",
+        no_error="a measure of error itself; what both analyses miss alike cancels in it",
+    ),
 }
 
 
 @part(gives=NUTATION)
 def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     """The thirty largest circular terms of both poles, their ratio, what the response leaves."""
+    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.nutation.nutation import phases
+    from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
+    frequency = ours.frequency[order]
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
-    transfer = core_response.transfer(ours.frequency[order])
-    ratio = real / rigid
-    values: dict[str, NDArray[np.float64]] = {
-        "period": 2 * np.pi / ours.frequency[order],
+    transfer = core_response.transfer(frequency)
+    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
+    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    error, ratio = amplitude_error(frequency), real / rigid
+    values: dict[str, NDArray[np.generic] | list[str]] = {
+        "period": 2 * np.pi / frequency,
+        "amplitude_error": error,
+        "neighbour": [near.names[row] for row in order],
         "ratio_in_phase": ratio.real,
         "ratio_out_of_phase": ratio.imag,
+        "ratio_error": np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
         "transfer_in_phase": transfer.real,
         "transfer_out_of_phase": transfer.imag,
     }
-    for name, amplitude in (("rigid", rigid), ("iau", real), ("left", real - transfer * rigid)):
+    amplitudes = {
+        "rigid": rigid,
+        "iau": real,
+        "neighbour": near.amplitude[order],
+        "left": real - transfer * rigid,
+    }
+    for name, amplitude in amplitudes.items():
         values[f"{name}_in_phase"], values[f"{name}_out_of_phase"] = phases(amplitude)
     labels = [" ".join(f"{m:+d}" for m in multiple) for multiple in ours.multiples[order]]
     return build(NUTATION, values, coords={"term": labels})
 
 
+_LEFT = "a size of what is left, itself a measure of error"
 CORE = {
-    "core_nutation_period": Variable((), "d", "period of the free core nutation in space"),
-    "core_nutation_quality": Variable((), "1", "quality factor of the free core nutation"),
-    "strength_real": Variable(("mode",), "1", "fitted strength, real part"),
-    "strength_imaginary": Variable(("mode",), "1", "fitted strength, imaginary part"),
-    "response_rms": Variable((), "uas", "root mean square of what the response leaves"),
-    "response_maximum": Variable((), "uas", "largest that the response leaves"),
+    **with_error(
+        "core_nutation_period", Variable((), "d", "period of the free core nutation in space")
+    ),
+    **with_error(
+        "core_nutation_quality", Variable((), "1", "quality factor of the free core nutation")
+    ),
+    "strength_real": Variable(("mode",), "1", "fitted strength, real part", no_error=_LEFT),
+    "strength_imaginary": Variable(
+        ("mode",), "1", "fitted strength, imaginary part", no_error=_LEFT
+    ),
+    "response_rms": Variable(
+        (), "uas", "root mean square of what the response leaves", no_error=_LEFT
+    ),
+    "response_maximum": Variable((), "uas", "largest that the response leaves", no_error=_LEFT),
 }
 
 
@@ -372,32 +453,45 @@ CORE = {
 def core(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    left = theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude
+    left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
     return build(
         CORE,
         {
             "core_nutation_period": core_response.period,
+            "core_nutation_period_error": core_response.period_error,
             "core_nutation_quality": core_response.quality,
+            "core_nutation_quality_error": core_response.quality_error,
             "strength_real": core_response.strengths.real,
             "strength_imaginary": core_response.strengths.imag,
-            "response_rms": float(np.sqrt(np.mean(np.abs(left) ** 2))),
-            "response_maximum": float(np.max(np.abs(left))),
+            "response_rms": float(np.sqrt(np.mean(left**2))),
+            "response_maximum": float(np.max(left)),
         },
         coords={"mode": ["constant", "chandler", "core", "inner-core"]},
     )
 
 
+_COEFFICIENT = ("angle", "degree")
 ANGLES = {
-    name: Variable(("angle", "degree"), "arcsec", f"coefficient of (t/century)^degree, {whose}")
-    for name, whose in (
-        ("angle_coefficient", "our pole on the ecliptic of IAU 2006"),
-        ("angle_coefficient_iau", "IAU 2006, fitted alike"),
-    )
+    "angle_coefficient": Variable(
+        _COEFFICIENT,
+        "arcsec",
+        "coefficient of (t/century)^degree, our pole on the ecliptic of IAU 2006",
+        error="angle_coefficient_error",
+    ),
+    "angle_coefficient_iau": Variable(
+        _COEFFICIENT,
+        "arcsec",
+        "coefficient of (t/century)^degree, IAU 2006, fitted alike",
+        no_error="a model that was adopted, exact by definition",
+    ),
+    "angle_coefficient_error": Variable(
+        _COEFFICIENT, "arcsec", "95 % half-width of our coefficients: of the analysis, and of H"
+    ),
 }
 
 
 @part(gives=ANGLES)
-def angles(pole_analysis: Analysed) -> xr.Dataset:
+def angles(pole_analysis: Analysed, body: Body) -> xr.Dataset:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
     from earthspin.nutation.angles import ANGLES as NAMES
     from earthspin.nutation.angles import polynomials, precession_angles
@@ -405,14 +499,21 @@ def angles(pole_analysis: Analysed) -> xr.Dataset:
     from earthspin.sky import iau
 
     t = pole_analysis.days / 36525.0
-    psi, omega = pole_analysis.ours.at(t)
-    ours = precession_angles(psi, omega, iau.ecliptic_of_date(pole_analysis.days))
-    theirs = iau.precession_angles(pole_analysis.days)
+    ecliptic = iau.ecliptic_of_date(pole_analysis.days)
+    # what the analysis makes of the pole of IAU 2006 shows what it misses
+    ours, again = (
+        polynomials(t, precession_angles(*path.at(t), ecliptic), SLOW_DEGREE)
+        for path in (pole_analysis.ours, pole_analysis.theirs)
+    )
+    theirs = polynomials(t, iau.precession_angles(pole_analysis.days), SLOW_DEGREE)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(SLOW_DEGREE + 1) > 0)
     return build(
         ANGLES,
         {
-            "angle_coefficient": polynomials(t, ours, SLOW_DEGREE),
-            "angle_coefficient_iau": polynomials(t, theirs, SLOW_DEGREE),
+            "angle_coefficient": ours,
+            "angle_coefficient_iau": theirs,
+            "angle_coefficient_error": np.hypot(again - theirs, of_h),
         },
         coords={
             "angle": list(NAMES),
@@ -422,11 +523,8 @@ def angles(pole_analysis: Analysed) -> xr.Dataset:
 
 
 INFERRED = {
-    "flattening": Variable(("origin",), "1", "dynamical flattening H"),
-    "flattening_error": Variable(
-        ("origin",), "1", "95 % half-width of the dynamical flattening H, where it is known"
-    ),
-    "polar_moment": Variable(("origin",), "1", "C/(M a2)"),
+    **with_error("flattening", Variable(("origin",), "1", "dynamical flattening H")),
+    **with_error("polar_moment", Variable(("origin",), "1", "C/(M a2)")),
 }
 
 
@@ -435,27 +533,25 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> xr.Dataset:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
     from earthspin.nutation import flattening as flat
 
-    of = rates_by_effect
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
-    compared = [e for e in of.psi if e in flat.COMPARED]
-    spread = float(np.sqrt(sum((of.psi[e] - of.psi_published[e]) ** 2 for e in compared)))
-    # Geodesic precession alone does not grow with H.
-    grows = sum(rate for effect, rate in of.psi.items() if effect != "geodesic")
-    new = flat.inferred_h(h, grows, of.closure)
-    u = flat.inferred_h_uncertainty(h, grows, spread, of.psi_analysis_error)
-    u_h = h * body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    prem = flat.polar_moment_from_mean(
-        PREM_MEAN_MOMENT.value, PREM_RADIUS.value, body.number("radius"), j2
+    u = body.relative_uncertainty
+    found = flat.compared_flattenings(
+        rates_by_effect,
+        h,
+        j2,
+        body.number("radius"),
+        u_h=u.get("dynamical_flattening", 0.0),
+        u_j2=u.get("j2", 0.0),
     )
-    moments = [flat.polar_moment_from_h(j2, h), flat.polar_moment_from_h(j2, new), prem]
     return build(
         INFERRED,
         {
-            "flattening": [h, new, j2 / prem],
-            "flattening_error": [NORMAL_95 * u_h, NORMAL_95 * u, 0.0],
-            "polar_moment": moments,
+            "flattening": [one.h for one in found.values()],
+            "flattening_error": [NORMAL_95 * one.h_uncertainty for one in found.values()],
+            "polar_moment": [one.moment for one in found.values()],
+            "polar_moment_error": [NORMAL_95 * one.moment_uncertainty for one in found.values()],
         },
-        coords={"origin": ["published", "from the IAU's rate", "PREM"]},
+        coords={"origin": list(found)},
     )
 
 

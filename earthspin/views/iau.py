@@ -105,7 +105,17 @@ def nutation(tree: Result) -> Table:
     """Circular terms of both poles."""
     return Table(
         "The largest nutations",
-        ("l l' F D node", "period, d", "ours", "IAU", "out", "ratio", "out", "left, uas"),
+        (
+            "l l' F D node",
+            "period, d",
+            "ours",
+            "IAU",
+            "out",
+            "neighbour",
+            "ratio",
+            "out",
+            "left, uas",
+        ),
         [
             (
                 term,
@@ -113,6 +123,7 @@ def nutation(tree: Result) -> Table:
                 f"{float(of.rigid_in_phase):.3f}",
                 f"{float(of.iau_in_phase):.3f}",
                 f"{float(of.iau_out_of_phase):+.3f}",
+                f"{float(of.neighbour_in_phase):+.3f}" if str(of.neighbour.values) else "",
                 f"{float(of.ratio_in_phase):.5f}",
                 f"{float(of.ratio_out_of_phase):+.5f}",
                 f"{np.hypot(float(of.left_in_phase), float(of.left_out_of_phase)):.1f}",
@@ -120,10 +131,21 @@ def nutation(tree: Result) -> Table:
             for term, of in along(needed(tree, "nutation"), "term")
         ],
         "Circular amplitudes in mas, in phase unless marked 'out'; a negative period is "
-        "retrograde. Ours is rigid; the ratio is IAU 2000A over ours, and 'left' is what the "
-        "fitted resonance form does not explain. The prograde year is not fitted: IAU 2000A holds "
-        "an atmospheric tide of 0.11 mas there.",
+        "retrograde. Our amplitudes are those of a rigid body; the ratio is that of IAU 2000A to "
+        "ours, and 'left' is what the fitted resonance form does not explain. Where 150 years do "
+        "not part a term from a neighbour, both amplitudes hold that of the neighbour as well; the "
+        "column 'neighbour' gives its share in the amplitude of IAU 2000A: "
+        f"{_neighbours(tree)}. The prograde year is not fitted, because IAU 2000A "
+        "holds an atmospheric tide of 0.11 mas there.",
     )
+
+
+def _neighbours(tree: Result) -> str:
+    """Which term stands beside which."""
+    pairs = [
+        (term, str(of.neighbour.values)) for term, of in along(needed(tree, "nutation"), "term")
+    ]
+    return "; ".join(f"{beside} beside {term}" for term, beside in pairs if beside)
 
 
 def core(tree: Result) -> Table:

@@ -20,6 +20,7 @@ from earthspin.constants import (
 from earthspin.nutation import budget
 from earthspin.parts.pulls import Effect
 from earthspin.sky.iau import precession_rates
+from tests import shipped
 
 #: Place of each angle in what erfa.p06e returns.
 PLACE = {"psi_a": 1, "omega_a": 2, "chi_a": 8, "p_a": 12}
@@ -103,3 +104,14 @@ def test_only_sun_and_moon_are_compared() -> None:
         earthspin.Scene(compute="precession", perturbers=["sun", "moon", "venus"])
     )
     assert plan.left_out["iau-2006"] == "the comparison is for sun and moon alone"
+
+
+def test_each_rate_lies_within_its_error_of_the_published_one() -> None:
+    of = shipped.answer("iau")
+    for effect in ("planets", "j4", "geodesic", "second-order"):
+        one = of.sel(effect=effect)
+        assert abs(float(one.psi_rate - one.psi_rate_published)) < float(one.psi_rate_error), effect
+    # 95 % half-width of H, 1.96 * 1e-9 / 0.0032737949, of the whole rate, and the analysis
+    total = float(of.psi_rate_total_error)
+    assert total == pytest.approx(np.hypot(3.02e-5, 1.14e-5), rel=0.01)
+    assert abs(float(of.closure)) < 2 * total
