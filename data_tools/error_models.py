@@ -31,7 +31,7 @@ from data_tools.windows import DEGREE, SPACING
 from earthspin.bodies import BODIES, EARTH, MARS, PLANETS, Body
 from earthspin.choosing.choice import DATA
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
-from earthspin.motion.geodesic import geodesic_rate
+from earthspin.motion.effects.geodesic import geodesic_rate
 from earthspin.numerics.gauss_windows import Windows, integrated
 from earthspin.progress import progress
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris

@@ -1,4 +1,4 @@
-"""How far each effect moves the axis of the Earth: the table of `earthspin.motion.neglected`.
+"""How far each effect moves the axis of the Earth: the sizes in `earthspin.motion.effects`.
 
 The figure axis is followed under Sun and Moon from 1901 to 2050 with every effect of a rigid Earth,
 and again with one of them off; what lies between the two paths is bounded at every epoch by
@@ -22,8 +22,7 @@ from scipy.optimize import linprog
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
 from earthspin.dates import days
 from earthspin.errors import Where
-from earthspin.motion.neglected import SIZES, Growth
-from earthspin.parts.pulls import ALL_BUT_NONRIGID, NONRIGID
+from earthspin.motion.effects import EFFECTS, NONRIGID, RIGID, Growth
 from earthspin.questions.pole import pole
 
 FloatArray = NDArray[np.float64]
@@ -66,18 +65,18 @@ def moved_by(
     step, span
         As `figure_axis` takes them.
     """
-    years, whole = figure_axis(span, step, ALL_BUT_NONRIGID)
+    years, whole = figure_axis(span, step, RIGID)
     moved = {}
     for effect in effects:
-        _, without = figure_axis(span, step, (e for e in ALL_BUT_NONRIGID if e != effect))
+        _, without = figure_axis(span, step, (e for e in RIGID if e != effect))
         moved[effect] = np.linalg.norm(whole - without, axis=1) / MAS
     return years, moved
 
 
 def moved_by_response(step: str, span: Span = SPAN_OF_RESPONSE) -> FloatArray:
     """How far the response of the inside moves the figure axis, mas."""
-    _, rigid = figure_axis(span, step, ALL_BUT_NONRIGID)
-    _, whole = figure_axis(span, step, (*ALL_BUT_NONRIGID, NONRIGID))
+    _, rigid = figure_axis(span, step, RIGID)
+    _, whole = figure_axis(span, step, (*RIGID, NONRIGID.name))
     return np.asarray(np.linalg.norm(whole - rigid, axis=1) / MAS)
 
 
@@ -115,14 +114,15 @@ def bound(growth: Growth, years: FloatArray) -> FloatArray:
 
 def main(given: argparse.Namespace) -> int:
     """Print the table beside what stands; 1 if what stands is too small anywhere."""
-    years, moved = moved_by(ALL_BUT_NONRIGID, STEP)
+    years, moved = moved_by(RIGID, STEP)
     rows = {effect: tightest(years, of, bent=effect == BENT) for effect, of in moved.items()}
     response = moved_by_response(STEP)
-    rows[NONRIGID] = Growth(rounded_up(float(response.max())))
+    rows[NONRIGID.name] = Growth(rounded_up(float(response.max())))
     worst = {
-        effect: float(np.max(of / bound(SIZES[effect], years))) for effect, of in moved.items()
+        effect: float(np.max(of / bound(EFFECTS[effect].size, years)))
+        for effect, of in moved.items()
     }
-    worst[NONRIGID] = float(np.max(response)) / SIZES[NONRIGID].swing
+    worst[NONRIGID.name] = float(np.max(response)) / NONRIGID.size.swing
     print("effect        swing     rate      bend      largest over what the table claims")
     for effect, growth in rows.items():
         print(

@@ -12,14 +12,25 @@ from tests.mutants.tables import page, tally
 MUTANTS = load()
 #: Packages of which every module is a kernel: all save those that only hold names.
 PACKAGES = (
-    *("numerics", "mass", "rotor", "top", "torque", "motion", "interior", "wobble", "nutation"),
+    *(
+        "numerics",
+        "mass",
+        "rotor",
+        "top",
+        "torque",
+        "motion",
+        "motion/effects",
+        "interior",
+        "wobble",
+        "nutation",
+    ),
     "sky",
     *("choosing", "parts", "questions"),
 )
 NO_KERNEL = {"__init__", "_checks"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
-    *("units", "dates", "bodies", "constants", "scenes"),
+    *("units", "dates", "bodies/body", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
 )
 

@@ -14,11 +14,10 @@ from dataclasses import replace as _replace
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
-from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, Uncertainties
+from earthspin.bodies.kinds import CitedPeriod, Codes, Line, Magnitude, Moments, Uncertainties
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
-from earthspin.units import kind_of
 
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
@@ -90,7 +89,7 @@ class Body:
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
     """
 
-    name: str
+    name: Annotated[str, Line()]
     gm: Annotated[Numeric, Magnitude("m3/s2", "3.986e14 m3/s2")]
     naif: Annotated[tuple[int, ...], Codes()] = ()
     radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
@@ -109,12 +108,12 @@ class Body:
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # measured: `python -m data_tools windows`
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
-    interior: str | None = None
+    interior: Annotated[str | None, Line()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
-    reference: str = ""
+    reference: Annotated[str, Line()] = ""
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any]"
@@ -502,7 +501,7 @@ class Body:
 
 #: How each field is read and written.
 KINDS: dict[str, Any] = {
-    name: kind_of(hint)
+    name: hint.__metadata__[0]
     for name, hint in get_type_hints(Body, include_extras=True).items()
     if get_origin(hint) is not ClassVar
 }

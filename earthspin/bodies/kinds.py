@@ -8,7 +8,9 @@ from typing import Any
 
 from earthspin.constants import Constant
 from earthspin.errors import EarthspinError, Where
-from earthspin.units import Plain, pack, quantity, unpack
+
+#: What a scene file can hold. The border itself is loaded when there is something to read.
+Plain = Any
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,35 @@ class Magnitude:
             return _labelled(given, where)
         if hasattr(given, "dims"):
             return given
+        from earthspin.units import quantity
+
         return quantity(given, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
         """Give a number with its unit; an array as a table of its bytes, dims and labels."""
         if hasattr(value, "dims"):
+            from earthspin.units import pack
+
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
         return f"{float(value)!r} {self.unit}" if self.unit else value
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of text."""
+
+    words, hint = "a line of text", "str"
+
+    def read(self, given: object, where: Where) -> str:
+        """Check."""
+        if not isinstance(given, str):
+            raise where.error(given, f"it is {self.words}")
+        return given
+
+    def write(self, value: str) -> Plain:
+        """Give the text."""
+        return value
 
 
 @dataclass(frozen=True)
@@ -57,6 +80,8 @@ class Moments:
 
     def read(self, given: object, where: Where) -> list[Any]:
         """Read each."""
+        from earthspin.units import quantity
+
         if not isinstance(given, (list, tuple)) or len(given) != 3:
             raise where.error(given, "give three moments")
         return [quantity(one, "kg m2", where, "8.03e37 kg m2") for one in given]
@@ -89,6 +114,8 @@ class Uncertainties:
         """Read each; the body knows which names it has."""
         if not isinstance(given, Mapping):
             raise where.error(given, "give a table of one number for each field")
+        from earthspin.units import quantity
+
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in given.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
@@ -109,6 +136,8 @@ class CitedPeriod:
         """Take a constant, or a table of its fields."""
         if isinstance(given, Constant):
             return given
+        from earthspin.units import quantity
+
         try:
             table: dict[str, Any] = {"uncertainty": None} | dict(given)  # type: ignore[call-overload]
             for name in ("value", "uncertainty"):
@@ -139,6 +168,8 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
     import numpy as np
     import xarray as xr
 
+    from earthspin.units import unpack
+
     values = unpack(table, where)
     try:
         labels = {
@@ -155,6 +186,8 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 def _labels_of(array: Any) -> dict[str, Any]:
     """Labels of an array, of whatever kind, as tables."""
+    from earthspin.units import pack
+
     told: dict[str, Any] = {}
     for name, of in array.coords.items():
         floats = of.dtype.kind == "f" and of.size

@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.motion.geodesic import geodesic_rate
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.harmonics import zonal_torque
-from earthspin.torque.quadrupole import cross, quadrupole_torque, tidal_tensor
+from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +21,10 @@ FloatArray = NDArray[np.float64]
 Positions = Callable[[FloatArray], Mapping[str, FloatArray]]
 #: Rate of the angular momentum in units of C Omega, s-1, from figure axis and angular momentum.
 RateLaw = Callable[[FloatArray, FloatArray], FloatArray]
+#: Positions at the nodes of windows by name, each of shape (3, w, n), m.
+Places = Mapping[str, FloatArray]
+#: What an effect adds to l': the forces, the windows and the positions at their nodes to a rate.
+Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,8 +80,10 @@ class Forces:
         Where it stands; asked for the names in `gm` alone.
     near : tuple of str
         Those that count for J3, J4 and geodesic precession.
-    primary : str or None
-        The mass that is circled, if geodesic precession is switched on.
+    far : mapping of str to float
+        What may pull as well, m3 s-2: the planets.
+    torques : tuple of callable
+        What else turns the angular momentum.
     mean_pole : callable or None
         Times (t,) to unit vectors (t, 3). Given, torques are those on an axis that points
         there: second-order effects are switched off.
@@ -88,7 +93,8 @@ class Forces:
     gm: Mapping[str, float]
     positions: Positions
     near: tuple[str, ...] = ()
-    primary: str | None = None
+    far: Mapping[str, float] = field(default_factory=dict)
+    torques: tuple[Torque, ...] = ()
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
@@ -109,7 +115,7 @@ class Forces:
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
         mean = self._mean_pole_at(windows.times)
-        turn = self._geodesic(windows, place)
+        added = [torque(self, windows, place) for torque in self.torques]
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
             seen = axis if mean is None else mean
@@ -119,8 +125,8 @@ class Forces:
                     total += (figure.inverse_polar_moment / figure.spin_rate) * zonal_torque(
                         degree, coefficient, figure.radius, self.gm[name], place[name], seen
                     )
-            if turn is not None:
-                total += cross(turn, momentum)
+            for of in added:
+                total += of(axis, momentum)
             return total
 
         return rate, tensor
@@ -129,10 +135,3 @@ class Forces:
         if self.mean_pole is None:
             return None
         return np.ascontiguousarray(self.mean_pole(times.ravel()).T).reshape(3, *times.shape)
-
-    def _geodesic(self, windows: Windows, place: Mapping[str, FloatArray]) -> FloatArray | None:
-        if self.primary is None:
-            return None
-        near = {name: self.gm[name] for name in {self.primary, *self.near}}
-        velocity = {name: windows.derivative(place[name]) for name in near}
-        return geodesic_rate(near, place, velocity, self.primary)

@@ -29,8 +29,12 @@ def windows_on_offer(
     pulls: Pulls,
     epochs: TimeGrid | TimeList,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the pole; none where the sky was not measured."""
+    """Windows of the pole; none where sky or effects were not measured."""
     from earthspin.choosing.windows import window_choices
+    from earthspin.motion.effects import GEODESIC, MEASURED_WITH
+
+    if not set(effects) <= set(MEASURED_WITH):
+        return []
 
     forces = forces_of(body, pulls, effects)
     _, epoch = start_of(body, pulls)
@@ -45,7 +49,7 @@ def windows_on_offer(
         forces.figure,
         masses,
         (first, last),
-        geodesic=0.0 if forces.primary is None else forces.gm[forces.primary],
+        geodesic=forces.gm.get("sun", 0.0) if GEODESIC.name in effects else 0.0,
     )
 
 

@@ -13,7 +13,8 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
-from earthspin.parts.pulls import NONRIGID, Pulls, forces_of, start_of
+from earthspin.motion.effects import NONRIGID
+from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import refuse_what_does_not_fit
 from earthspin.progress import progress
@@ -158,7 +159,7 @@ def path_over(
 
 def rigid(effects: Sequence[str]) -> list[str]:
     """Effects that move a rigid body."""
-    return [effect for effect in effects if effect != NONRIGID]
+    return [effect for effect in effects if effect != NONRIGID.name]
 
 
 @part(unless=no_iau_model)

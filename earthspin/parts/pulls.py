@@ -4,36 +4,55 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import BODIES, PLANETS, Body
+from earthspin import bodies
+from earthspin.bodies import BODIES, Body
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.engine.question import key
+from earthspin.errors import Where
+from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
+from earthspin.units import Plain, Several, Word
 
 if TYPE_CHECKING:
     from earthspin.motion.forces import Forces
 
-#: What moves the axis beside the pull of the perturbers on the bulge.
-Effect = Literal[
-    "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-]
-NONRIGID = "nonrigid"
-ALL_BUT_NONRIGID = (
-    "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order",
-)  # fmt: skip
+
+class EffectWord:
+    """Kind of an effect: its word."""
+
+    @property
+    def hint(self) -> str:
+        """Type for editors."""
+        return Word(tuple(EFFECTS)).hint
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        return Word(tuple(EFFECTS)).words
+
+    def read(self, given: object, where: Where) -> str:
+        """Check."""
+        return Word(tuple(EFFECTS)).read(given, where)
+
+    def write(self, value: str) -> Plain:
+        """Give the word."""
+        return value
 
 
 class Moved(Series):
     """Keys of every question about axes that move under torques."""
 
-    effects: tuple[Effect, ...] = key(ALL_BUT_NONRIGID, doc="effects beside the main one")
+    effects: Annotated[tuple[str, ...], Several(EffectWord())] = key(
+        RIGID, doc="effects beside the main one"
+    )
 
 
 @dataclass(frozen=True)
@@ -79,8 +98,8 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
     """Masses and places of the perturbers, and of the planets if switched on."""
     masses = {p.name: p.number("gm") for p in perturbers}
     targets = dict(sky.targets)
-    if "planets" in effects:
-        for name in PLANETS:
+    if PLANETS.name in effects:
+        for name in bodies.PLANETS:
             if name not in masses and name != body.name:
                 masses[name] = float(BODIES[name].gm)
                 targets[name] = sky.ephemeris.code(BODIES[name].naif, name)
@@ -93,29 +112,26 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
     from earthspin.mass.inertia import inverse_polar_moment
     from earthspin.motion.forces import Figure, Forces
 
-    h, j2 = body.number("dynamical_flattening"), body.number("j2")
-    zonal = {n: body.number(f"j{n}") for n in (3, 4) if f"j{n}" in effects}
-    per_c = inverse_polar_moment(j2, h)
-    figure = Figure(
-        h=h,
-        spin_rate=2 * math.pi / body.number("spin_period"),
-        inverse_polar_moment=per_c,
-        radius=body.number("radius"),
-        zonal={n: value for n, value in zonal.items() if value},
-        j2_trend=body.number("j2_rate") / j2 if "j2-rate" in effects and j2 else 0.0,
-        triaxiality=per_c * body.number("triaxiality") if "triaxiality" in effects else 0.0,
-        meridian=body.number("meridian"),
-    )
-    names = tuple(pulls.gm) if "planets" in effects else pulls.near
-    pole = body.needed("pole")
-    return Forces(
-        figure=figure,
-        gm={name: pulls.gm[name] for name in names},
-        positions=lambda times: pulls.positions(names, times, keep),
+    h, pole = body.number("dynamical_flattening"), body.needed("pole")
+    forces = Forces(
+        figure=Figure(
+            h=h,
+            spin_rate=2 * math.pi / body.number("spin_period"),
+            inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
+            radius=body.number("radius"),
+            meridian=body.number("meridian"),
+        ),
+        gm={name: pulls.gm[name] for name in pulls.near},
+        far={name: gm for name, gm in pulls.gm.items() if name not in pulls.near},
+        positions=lambda times: {},
         near=pulls.near,
-        primary="sun" if "geodesic" in effects and "sun" in names else None,
-        mean_pole=None if "second-order" in effects else lambda times: pole.mean(times / DAY),
+        mean_pole=lambda times: pole.mean(times / DAY),
     )
+    for name, effect in EFFECTS.items():
+        if name in effects:
+            forces = effect.switch_on(forces, body)
+    names = tuple(forces.gm)
+    return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:

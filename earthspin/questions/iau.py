@@ -17,6 +17,7 @@ from earthspin.engine.labels import Schema, Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.parts.path import (
     Analysed,
     Shift,
@@ -26,7 +27,7 @@ from earthspin.parts.path import (
     pole_analysis,
     rigid,
 )
-from earthspin.parts.pulls import ALL_BUT_NONRIGID, NONRIGID, Moved, Pulls, pulls
+from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.progress import progress
@@ -92,7 +93,7 @@ def rates_by_effect(
             without[effect] = done.analysis.secular(done.pole(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
-    off = [e for e in (*ALL_BUT_NONRIGID, NONRIGID) if e not in on]
+    off = [effect for effect in EFFECTS if effect not in on]
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return budget_of(done.ours, done.theirs, without, off, precession_rates(0.0).psi_a, u_h)
 
@@ -236,7 +237,7 @@ def differences(
         models=tuple(models),
         plain=plain,
         fitted=without_line(days / 36525.0, plain.reshape(days.size, -1)).reshape(plain.shape),
-        chosen=2 if NONRIGID in effects else 1,
+        chosen=2 if NONRIGID.name in effects else 1,
         error=math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta)))),
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +15,7 @@ from earthspin.engine.labels import Variable, build, si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
-from earthspin.errors import UndefinedError
+from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     Shift,
@@ -25,7 +24,7 @@ from earthspin.parts.path import (
     nonrigid_shift,
     pole_analysis,
 )
-from earthspin.parts.pulls import ALL_BUT_NONRIGID, NONRIGID, Moved, pulls
+from earthspin.parts.pulls import Moved, pulls
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs
@@ -76,17 +75,17 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
     def check(self) -> None:
         """A response of the inside that is asked for must be known."""
         super().check()
-        if NONRIGID in self.effects and no_iau_model(self.body):
+        if NONRIGID.name in self.effects and no_iau_model(self.body):
             raise self.error(
                 "effects",
-                NONRIGID,
+                NONRIGID.name,
                 f"no response of the inside of {self.body.name} is known; leave it out",
             )
 
 
 def response_is_off(effects: tuple[str, ...]) -> str | None:
     """Leave the response of the inside out where it is switched off."""
-    return None if NONRIGID in effects else "the non-rigid response is switched off"
+    return None if NONRIGID.name in effects else "the non-rigid response is switched off"
 
 
 @part(unless=response_is_off)
@@ -156,21 +155,12 @@ def axes(
     return result
 
 
-#: An axis closer to the normal of the orbit than this has no longitude, rad.
-UPRIGHT = 2e-7
-
-
 def no_longitude(body: Body) -> str | None:
     """Angles need an orbit, and an axis that does not stand on it."""
-    from earthspin.sky.equator import angle
-
     pole = body.needed("pole")
-    try:
-        normal = pole.orbit_normal(body.orbit_pole)
-    except UndefinedError:
+    if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {body.name} has no orbit_pole"
-    tilt = angle(pole.true(0.0), normal)
-    if min(tilt, math.pi - tilt) < UPRIGHT:
+    if pole.is_upright(body.orbit_pole):
         return "the axis stands upright on the orbit: its longitude psi is not defined"
     return None
 
@@ -215,12 +205,9 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
         return Neglected(what=f"effects whose sizes were not measured for this {body.name}")
-    from earthspin.motion.neglected import SOURCE, size_of_effect
-
     reach = max(abs(day) for day in epochs.span())
-    off = [name for name in (*ALL_BUT_NONRIGID, NONRIGID) if name not in effects]
     return Neglected(
-        {name: size_of_effect(name, reach) for name in off},
+        {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},
         "mas",
         "largest change of direction that the model leaves out",
         SOURCE,

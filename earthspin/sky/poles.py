@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 
+#: An axis closer to the normal of the orbit than this has no longitude, rad.
+UPRIGHT = 2e-7
+
+
 class Direction(NamedTuple):
     """A direction in the ICRF.
 
@@ -75,6 +79,9 @@ class Pole(Protocol):
             If there is no orbit to refer to.
         """
 
+    def is_upright(self, orbit: Direction | None) -> bool:
+        """Whether it stands on that plane so closely that it has no longitude there."""
+
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to that plane and the equinox of J2000.0, shape (3, 3)."""
 
@@ -112,6 +119,15 @@ class FixedPole(Direction):
         if orbit is None:
             raise UndefinedError("precession is counted along the orbit; set the body's orbit_pole")
         return orbit.vector()
+
+    def is_upright(self, orbit: Direction | None) -> bool:
+        """Whether it is closer to the orbit's normal than `UPRIGHT`, either way up."""
+        if orbit is None:
+            return False
+        (ra, dec), (ra0, dec0) = self, orbit
+        half = math.sin((dec - dec0) / 2) ** 2
+        half += math.cos(dec) * math.cos(dec0) * math.sin((ra - ra0) / 2) ** 2
+        return min(half, 1 - half) < (UPRIGHT / 2) ** 2
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Plane of the orbit, from where the Sun crosses the equator northward."""
@@ -157,6 +173,10 @@ class IAU2006Pole:
         from earthspin.sky import iau
 
         return iau.ecliptic_pole()
+
+    def is_upright(self, orbit: Direction | None) -> bool:
+        """It is not: the obliquity stays near 23.4 degrees."""
+        return False
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Ecliptic and mean equinox of J2000.0."""

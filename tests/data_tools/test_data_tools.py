@@ -10,7 +10,7 @@ from data_tools.windows import rates, scatter
 from earthspin.bodies import EARTH, MARS, MOON, SUN
 from earthspin.choosing.choice import models
 from earthspin.constants import DAY
-from earthspin.motion.neglected import MEASURED, SIZES
+from earthspin.motion.effects import EFFECTS, MEASURED
 from earthspin.sky.ephemeris import Ephemeris
 
 
@@ -114,9 +114,9 @@ def test_the_table_of_what_is_neglected_holds(
     monkeypatch.setattr(neglected, "STEP", "29.9 d")
     assert main(["neglected"]) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()[1:]]
-    assert {row[0] for row in rows} == set(SIZES)
+    assert {row[0] for row in rows} == set(EFFECTS)
     for name, swing, rate, bend, worst in rows:
-        stands = SIZES[name]
+        stands = EFFECTS[name].size
         assert 0.8 < float(worst) <= 1
         reach = MEASURED / 365.25
         claimed = stands.swing + stands.rate * reach + stands.bend * reach**2

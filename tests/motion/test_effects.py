@@ -13,7 +13,7 @@ from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
-from earthspin.motion.geodesic import geodesic_rate
+from earthspin.motion.effects.geodesic import geodesic_rate, turned
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.torque.gravity import torque_from_position
@@ -89,7 +89,9 @@ def test_geodesic_precession_on_a_kepler_ellipse() -> None:
 
 def test_a_sphere_turns_with_the_geodesic_frame_alone(de421: Ephemeris) -> None:
     span = 365.25 * DAY
-    path = axis_path(forces(de421, figure(h=0.0), primary="sun"), NORTH, 0.0, (0.0, span))
+    path = axis_path(
+        forces(de421, figure(h=0.0), torques=(turned("sun"),)), NORTH, 0.0, (0.0, span)
+    )
     moved = path.at(np.array([span]))["figure"][0] - NORTH
     # 19.19 mas a year about the ecliptic's pole, 23.4 degrees away: towards -x
     assert abs(-moved[0] / UAS - 19194 * math.sin(math.radians(23.44))) < 9
@@ -100,7 +102,7 @@ def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch)
         raise AssertionError("this effect is switched off")
 
     monkeypatch.setattr(forces_module, "zonal_torque", never)
-    monkeypatch.setattr(forces_module, "geodesic_rate", never)
+    monkeypatch.setattr("earthspin.motion.effects.geodesic.geodesic_rate", never)
     monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
     axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
     zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]

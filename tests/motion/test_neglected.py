@@ -7,9 +7,8 @@ import pytest
 
 import earthspin
 from earthspin.constants import MAS
-from earthspin.motion.neglected import MEASURED, SIZES, size_of_effect
+from earthspin.motion.effects import EFFECTS, MEASURED, RIGID
 
-RIGID = tuple(effect for effect in SIZES if effect != "nonrigid")
 SPAN = ("1901-01-01", "2050-01-01", "17.3 d")
 
 
@@ -30,20 +29,20 @@ def moved(effect: str) -> tuple[np.ndarray, np.ndarray]:
     return days, np.linalg.norm(whole - figure_axis(others)[1], axis=1)
 
 
-@pytest.mark.parametrize("effect", SIZES)
+@pytest.mark.parametrize("effect", EFFECTS)
 def test_no_effect_is_larger_than_the_table_says(effect: str) -> None:
     days, off = moved(effect)
     if effect == "nonrigid":  # the response is known for our time
         near = days > -18263
         days, off = days[near], off[near]
-    bound = np.array([size_of_effect(effect, abs(day)) for day in days])
+    bound = np.array([EFFECTS[effect].size_at(abs(day)) for day in days])
     assert np.all(off <= bound)
 
 
-@pytest.mark.parametrize("effect", SIZES)
+@pytest.mark.parametrize("effect", EFFECTS)
 def test_no_effect_is_much_smaller_than_the_table_says(effect: str) -> None:
     days, off = moved(effect)
-    largest = size_of_effect(effect, float(np.abs(days).max()))
+    largest = EFFECTS[effect].size_at(float(np.abs(days).max()))
     assert off.max() >= largest / 1.3
     assert largest >= 1e-3 * MAS
 
@@ -54,8 +53,8 @@ def test_the_table_reaches_as_far_as_it_was_measured() -> None:
 
 
 def test_sizes_grow_with_the_time() -> None:
-    for effect in SIZES:
-        near, far, farther = (size_of_effect(effect, day) for day in (0.0, 18262.5, 36525.0))
+    for effect in EFFECTS:
+        near, far, farther = (EFFECTS[effect].size_at(day) for day in (0.0, 18262.5, 36525.0))
         assert 0 < near <= far <= farther
         if effect == "j2-rate":
             assert farther - near == pytest.approx(4 * (far - near), rel=1e-12, abs=0)
@@ -72,8 +71,8 @@ def test_a_path_says_what_it_leaves_out() -> None:
     )
     tree = earthspin.run_tree(scene)
     told = tree["neglected"].neglected_effect
-    assert set(told.effect.values) == set(SIZES) - {"planets", "second-order"}
+    assert set(told.effect.values) == set(EFFECTS) - {"planets", "second-order"}
     for effect in told.effect.values:
-        size = size_of_effect(str(effect), 3652.0) / MAS
+        size = EFFECTS[str(effect)].size_at(3652.0) / MAS
         assert float(told.sel(effect=effect)) == pytest.approx(size, rel=1e-12, abs=0)
     assert tree.attrs["neglected"].startswith("geodesic: 76.5 mas")

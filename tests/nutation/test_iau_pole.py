@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-from typing import get_args
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ import xarray as xr
 
 import earthspin
 from earthspin.constants import ARCSEC, EPSILON_0, PSI_A_RATE
-from earthspin.parts.pulls import Effect
+from earthspin.motion.effects import EFFECTS
 from earthspin.sky import iau
 from tests.conftest import load_pins
 
@@ -160,6 +159,6 @@ def test_effects_that_are_off_are_not_in_the_budget() -> None:
     )
     off = small.to_dataset().drop_sel(effect=["first-order", "geodesic", "nonrigid"])
     # their labels stand there for the section that gives their sizes
-    assert set(off.effect.values) == {*get_args(Effect)} - {"geodesic", "nonrigid"}
+    assert set(off.effect.values) == {*EFFECTS} - {"geodesic", "nonrigid"}
     assert not np.any(off[["psi_rate", "omega_rate"]].to_array())
     assert small["residuals/dpsi_sineps"].sizes == {"time": 2}

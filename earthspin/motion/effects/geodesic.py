@@ -14,11 +14,15 @@ turn is faster at perihelion: that is the geodesic nutation.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import SPEED_OF_LIGHT
+from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.forces import Forces, Places, RateLaw, Torque
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import cross
 
 FloatArray = NDArray[np.float64]
@@ -54,3 +58,31 @@ def geodesic_rate(
         its_own = velocity[name] + own
         total += scale * cross(2 * its_own - 1.5 * own, -place)
     return total
+
+
+def turned(primary: str) -> Torque:
+    """Make the turning of the local inertial frame about a mass that is circled a torque on l.
+
+    Parameters
+    ----------
+    primary : str
+        As for `geodesic_rate`.
+    """
+
+    def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
+        near = {name: forces.gm[name] for name in {primary, *forces.near}}
+        velocity = {name: windows.derivative(place[name]) for name in near}
+        rate = geodesic_rate(near, place, velocity, primary)
+        return lambda axis, momentum: cross(rate, momentum)
+
+    return over
+
+
+def _switch_on(forces: Forces, body: Numbers) -> Forces:
+    # about the Sun, where it is among what pulls
+    if "sun" not in forces.gm:
+        return forces
+    return replace(forces, torques=(*forces.torques, turned("sun")))
+
+
+GEODESIC = Effect("geodesic", _switch_on, Growth(0.0629, 7.64))

@@ -1,0 +1,19 @@
+"""The slow change of J2: the mantle still rises where the ice of the last glacial lay."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.forces import Forces
+
+
+def _switch_on(forces: Forces, body: Numbers) -> Forces:
+    j2 = body.number("j2")
+    if not j2:
+        return forces
+    trend = body.number("j2_rate") / j2
+    return replace(forces, figure=replace(forces.figure, j2_trend=trend))
+
+
+J2_RATE = Effect("j2-rate", _switch_on, Growth(0.00483, 0.0, 2.81e-4))

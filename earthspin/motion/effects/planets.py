@@ -1,0 +1,15 @@
+"""The planets, which pull on the bulge as the Sun does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.forces import Forces
+
+
+def _switch_on(forces: Forces, body: Numbers) -> Forces:
+    return replace(forces, gm={**forces.gm, **forces.far})
+
+
+PLANETS = Effect("planets", _switch_on, Growth(0.237, 0.125))

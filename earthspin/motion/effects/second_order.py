@@ -1,0 +1,15 @@
+"""The torque on the axis where it is, not where precession alone would have it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.forces import Forces
+
+
+def _switch_on(forces: Forces, body: Numbers) -> Forces:
+    return replace(forces, mean_pole=None)
+
+
+SECOND_ORDER = Effect("second-order", _switch_on, Growth(9.72, 0.179))

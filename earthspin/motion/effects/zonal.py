@@ -1,0 +1,23 @@
+"""The zonal harmonics J3 and J4 of the body, on which the nearest masses pull."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.forces import Forces
+
+
+def _harmonic(degree: int, size: Growth) -> Effect:
+    def switch_on(forces: Forces, body: Numbers) -> Forces:
+        coefficient = body.number(f"j{degree}")
+        if not coefficient:
+            return forces
+        zonal = {**forces.figure.zonal, degree: coefficient}
+        return replace(forces, figure=replace(forces.figure, zonal=zonal))
+
+    return Effect(f"j{degree}", switch_on, size)
+
+
+J3 = _harmonic(3, Growth(0.215))
+J4 = _harmonic(4, Growth(0.00163, 0.0101))
