@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 #: Parts of the package that have cases, in the order in which they run.
 PARTS = (
+    "numerics",
     "mass",
     "rotor",
     "top",

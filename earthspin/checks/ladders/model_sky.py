@@ -138,7 +138,7 @@ def positions(angles: FloatArray) -> dict[str, FloatArray]:
 
 def push(angles: FloatArray) -> FloatArray:
     """What makes the axis precess, Sun and Moon together, per unit of C - A, s-2, shape (n,)."""
-    from earthspin.checks.ladders.sky import GM
+    from earthspin.checks.sky import GM
     from earthspin.torque.average import precessing_push
     from earthspin.torque.gravity import torque_from_position
 

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.default_body import default_body
 from earthspin.checks.ladders import taylor
-from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
+from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting, plain
 from earthspin.constants import ARCSEC, DAY, J2000_JD
@@ -22,8 +21,6 @@ UAS = 1e-6 * ARCSEC
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-_BODY = default_body()
-H, SPIN = float(_BODY.needed("dynamical_flattening")), float(_BODY.spin_rate)
 #: What the stored reference hangs on.
 INPUTS = {
     "h": H,
@@ -145,40 +142,12 @@ def _picard(start: FloatArray, t: FloatArray, end: float, length: int, order: in
         forces = Forces(
             figure=Figure(h=H, spin_rate=SPIN),
             gm=GM,
-            positions=lambda times: kernel().positions(CODES, centre(), times / DAY),
+            positions=lambda times: positions(times / DAY),
         )
         path = axis_path(forces, start, 0.0, (0.0, end), window=length * DAY, order=order)
         return path.at(t)["figure"], path.windows.times.size
 
     return run
-
-
-class _Tide:
-    """Tidal tensor at any time, from Chebyshev series over pieces of two days."""
-
-    PIECE, NODES = 2 * DAY, 16
-
-    def __init__(self, end: float) -> None:
-        x = np.cos(np.pi * (np.arange(self.NODES) + 0.5) / self.NODES)
-        count = int(end / self.PIECE) + 2
-        times = self.PIECE * (np.arange(count)[:, np.newaxis] + (x + 1) / 2)
-        found = kernel().positions(CODES, centre(), times.ravel() / DAY)
-        tensor = np.zeros((times.size, 3, 3))
-        for name, r in found.items():
-            scale = GM[name] / np.linalg.norm(r, axis=1) ** 5
-            tensor += scale[:, None, None] * r[:, :, None] * r[:, None, :]
-        values = tensor.reshape(count, self.NODES, 9)
-        self._series = np.linalg.solve(
-            np.polynomial.chebyshev.chebvander(x, self.NODES - 1), values
-        )
-        self._degrees = np.arange(self.NODES)
-        self.calls = 0
-
-    def __call__(self, time: float) -> FloatArray:
-        self.calls += 1
-        piece = int(time / self.PIECE)
-        angle = np.arccos(min(max(2 * (time / self.PIECE - piece) - 1, -1.0), 1.0))
-        return np.asarray(np.cos(self._degrees * angle) @ self._series[piece]).reshape(3, 3)
 
 
 def _exact(start: FloatArray, momentum: FloatArray, t: FloatArray, end: float, rtol: float) -> Run:
@@ -187,7 +156,7 @@ def _exact(start: FloatArray, momentum: FloatArray, t: FloatArray, end: float, r
     times = np.concatenate([[0.0], t])
 
     def run() -> tuple[Any, int]:
-        tide = _Tide(end)
+        tide = Tide(end)
         _, axis = axisymmetric_motion(tide, H, SPIN, momentum, start, times, rtol=rtol)
         return axis[1:], tide.calls
 
@@ -209,7 +178,7 @@ def _attitude(
     times = np.concatenate([[0.0], t])
 
     def run() -> tuple[Any, int]:
-        tide = _Tide(end)
+        tide = Tide(end)
         _, turned = attitude_motion(tide, H, 0.0, SPIN, momentum, turn, times, rtol=rtol)
         return rotation_matrix(turned[1:])[:, :, 2], tide.calls
 
@@ -222,7 +191,7 @@ def _by_hand(start: FloatArray, t: FloatArray, method: str, rtol: float) -> Run:
 
     scale = 3 * H / SPIN
     kappa = (1 - H) / SPIN
-    legs = ((0, CODES["sun"]), (0, 3), (3, centre()), (3, CODES["moon"]))
+    legs = ((0, CODES["sun"]), (0, 3), (3, CENTRE), (3, CODES["moon"]))
     segments = [kernel()._segments[leg] for leg in legs]
 
     def rate(time: float, axis: FloatArray) -> FloatArray:

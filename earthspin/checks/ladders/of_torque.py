@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.ladders.sky import CODES, centre, kernel
+from earthspin.checks.sky import CENTRE, CODES, kernel, positions
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import J2000_JD, MAS
 
@@ -55,7 +55,7 @@ def ladder(quick: bool) -> Ladder:
 def reference(days: FloatArray) -> LongArray:
     """True directions of Sun and Moon, shape (2, n, 3)."""
     turn = long_matrix(days)
-    found = kernel().positions(CODES, centre(), days)
+    found = positions(days)
     place = np.stack([found[name] for name in CODES]).astype(np.longdouble)
     seen = np.sum(turn * place[:, :, np.newaxis, :], axis=-1)
     return np.asarray(seen / np.sqrt(np.sum(seen * seen, axis=-1))[..., np.newaxis])
@@ -176,7 +176,7 @@ def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
     """Directions of Sun and Moon, shape (2, n, 3)."""
     from earthspin.sky.equator import rotate
 
-    found = kernel().positions(CODES, centre(), days)
+    found = positions(days)
     seen = np.stack([rotate(turn, found[name]) for name in CODES])
     return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
 
@@ -196,7 +196,7 @@ def _skyfield(days: FloatArray) -> Callable[[], tuple[Any, int]]:
 
     def run() -> tuple[Any, int]:
         t = scale.tdb_jd(J2000_JD, days)
-        here, found = _skyfield_kernel()[centre()], []
+        here, found = _skyfield_kernel()[CENTRE], []
         for code in CODES.values():
             ra, dec, _ = (_skyfield_kernel()[code] - here).at(t).radec(epoch="date")
             across = np.cos(dec.radians)
