@@ -36,6 +36,14 @@ def positions(days: FloatArray) -> dict[str, FloatArray]:
     return kernel().positions(CODES, CENTRE, days)
 
 
+def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
+    """Directions of angles in rad, shape (n, 3)."""
+    across = np.cos(latitude)
+    return np.stack(
+        [across * np.cos(longitude), across * np.sin(longitude), np.sin(latitude)], axis=-1
+    )
+
+
 def chebyshev_pieces(
     of: Callable[[FloatArray], FloatArray], first: float, length: float, count: int, nodes: int
 ) -> FloatArray:
