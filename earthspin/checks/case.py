@@ -151,11 +151,6 @@ def _verdict(case: Case) -> tuple[float, str, str]:
     return measured, FAILS, f"{measured:.3g} is beyond the bound of {case.bound:.3g}"
 
 
-def apart(found: ArrayLike, true: ArrayLike) -> float:
-    """Largest difference of two arrays, over the largest size of the second."""
-    return float(np.max(np.abs(np.subtract(found, true))) / np.max(np.abs(true)))
-
-
 def _on_refusal(case: Case, line: str) -> tuple[float, str, str]:
     if "\n" in line:
         return math.inf, FAILS, f"the refusal is not one line: {_one_line(line)}"
@@ -168,6 +163,11 @@ def _on_refusal(case: Case, line: str) -> tuple[float, str, str]:
 
 def _one_line(text: str) -> str:
     return " ".join(text.split())
+
+
+def apart(found: ArrayLike, true: ArrayLike) -> float:
+    """Largest difference of two arrays, over the largest size of the second."""
+    return float(np.max(np.abs(np.subtract(found, true))) / np.max(np.abs(true)))
 
 
 @contextmanager

@@ -17,8 +17,9 @@ FloatArray = NDArray[np.float64]
 
 #: What spins, and is pulled.
 BODY = EARTH
-#: Its dynamical flattening, and spin rate in rad/s.
-H, SPIN = float(BODY.needed("dynamical_flattening")), float(BODY.spin_rate)
+#: Its dynamical flattening, J2, and spin rate in rad/s.
+H, J2 = float(BODY.needed("dynamical_flattening")), float(BODY.needed("j2"))
+SPIN = float(BODY.spin_rate)
 #: What pulls: GM (m3 s-2) and code of each; and the code of what is pulled.
 GM = {"sun": float(SUN.gm), "moon": float(MOON.gm)}
 CODES = {"sun": SUN.naif[0], "moon": MOON.naif[0]}

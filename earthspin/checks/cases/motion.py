@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import MOON, SUN
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
-from earthspin.checks.sky import BODY, CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
-from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
+from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.exact import axisymmetric_motion
@@ -32,9 +32,8 @@ FloatArray = NDArray[np.float64]
 
 CASES = Cases("motion")
 
-UAS = 1e-6 * ARCSEC
 YEAR = JULIAN_YEAR
-TRIAXIALITY = float(BODY.triaxiality) * H / float(BODY.needed("j2"))
+TRIAXIALITY = float(BODY.triaxiality) * H / J2
 #: Any direction near the pole.
 NORTH = np.array([2e-5, -3e-5, 1.0]) / np.linalg.norm([2e-5, -3e-5, 1.0])
 

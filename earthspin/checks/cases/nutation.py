@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases, Distances, hard_because, held_against
 from earthspin.checks.sky import SPIN, H
-from earthspin.constants import ARCSEC, DAY, SIDEREAL_YEAR
+from earthspin.constants import ARCSEC, DAY, SIDEREAL_YEAR, UAS
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
 from earthspin.nutation.budget import contributions
 from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis
@@ -20,7 +20,6 @@ FloatArray = NDArray[np.float64]
 
 CASES = Cases("nutation")
 
-UAS = 1e-6 * ARCSEC
 #: A century of days.
 DAYS = np.arange(-18000.0, 18000.0, 9.7)
 

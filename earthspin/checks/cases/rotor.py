@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
-from earthspin.checks.sky import BODY, SPIN, H
-from earthspin.constants import ARCSEC, JULIAN_YEAR
+from earthspin.checks.sky import BODY, J2, SPIN, H
+from earthspin.constants import JULIAN_YEAR, UAS
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.numerics import quaternion
 from earthspin.rotor.axisymmetric import SymmetricRotor, speed_and_cone
@@ -24,7 +24,6 @@ FloatArray = NDArray[np.float64]
 CASES = Cases("rotor")
 
 EPS = float(np.finfo(float).eps)
-UAS = 1e-6 * ARCSEC
 MOMENTS = [1.0, 2.0, 2.5]
 START = [0.7, -0.4, 0.2]
 
@@ -211,8 +210,8 @@ def _polhode() -> Distances:
 
 def _moments_of_a_planet() -> dict[str, float]:
     """In units of A, from J2 = (C - (A + B)/2)/(M a2), H, and B - A over M a2."""
-    j2, b_a = float(BODY.needed("j2")), float(BODY.triaxiality)
-    a, c_a = j2 / H - j2 - b_a / 2, j2 + b_a / 2  # C/(M a2) is J2/H
+    b_a = float(BODY.triaxiality)
+    a, c_a = J2 / H - J2 - b_a / 2, J2 + b_a / 2  # C/(M a2) is J2/H
     return {"A": 1.0, "B-A": b_a / a, "C-A": c_a / a}
 
 

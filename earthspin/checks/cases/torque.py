@@ -13,7 +13,7 @@ from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
-from earthspin.checks.sky import BODY, H
+from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import DAY, JULIAN_YEAR, G
 from earthspin.parts.sky import places, sky, stretch
 from earthspin.questions.pole import pole
@@ -37,7 +37,6 @@ FloatArray = NDArray[np.float64]
 CASES = Cases("torque")
 
 NORTH = np.array([0.0, 0.0, 1.0])
-J2 = float(BODY.needed("j2"))
 
 
 def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:

@@ -20,7 +20,7 @@ from earthspin.checks.case import (
     refused,
     without_folder,
 )
-from earthspin.constants import ARCSEC
+from earthspin.constants import UAS
 from earthspin.questions.polar_motion import (
     excitation,
     fit_chandler,
@@ -207,6 +207,6 @@ def _exponent() -> None:
 @held_against("excitation in proportion, and back, over its size", bound=2e-14)
 def _microarcsecond() -> Distances:
     s = resonance.chandler_frequency(PERIOD, 100.0)
-    chi = 1e-6 * ARCSEC * np.exp(0.3j * np.arange(2000.0))
+    chi = UAS * np.exp(0.3j * np.arange(2000.0))
     p = resonance.polar_motion_from(chi, 1.0, s)
     yield apart(resonance.excitation(p, 1.0, s), chi)

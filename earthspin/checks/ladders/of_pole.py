@@ -13,7 +13,7 @@ from earthspin.checks.ladders import taylor
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting, settings
-from earthspin.constants import ARCSEC, DAY, J2000_JD
+from earthspin.constants import DAY, J2000_JD, UAS
 from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
 from earthspin.motion.axes import axis_path
 from earthspin.motion.exact import axisymmetric_motion
@@ -24,7 +24,6 @@ FloatArray = NDArray[np.float64]
 #: Figure axes, and how often the sky or a slope was asked for.
 Found = tuple[FloatArray, int]
 
-UAS = 1e-6 * ARCSEC
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
