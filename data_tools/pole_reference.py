@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.ladders import of_pole
-from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
+from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, kernel
 from earthspin.constants import DAY, J2000_JD
 from earthspin.sky import iau
 
@@ -122,11 +122,11 @@ def _slope(tide: LongArray, state: LongArray) -> LongArray:
 
 
 def _kappa() -> Any:
-    return (1 - LONG(of_pole.H)) / LONG(of_pole.SPIN)
+    return (1 - LONG(H)) / LONG(SPIN)
 
 
 def _torque_scale() -> Any:
-    return 3 * LONG(of_pole.H) / LONG(of_pole.SPIN)
+    return 3 * LONG(H) / LONG(SPIN)
 
 
 # --- the sky -----------------------------------------------------------------------------------
@@ -147,7 +147,7 @@ def tides_of_steps(begin: NDArray[np.float64], step: float) -> list[LongArray]:
 def tidal_tensor(days: LongArray, record_at: LongArray) -> LongArray:
     """Sum of GM r r^T / r^5 over Sun and Moon, shape (..., 3, 3)."""
     total = np.zeros((*days.shape, 3, 3), dtype=LONG)
-    here = leg((3, centre()), days, record_at)
+    here = leg((3, CENTRE), days, record_at)
     to_sun = leg((0, CODES["sun"]), days, record_at) - leg((0, 3), days, record_at) - here
     to_moon = leg((3, CODES["moon"]), days, record_at) - here
     for name, r in (("sun", to_sun), ("moon", to_moon)):

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from earthspin.checks import stored
-from earthspin.checks.ladders import of_free_rotor, of_pole, of_spheroid, of_top
+from earthspin.checks.ladders import of_free_rotor, of_pole, of_spheroid, of_top, rotation
 from earthspin.sky import iau
 
 Numbers = Sequence[Any]
@@ -28,7 +28,7 @@ def free_rotor() -> Made:
 
     with mp.workdps(DIGITS):
         book = Textbook(of_free_rotor.MOMENTS, of_free_rotor.OMEGA)
-        times = _times(float(book.period), of_free_rotor)
+        times = _times(float(book.period))
         states = [book.at(time) for time in times]
         return of_free_rotor.INPUTS, {
             "times": _pairs(times),
@@ -45,7 +45,7 @@ def top() -> Made:
 
     with mp.workdps(DIGITS):
         book = Textbook(of_top.TOP)
-        times = _times(float(book.period), of_top)
+        times = _times(float(book.period))
         states = [book.at(time) for time in times]
         spin = mp.mpf(of_top.TOP["spin"])
         return of_top.TOP, {
@@ -97,11 +97,11 @@ MAKERS: dict[str, Callable[[], Made]] = {
 }
 
 
-def _times(period: float, module: Any) -> list[float]:
+def _times(period: float) -> list[float]:
     """Half of the times within a few periods, the other half up to the last."""
-    half = module.TIMES // 2
-    early = np.linspace(0, module.FEW_PERIODS, half + 1)[1:]
-    late = np.linspace(module.FEW_PERIODS, module.PERIODS, half + 1)[1:]
+    half = rotation.TIMES // 2
+    early = np.linspace(0, rotation.FEW_PERIODS, half + 1)[1:]
+    late = np.linspace(rotation.FEW_PERIODS, rotation.PERIODS, half + 1)[1:]
     return [float(time) for time in np.concatenate([early, late]) * period]
 
 

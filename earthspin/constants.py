@@ -95,6 +95,7 @@ DAY = 86400.0
 JULIAN_YEAR = 365.25 * DAY
 ARCSEC = math.pi / 648000.0
 MAS = ARCSEC / 1000.0
+UAS = 1e-6 * ARCSEC
 ARCSEC_PER_YEAR = ARCSEC / JULIAN_YEAR  # rad/s
 J2000_JD = 2451545.0
 MJD_0 = 2400000.5  # Julian date of the modified Julian date 0

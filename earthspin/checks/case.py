@@ -2,7 +2,15 @@
 
 A case measures how far a result is from what it is held against: an invariant, a closed form,
 another method. It runs with every warning and every overflow, division by zero and invalid
-operation of numpy made an error, so that nothing slips by unseen.
+operation of numpy made an error, so that nothing slips by unseen. It is written as
+
+    @CASES.case("what is tried")
+    @hard_because("what makes it extreme")
+    @held_against("what it has to agree with", bound=1e-14, unit="rad")
+    def _name() -> Distances:
+        yield found - true
+
+and one that has no answer with ``@refused("words of the refusal")`` in place of the third line.
 """
 
 from __future__ import annotations
@@ -10,17 +18,21 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from earthspin.errors import EarthspinError, UndefinedError
 
 HOLDS, REFUSED, FAILS = "holds", "refused", "fails"
+
+#: What a measure yields: numbers or arrays, the largest of whose sizes is the distance.
+Distances = Iterable[ArrayLike]
+Measure = Callable[[], Distances | None]
 
 #: What later versions of a library will change is none of a case's business.
 _NOT_NUMERICAL = (DeprecationWarning, PendingDeprecationWarning, FutureWarning, ImportWarning)
@@ -32,16 +44,16 @@ class Case:
 
     Attributes
     ----------
+    measure : callable
+        Yields distances from the reference; that of a refusal gives nothing.
+    held_against : str
+        The invariant or the independent reference; for a refusal, what it must say.
+    hard_because : str
+        What makes it hard.
     name : str
         In plain words, like no other.
     part : str
         Of the package.
-    hard_because : str
-        What makes it hard.
-    held_against : str
-        The invariant or the independent reference; for a refusal, what it must say.
-    measure : callable
-        Gives the distance from the reference; that of a refusal gives nothing.
     unit : str
         Of that distance; "1" for a pure number.
     bound : float
@@ -56,11 +68,11 @@ class Case:
         Run only when it is asked for.
     """
 
-    name: str
-    part: str
-    hard_because: str
+    measure: Measure
     held_against: str
-    measure: Callable[[], Any]
+    hard_because: str = ""
+    name: str = ""
+    part: str = ""
     unit: str = "1"
     bound: float = 0.0
     must_hold: bool = True
@@ -121,24 +133,20 @@ def _verdict(case: Case) -> tuple[float, str, str]:
             for kind in _NOT_NUMERICAL:
                 warnings.simplefilter("ignore", kind)
             warnings.filterwarnings("ignore", message="numpy.ndarray size changed")
-            answer = case.measure()
+            given = case.measure()
+            sizes = [] if given is None else [float(np.max(np.abs(one))) for one in given]
     except EarthspinError as error:
         return _on_refusal(case, str(error))
     except Exception as error:  # whatever else comes out is a defect, which is to be reported
         return math.inf, FAILS, _one_line(f"{type(error).__name__}: {error}")
     if case.refusal:
         return math.inf, FAILS, f"it answered where a refusal was due ('{case.refusal}')"
-    return _on_answer(case, answer)
-
-
-def _on_answer(case: Case, answer: Any) -> tuple[float, str, str]:
-    try:
-        measured = float(answer)
-    except (TypeError, ValueError):
-        return math.inf, FAILS, f"it gave no number but {type(answer).__name__}"
+    if not sizes:
+        return math.inf, FAILS, "it gave no distance"
+    measured = float(np.max(sizes))  # NaN if any of them is
     if math.isnan(measured):
         return math.inf, FAILS, "it gave a NaN"
-    if abs(measured) <= case.bound:
+    if measured <= case.bound:
         return measured, HOLDS, ""
     return measured, FAILS, f"{measured:.3g} is beyond the bound of {case.bound:.3g}"
 
@@ -157,6 +165,11 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
+def apart(found: ArrayLike, true: ArrayLike) -> float:
+    """Largest difference of two arrays, over the largest size of the second."""
+    return float(np.max(np.abs(np.subtract(found, true))) / np.max(np.abs(true)))
+
+
 @contextmanager
 def without_folder(path: Path) -> Iterator[None]:
     """Let a refusal name a file without the folder that it happens to lie in.
@@ -171,6 +184,22 @@ def without_folder(path: Path) -> Iterator[None]:
         raise UndefinedError(str(error).replace(str(path), path.name)) from None
 
 
+def held_against(reference: str, *, bound: float, unit: str = "1") -> Callable[[Measure], Case]:
+    """Make a measure a case that must hold: its distance from the reference is within a bound."""
+    return lambda measure: Case(measure=measure, held_against=reference, bound=bound, unit=unit)
+
+
+def refused(saying: str) -> Callable[[Measure], Case]:
+    """Make a measure a case that must be refused in these words."""
+    told = f"a refusal in one line that says '{saying}'"
+    return lambda measure: Case(measure=measure, held_against=told, must_hold=False, refusal=saying)
+
+
+def hard_because(reason: str) -> Callable[[Case], Case]:
+    """Say what makes a case hard."""
+    return lambda case: replace(case, hard_because=reason)
+
+
 class Cases(list[Case]):
     """The cases of one part, added where they are defined.
 
@@ -183,53 +212,11 @@ class Cases(list[Case]):
         super().__init__()
         self.part = part
 
-    def hold(
-        self,
-        name: str,
-        *,
-        because: str,
-        against: str,
-        bound: float,
-        unit: str = "1",
-        **rest: Any,
-    ) -> Callable[[Callable[[], Any]], Callable[[], Any]]:
-        """Add what follows as a case that must hold; arguments as of `Case`."""
+    def case(self, name: str, *, slow: bool = False, long: bool = False) -> Callable[[Case], Case]:
+        """Add what follows under a name; arguments as of `Case`."""
 
-        def add(measure: Callable[[], Any]) -> Callable[[], Any]:
-            self.append(
-                Case(
-                    name=name,
-                    part=self.part,
-                    hard_because=because,
-                    held_against=against,
-                    measure=measure,
-                    unit=unit,
-                    bound=bound,
-                    **rest,
-                )
-            )
-            return measure
-
-        return add
-
-    def refuse(
-        self, name: str, *, because: str, saying: str, **rest: Any
-    ) -> Callable[[Callable[[], Any]], Callable[[], Any]]:
-        """Add what follows as a case that must be refused in these words."""
-
-        def add(measure: Callable[[], Any]) -> Callable[[], Any]:
-            self.append(
-                Case(
-                    name=name,
-                    part=self.part,
-                    hard_because=because,
-                    held_against=f"a refusal in one line that says '{saying}'",
-                    measure=measure,
-                    must_hold=False,
-                    refusal=saying,
-                    **rest,
-                )
-            )
-            return measure
+        def add(case: Case) -> Case:
+            self.append(replace(case, name=name, part=self.part, slow=slow, long=long))
+            return self[-1]
 
         return add

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 #: Parts of the package that have cases, in the order in which they run.
 PARTS = (
+    "numerics",
     "mass",
     "rotor",
     "top",
@@ -128,20 +129,14 @@ def chosen_cases(
 
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
     """The dataset of cases and how they went."""
+    # the bound of an outcome goes before that of its case
+    rows = [
+        {"case_part": case.part} | vars(case) | vars(outcome)
+        for case, outcome in zip(cases, outcomes, strict=True)
+    ]
     result = build(
         SCHEMA,
-        {
-            "measured": [o.measured for o in outcomes],
-            "bound": [o.bound for o in outcomes],
-            "unit": [c.unit for c in cases],
-            "verdict": [o.verdict for o in outcomes],
-            "must_hold": [c.must_hold for c in cases],
-            "case_part": [c.part for c in cases],
-            "hard_because": [c.hard_because for c in cases],
-            "held_against": [c.held_against for c in cases],
-            "reason": [o.reason for o in outcomes],
-            "run_time": [o.run_time for o in outcomes],
-        },
+        {name: [row[name] for row in rows] for name in SCHEMA},
         coords={"case": ("case", [c.name for c in cases], {"long_name": "stiff or extreme case"})},
     )
     result.attrs = {

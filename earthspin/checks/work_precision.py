@@ -14,16 +14,19 @@ import gc
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.labels import Variable, build, from_si
+from earthspin._version import __version__
+from earthspin.engine.labels import CONVENTIONS, Variable, build, from_si
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import Advance, progress
 
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+V = TypeVar("V", int, float)
 
 #: Quantities, and the module of `earthspin.checks.ladders` that measures each.
 QUANTITIES: dict[str, str] = {
@@ -72,6 +76,21 @@ class Setting:
     words: str
     run: Callable[[], tuple[Any, int]]
     judged: Callable[[], Any] | None = None
+
+
+def settings(words: str, run: Callable[[V], tuple[Any, int]], values: Iterable[V]) -> list[Setting]:
+    """Settings that differ in one number.
+
+    Parameters
+    ----------
+    words : str
+        With braces in its place, e.g. ``"rtol {}"``.
+    run : callable
+        From that number.
+    values : iterable
+        From coarse to fine.
+    """
+    return [Setting(words.format(plain(value)), partial(run, value)) for value in values]
 
 
 @dataclass(frozen=True)
@@ -163,13 +182,13 @@ class Timing:
 
 @dataclass(frozen=True)
 class Point:
-    """A setting, measured; errors in SI, times in s."""
+    """A setting, measured; errors in SI, times in s; named as the variables of a result."""
 
-    words: str
+    setting: str
     error: float
     run_time: float
-    spread: float
-    warm_up: float
+    run_time_spread: float
+    warm_up_time: float
     evaluations: int
 
 
@@ -249,12 +268,12 @@ def _measured(setting: Setting, ladder: Ladder) -> Point:
     if setting.judged is not None:
         values = setting.judged()
     return Point(
-        words=setting.words,
+        setting=setting.words,
         # nothing is known below the error of the reference
         error=max(float(ladder.error(values)), ladder.reference_error),
         run_time=timing.median,
-        spread=timing.spread,
-        warm_up=timing.first,
+        run_time_spread=timing.spread,
+        warm_up_time=timing.first,
         evaluations=int(evaluations),
     )
 
@@ -342,22 +361,18 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
     """
     full = [[*row, *[row[-1]] * (ladder.rungs - len(row))] for row in points]
 
-    def table(of: Callable[[Point], Any]) -> Any:
-        return np.array([[of(point) for point in row] for row in full])
-
-    error, run_time = table(lambda p: p.error), table(lambda p: p.run_time)
+    measured = {
+        field.name: np.array([[getattr(point, field.name) for point in row] for row in full])
+        for field in fields(Point)
+    }
+    error = measured["error"]
     bound = np.array([method.bound for method in ladder.methods])
     ours = np.array([method.ours for method in ladder.methods])
     result = build(
         schema(ladder.unit),
-        {
-            "error": error,
-            "run_time": run_time,
-            "run_time_spread": table(lambda p: p.spread),
-            "warm_up_time": table(lambda p: p.warm_up),
-            "evaluations": table(lambda p: p.evaluations),
-            "setting": table(lambda p: p.words),
-            "pareto": pareto_front(error, run_time),
+        measured
+        | {
+            "pareto": pareto_front(error, measured["run_time"]),
             "at_floor": error < REFERENCE_MARGIN * ladder.reference_error,
             "ours": ours,
             "bound": bound,
@@ -395,11 +410,6 @@ def schema(unit: str) -> Mapping[str, Variable]:
 def _attributes(
     ladder: Ladder, points: Sequence[Sequence[Point]], quick: bool
 ) -> dict[str, str | float | int]:
-    from importlib.metadata import version
-
-    from earthspin._version import __version__
-    from earthspin.engine.labels import CONVENTIONS
-
     return {
         "title": f"Error against run time: {ladder.quantity}",
         "Conventions": CONVENTIONS,
@@ -433,7 +443,9 @@ def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
 def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: str) -> str:
     subject, factor = task or ladder.subject, from_si(ladder.unit)
     rows = [
-        _Row(point.error * factor, point.run_time, point.spread, method.name, point.words)
+        _Row(
+            point.error * factor, point.run_time, point.run_time_spread, method.name, point.setting
+        )
         for method, row in zip(ladder.methods, points, strict=True)
         for point in row
         if method.task == task and point.error <= ladder.useful

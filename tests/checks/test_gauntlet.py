@@ -15,7 +15,15 @@ import xarray as xr
 import earthspin
 from data_tools.stability import BEGIN, END, PAGE, with_tables
 from earthspin.checks import gauntlet
-from earthspin.checks.case import Case, Cases, judge
+from earthspin.checks.case import (
+    Case,
+    Cases,
+    Distances,
+    hard_because,
+    held_against,
+    judge,
+    refused,
+)
 from earthspin.checks.gauntlet import PARTS, all_cases, chosen_cases, labelled, tally
 from earthspin.cli import main
 from earthspin.engine import store
@@ -123,33 +131,46 @@ def test_bounds_are_near_what_was_measured(row: tuple[str, float, float]) -> Non
 
 
 def test_a_distance_within_the_bound_holds() -> None:
-    for measured in (0.0, -1.0, np.float64(0.5), np.array(0.2)):
-        found = judge(planted(lambda measured=measured: measured))
+    for measured in (0.0, -1.0, np.float64(0.5), np.array(0.2), xr.DataArray([0.1, -0.3]), True):
+        found = judge(planted(lambda measured=measured: [measured]))
         assert (found.verdict, found.reason, found.bound) == ("holds", "", 1.0)
-        assert found.measured == measured
+        assert found.measured == np.max(np.abs(measured))
         assert found.run_time >= 0
 
 
-def warn() -> float:
+def test_the_distance_is_the_largest_size_of_all_that_is_yielded() -> None:
+    def measure() -> Distances:
+        yield 0.1
+        yield np.array([[0.2, -0.9], [0.3, 0.0]])
+        yield -0.4j
+
+    assert judge(planted(measure)).measured == 0.9
+    assert judge(planted(measure, bound=0.8)).verdict == "fails"
+
+
+def warn() -> Distances:
+    yield 0.0
     warnings.warn("digits were lost", RuntimeWarning, stacklevel=1)
-    return 0.0
 
 
 @pytest.mark.parametrize(
     ("measure", "reason"),
     [
-        (lambda: math.nan, "NaN"),
-        (lambda: np.float64(math.nan), "NaN"),
-        (lambda: 1.5, "beyond the bound"),
-        (lambda: -1.5, "beyond the bound"),
-        (lambda: math.inf, "beyond the bound"),
-        (lambda: float(np.float64(1e300) * np.float64(1e300) > 0), "overflow"),
-        (lambda: float(np.zeros(1)[0] / np.zeros(1)[0] > 0), "invalid value"),
-        (lambda: float(1 / np.zeros(1)[0] < 0), "divide by zero"),
+        (lambda: [math.nan], "NaN"),
+        (lambda: [0.0, np.float64(math.nan)], "NaN"),
+        (lambda: [np.array([math.nan, 9.0]), 0.0], "NaN"),
+        (lambda: [0.0, 1.5], "beyond the bound"),
+        (lambda: [-1.5, 0.0], "beyond the bound"),
+        (lambda: [math.inf], "beyond the bound"),
+        (lambda: (np.float64(1e300) * x > 0 for x in [np.float64(1e300)]), "overflow"),
+        (lambda: (x / x > 0 for x in np.zeros(1)), "invalid value"),
+        (lambda: (1 / x < 0 for x in np.zeros(1)), "divide by zero"),
         (warn, "digits were lost"),
         (lambda: [][1], "IndexError"),
-        (lambda: None, "no number but NoneType"),
-        (lambda: "text", "no number but str"),
+        (lambda: None, "it gave no distance"),
+        (lambda: [], "it gave no distance"),
+        (lambda: 0.0, "not iterable"),
+        (lambda: ["text"], "TypeError"),
         (refusing(), "it was refused: it cannot be told"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
@@ -171,7 +192,7 @@ def test_an_expected_refusal_is_refused() -> None:
 @pytest.mark.parametrize(
     ("measure", "reason"),
     [
-        (lambda: 0.0, "answered where a refusal was due"),
+        (lambda: [0.0], "answered where a refusal was due"),
         (lambda: None, "answered where a refusal was due"),
         (refusing("quite another thing"), "does not say 'cannot be told'"),
         (refusing("it cannot be told\nin one line"), "not one line"),
@@ -190,16 +211,16 @@ def test_what_may_be_refused_is_refused() -> None:
 
 def test_judging_leaves_no_trace() -> None:
     before, filters = np.geterr(), list(warnings.filters)
-    judge(planted(lambda: 0.0))
+    judge(planted(lambda: [0.0]))
     judge(planted(warn))
     assert np.geterr() == before
     assert warnings.filters == filters
 
 
 def test_what_libraries_will_change_is_no_failure() -> None:
-    def measure() -> float:
+    def measure() -> Distances:
         warnings.warn("will be renamed", DeprecationWarning, stacklevel=1)
-        return 0.0
+        yield 0.0
 
     assert judge(planted(measure)).verdict == "holds"
 
@@ -207,18 +228,24 @@ def test_what_libraries_will_change_is_no_failure() -> None:
 def test_cases_are_added_where_they_are_defined() -> None:
     cases = Cases("top")
 
-    @cases.hold("one", because="b", against="a", bound=2.0, unit="mas")
-    def _one() -> float:
-        return 1.0
+    @cases.case("one", slow=True)
+    @hard_because("b")
+    @held_against("a", bound=2.0, unit="mas")
+    def _one() -> Distances:
+        yield 1.0
 
-    @cases.refuse("two", because="b", saying="no")
+    @cases.case("two")
+    @hard_because("c")
+    @refused("no")
     def _two() -> None: ...
 
-    assert [(c.name, c.part, c.must_hold, c.refusal) for c in cases] == [
-        ("one", "top", True, ""),
-        ("two", "top", False, "no"),
+    assert [(c.name, c.part, c.hard_because, c.must_hold, c.refusal) for c in cases] == [
+        ("one", "top", "b", True, ""),
+        ("two", "top", "c", False, "no"),
     ]
-    assert _one() == 1.0
+    assert cases == [_one, _two]
+    assert (_one.held_against, _one.bound, _one.unit, _one.slow) == ("a", 2.0, "mas", True)
+    assert _two.held_against == "a refusal in one line that says 'no'"
 
 
 # --- the dataset ---------------------------------------------------------------------------
@@ -282,12 +309,12 @@ def test_a_mistake_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "measure", [lambda: math.nan, lambda: 1 / 0, lambda: float(np.exp(np.float64(1e4)))]
+    "measure", [lambda: [math.nan], lambda: 1 / 0, lambda: [np.exp(np.float64(1e4))]]
 )
 def test_a_failure_is_told_and_is_the_exit_status(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, measure: Any
 ) -> None:
-    cases = (planted(lambda: 0.0, name="sound"), planted(measure))
+    cases = (planted(lambda: [0.0], name="sound"), planted(measure))
     monkeypatch.setattr(gauntlet, "all_cases", lambda: cases)
     assert main(["stability"]) == 1
     out = capsys.readouterr().out
@@ -297,8 +324,8 @@ def test_a_failure_is_told_and_is_the_exit_status(
 
 def test_tables_and_tally() -> None:
     cases = (
-        planted(lambda: 0.0, name="one"),
-        planted(lambda: 2.0, name="two", unit="mas"),
+        planted(lambda: [0.0], name="one"),
+        planted(lambda: [2.0], name="two", unit="mas"),
         planted(refusing("|a| is no"), name="three", must_hold=False, part="top"),
     )
     result = labelled(cases, [judge(case) for case in cases])

@@ -1,12 +1,9 @@
-"""A sky for the tests of this folder: Sun and Moon from the kernel, tides on demand."""
+"""A sky for the tests of this folder: Sun and Moon from the kernel."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BarycentricInterpolator
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC, DAY
@@ -35,30 +32,3 @@ def forces(kernel: Ephemeris, body: Figure | None = None, **changes: object) -> 
         positions=lambda times: kernel.positions(CODES, 399, times / DAY),
         **changes,  # type: ignore[arg-type]
     )
-
-
-def tide(kernel: Ephemeris, end: float) -> Callable[[float], FloatArray]:
-    """Tidal tensor at any time from 0 to `end`, from pieces of 2 d on Chebyshev nodes.
-
-    It shares no node, rule or formula with the windows of the solver.
-    """
-    piece = 2 * DAY
-    x = np.cos(np.pi * (np.arange(16) + 0.5) / 16)
-    weights = BarycentricInterpolator(x, np.zeros(16)).wi
-    count = int(end / piece) + 2
-    times = piece * (np.arange(count)[:, np.newaxis] + (x + 1) / 2)
-    found = kernel.positions(CODES, 399, times.ravel() / DAY)
-    tensor = sum(
-        GM[name]
-        * (r / (np.linalg.norm(r, axis=1) ** 5)[:, np.newaxis])[:, :, np.newaxis]
-        * r[:, np.newaxis, :]
-        for name, r in found.items()
-    )
-    values = np.asarray(tensor).reshape(count, 16, 9)
-
-    def at(time: float) -> FloatArray:
-        index = int(time / piece)
-        share = weights / (2 * (time / piece - index) - 1 - x)
-        return np.asarray(share @ values[index] / share.sum()).reshape(3, 3)
-
-    return at

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from earthspin.bodies import EARTH
+from earthspin.checks.sky import Tide
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.axes import AXES, axis_path, error_of_input, window_count
 from earthspin.motion.exact import axisymmetric_motion
 from earthspin.sky.ephemeris import Ephemeris
-from tests.motion.sky import NORTH, UAS, figure, forces, tide
+from tests.motion.sky import NORTH, UAS, figure, forces
 
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 YEAR = 365.25 * DAY
@@ -44,7 +45,7 @@ def test_a_thin_disc_and_its_opposite_against_the_exact_equations(
     times = np.linspace(0, span, 30)
     path = axis_path(forces(de421, figure(h=h)), NORTH, 0.0, (0.0, span))
     start = path.windows.evaluate(path.momentum, times[:1])[:, 0]
-    _, axis = axisymmetric_motion(tide(de421, span), h, SPIN, start, NORTH, times)
+    _, axis = axisymmetric_motion(Tide(span), h, SPIN, start, NORTH, times)
     # 0.5 and 3 uas measured; the axis moves by 250 arcsec
     assert largest(path.at(times)["figure"] - axis) < 10
     assert path.rounds <= 15
@@ -73,7 +74,7 @@ def test_a_spin_of_two_days_is_within_its_error(de421: Ephemeris) -> None:
     times = np.linspace(0, span, 60)
     path = axis_path(forces(de421, figure(spin_rate=spin)), NORTH, 0.0, (0.0, span))
     start = path.windows.evaluate(path.momentum, times[:1])[:, 0]
-    _, axis = axisymmetric_motion(tide(de421, span), H, spin, start, NORTH, times)
+    _, axis = axisymmetric_motion(Tide(span), H, spin, start, NORTH, times)
     off = largest(path.at(times)["figure"] - axis)
     assert off < 2 * path.error / UAS < 10
 

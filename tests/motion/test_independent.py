@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from earthspin.bodies import EARTH
+from earthspin.checks.sky import Tide
 from earthspin.constants import DAY
 from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.sky.ephemeris import Ephemeris
-from tests.motion.sky import NORTH, UAS, figure, forces, tide
+from tests.motion.sky import NORTH, UAS, figure, forces
 
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 TRIAXIALITY = EARTH.triaxiality * H / EARTH.j2
@@ -33,7 +34,7 @@ def uneven_path(de421: Ephemeris) -> AxisPath:
 def integrated(de421: Ephemeris, round_path: AxisPath) -> tuple[np.ndarray, np.ndarray]:
     """(L, F) by DOP853."""
     start = round_path.windows.evaluate(round_path.momentum, TIMES[:1])[:, 0]
-    return axisymmetric_motion(tide(de421, SPAN), H, SPIN, start, NORTH, TIMES)
+    return axisymmetric_motion(Tide(SPAN), H, SPIN, start, NORTH, TIMES)
 
 
 def apart(a: np.ndarray, b: np.ndarray) -> float:
@@ -65,7 +66,7 @@ def test_attitude_against_angular_momentum_and_figure(
     start = round_path.windows.evaluate(round_path.momentum, TIMES[:1])[:, 0]
     few = slice(0, 50)
     _, turn = attitude_motion(
-        tide(de421, SPAN),
+        Tide(SPAN),
         H,
         0.0,
         SPIN,
@@ -83,7 +84,7 @@ def test_attitude_of_a_triaxial_body(de421: Ephemeris, uneven_path: AxisPath) ->
     length = np.linalg.norm(uneven_path.windows.evaluate(uneven_path.momentum, few[:1])[:, 0])
     start = uneven_path.at(few[:1])
     momentum, turn = attitude_motion(
-        tide(de421, SPAN),
+        Tide(SPAN),
         H,
         TRIAXIALITY,
         SPIN,

@@ -13,7 +13,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.sky import GM, unit_vectors
 from earthspin.constants import DAY
+from earthspin.torque.average import precessing_push
+from earthspin.torque.gravity import torque_from_position
 
 FloatArray = NDArray[np.float64]
 
@@ -126,22 +129,13 @@ def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
 def positions(angles: FloatArray) -> dict[str, FloatArray]:
     """Sun and Moon along ecliptic and equinox, m, shape (n, 3) each."""
     longitude, distance = sun(angles[1])
-    flat = np.zeros_like(longitude)
-    of_sun = np.stack([np.cos(longitude), np.sin(longitude), flat], axis=-1)
-    moon_longitude, latitude, moon_distance = moon(angles)
-    across = np.cos(latitude)
-    of_moon = np.stack(
-        [across * np.cos(moon_longitude), across * np.sin(moon_longitude), np.sin(latitude)], -1
-    )
-    return {"sun": distance[:, np.newaxis] * of_sun, "moon": moon_distance[:, np.newaxis] * of_moon}
+    of_sun = distance[:, np.newaxis] * unit_vectors(longitude, 0 * longitude)
+    longitude, latitude, distance = moon(angles)
+    return {"sun": of_sun, "moon": distance[:, np.newaxis] * unit_vectors(longitude, latitude)}
 
 
 def push(angles: FloatArray) -> FloatArray:
     """What makes the axis precess, Sun and Moon together, per unit of C - A, s-2, shape (n,)."""
-    from earthspin.checks.ladders.sky import GM
-    from earthspin.torque.average import precessing_push
-    from earthspin.torque.gravity import torque_from_position
-
     place = positions(angles)
     torque = sum(torque_from_position(GM[name], 1.0, place[name], AXIS) for name in GM)
     return precessing_push(np.asarray(torque), AXIS, NORMAL)

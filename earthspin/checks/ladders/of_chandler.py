@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import DAY
+from earthspin.errors import UndefinedError
+from earthspin.wobble.observed import BAND, METHODS, fit, simulate
 
 Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
 
@@ -51,14 +53,10 @@ def best_scatter(years: float) -> float:
 @cache
 def record(years: float, seed: int) -> Record:
     """A simulated record: time (d) and polar motion (mas)."""
-    from earthspin.wobble.observed import simulate
-
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 
 def _methods(years: tuple[float, ...], records: int, excess: float) -> list[Method]:
-    from earthspin.wobble.observed import METHODS
-
     def settings(of: Callable[[Record], float]) -> list[Setting]:
         return [_setting(of, length, records) for length in years]
 
@@ -66,7 +64,7 @@ def _methods(years: tuple[float, ...], records: int, excess: float) -> list[Meth
         Method(
             name,
             True,
-            settings(lambda given, name=name: _fitted(name, given)),  # type: ignore[misc]
+            settings(partial(_fitted, name)),
             bound=EXCESS[name] * excess * best_scatter(years[-1]) * DAY,
         )
         for name in METHODS
@@ -84,9 +82,6 @@ def _setting(of: Callable[[Record], float], years: float, records: int) -> Setti
 
 
 def _fitted(name: str, given: Record) -> float:
-    from earthspin.errors import UndefinedError
-    from earthspin.wobble.observed import fit
-
     try:
         return fit(*given, name).period
     except UndefinedError:
@@ -95,8 +90,6 @@ def _fitted(name: str, given: Record) -> float:
 
 def _peak(given: Record) -> Any:
     """Highest line of the spectrum of the record less its line, in the wobble's band."""
-    from earthspin.wobble.observed import BAND
-
     time, p = given
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import MAS
+from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
 
 Complex = NDArray[np.complex128]
 FloatArray = NDArray[np.float64]
@@ -58,8 +59,6 @@ def ladder(quick: bool) -> Ladder:
 
 def frequency() -> complex:
     """Complex frequency of the wobble, rad/d."""
-    from earthspin.wobble.resonance import chandler_frequency
-
     return chandler_frequency(PERIOD, QUALITY)
 
 
@@ -110,25 +109,14 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 
 
 def _methods(span: float, steps: tuple[float, ...]) -> list[Method]:
-    from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION
-
-    to = [
-        _method(name, TO, steps, _to(scheme, span, name))
-        for name, scheme in zip(
-            ("exact mean", "central difference", "Wilson's filter"),
-            map(TO_EXCITATION.__getitem__, ("exact", "central difference", "wilson")),
-            strict=True,
-        )
+    few = steps[-3:]
+    return [
+        _method("exact mean", TO, steps, _to("exact", span)),
+        _method("central difference", TO, steps, _to("central difference", span, intervals=2)),
+        _method("Wilson's filter", TO, steps, _to("wilson", span)),
+        _method("exact step", FROM, steps, _from("exact", span)),
+        _method("explicit Euler", FROM, few, _from("explicit euler", span)),
     ]
-    back = [
-        _method(name, FROM, steps if name == "exact step" else steps[-3:], _from(scheme, span))
-        for name, scheme in zip(
-            ("exact step", "explicit Euler"),
-            map(FROM_EXCITATION.__getitem__, ("exact", "explicit euler")),
-            strict=True,
-        )
-    ]
-    return to + back
 
 
 def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Method:
@@ -144,22 +132,24 @@ def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Me
     )
 
 
-def _to(scheme: Callable[..., Complex], span: float, name: str) -> RunAt:
+def _to(scheme: str, span: float, intervals: int = 1) -> RunAt:
+    """Excitation by a scheme whose value at a sample speaks for so many intervals after it."""
+
     def run_at(step: float) -> Run:
         t = np.asarray(step * np.arange(round(span / step) + 1))
         p, s = true_polar_motion(t), frequency()
-        # A central difference speaks for the two intervals about its sample.
-        wide = 2 * step if name == "central difference" else step
-        true = true_mean(t[: t.size - round(wide / step)], wide)
-        return lambda: ((scheme(p, step, s), true), t.size)
+        true = true_mean(t[: t.size - intervals], intervals * step)
+        return lambda: ((TO_EXCITATION[scheme](p, step, s), true), t.size)
 
     return run_at
 
 
-def _from(scheme: Callable[..., Complex], span: float) -> RunAt:
+def _from(scheme: str, span: float) -> RunAt:
+    """Polar motion by a scheme that takes the mean excitation of each interval."""
+
     def run_at(step: float) -> Run:
         t = np.asarray(step * np.arange(round(span / step) + 1))
         chi, true, s = true_mean(t[:-1], step), true_polar_motion(t), frequency()
-        return lambda: ((scheme(chi, step, s, START), true), t.size)
+        return lambda: ((FROM_EXCITATION[scheme](chi, step, s, START), true), t.size)
 
     return run_at

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
-from earthspin.checks.default_body import default_body
 from earthspin.checks.ladders import taylor
-from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
+from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, Setting, plain
-from earthspin.constants import ARCSEC, DAY, J2000_JD
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.constants import DAY, J2000_JD, UAS
+from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
+from earthspin.motion.axes import axis_path
+from earthspin.motion.exact import axisymmetric_motion
+from earthspin.motion.forces import Figure, Forces
+from earthspin.motion.triaxial import equatorial_basis
 
 FloatArray = NDArray[np.float64]
-Run = Callable[[], tuple[Any, int]]
+#: Figure axes, and how often the sky or a slope was asked for.
+Found = tuple[FloatArray, int]
 
-UAS = 1e-6 * ARCSEC
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-_BODY = default_body()
-H, SPIN = float(_BODY.needed("dynamical_flattening")), float(_BODY.spin_rate)
 #: What the stored reference hangs on.
 INPUTS = {
     "h": H,
@@ -40,6 +43,9 @@ WINDOWS = {
     32: (6, 8, 12, 16),
 }
 PICARD_BOUNDS = {4: 5e-4, 8: 5e-4, 16: 5e-3, 32: 5e3}
+#: Of the solvers that follow each turn: no step is ever longer than a radian of it, so that
+#: tolerances hardly matter.
+TOLERANCE = 1e-9
 #: Steps of half the length change the reference by 1e-21, and no more free motion is left, rad.
 REFERENCE_ERROR = 1e-19
 
@@ -52,6 +58,26 @@ def days() -> FloatArray:
     return np.concatenate([np.sort(early), np.sort(late)]) / 4
 
 
+@dataclass(frozen=True)
+class Motion:
+    """What is followed.
+
+    Attributes
+    ----------
+    start, momentum : ndarray, shape (3,)
+        Figure axis, and angular momentum in units of C Omega, at J2000.0.
+    times : ndarray, shape (n,)
+        At which the figure axis is asked for, s.
+    end : float
+        Of the span, s.
+    """
+
+    start: FloatArray
+    momentum: FloatArray
+    times: FloatArray
+    end: float
+
+
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     true = load("pole", INPUTS)
@@ -59,6 +85,9 @@ def ladder(quick: bool) -> Ladder:
     span = FEW_DAYS if quick else DAYS
     figure = true["figure"][wanted]
     words = f"{span:g} days" if quick else f"{span / 365:g} years"
+    motion = Motion(
+        true["start_axis"].hi, true["start_momentum"].hi, true["days"].hi[wanted] * DAY, span * DAY
+    )
     return Ladder(
         quantity="pole",
         unit="uas",
@@ -68,7 +97,7 @@ def ladder(quick: bool) -> Ladder:
         reference="angular momentum and figure axis in long double by extrapolation of order 20 "
         "in steps of 3 hours",
         reference_error=REFERENCE_ERROR,
-        methods=_methods(true, true["days"].hi[wanted] * DAY, span * DAY, quick),
+        methods=_methods(motion, quick),
         error=lambda found: _error(found, figure),
         useful=1e6 * UAS,
         skipped="" if taylor.is_installed() else "heyoka, which is not installed",
@@ -80,149 +109,81 @@ def _error(found: FloatArray, figure: Values) -> float:
     return float(np.max(np.linalg.norm(figure.error_of(found), axis=1)))
 
 
-def _methods(true: dict[str, Values], t: FloatArray, end: float, quick: bool) -> list[Method]:
-    start, momentum = true["start_axis"].hi, true["start_momentum"].hi
-    picard = [
+def _methods(motion: Motion, quick: bool) -> list[Method]:
+    methods = [
         Method(
             f"Picard, {length} d",
             True,
-            [
-                Setting(f"{order} nodes", _picard(start, t, end, length, order))
-                for order in (orders[1::3] if quick else orders)
-            ],
+            settings("{} nodes", partial(_picard, motion, length), nodes[1::3] if quick else nodes),
             bound=PICARD_BOUNDS[length] * UAS,
         )
-        for length, orders in WINDOWS.items()
+        for length, nodes in WINDOWS.items()
         if not quick or length == 8
     ]
-    # Neither step is ever longer than a radian of the daily turn: tolerances hardly matter.
-    fine, loose = 1e-9, (1e-6,) if quick else (1e-6, 1e-8)
-    return [
-        *picard,
-        Method(
-            "momentum and figure axis",
-            True,
-            [Setting("DOP853", _exact(start, momentum, t, end, fine))],
-            bound=5e-4 * UAS,
-        ),
-        Method(
-            "whole attitude",
-            True,
-            [Setting("DOP853", _attitude(start, momentum, t, end, fine))],
-            bound=5e-3 * UAS,
-        ),
-        *(
-            Method(
-                f"{name} on the pole alone",
-                False,
-                [Setting(f"rtol {plain(r)}", _by_hand(start, t, name, r)) for r in loose],
-            )
-            for name in (("LSODA",) if quick else ("RK45", "LSODA", "DOP853"))
-        ),
-        *([_peer(start, momentum, t)] if taylor.is_installed() else []),
+    methods += [
+        Method(name, True, [Setting("DOP853", partial(solver, motion))], bound=bound * UAS)
+        for name, solver, bound in (
+            ("momentum and figure axis", _exact, 5e-4),
+            ("whole attitude", _attitude, 5e-3),
+        )
     ]
-
-
-def _peer(start: FloatArray, momentum: FloatArray, t: FloatArray) -> Method:
-    """Taylor series of angular momentum and figure axis by heyoka."""
-
-    def setting(tolerance: float) -> Setting:
-        return Setting(
-            f"tolerance {plain(tolerance)}",
-            lambda: taylor.figure_axis(
-                momentum, start, t / DAY, h=H, spin_rate=SPIN, tolerance=tolerance
-            ),
+    loose = (1e-6,) if quick else (1e-6, 1e-8)
+    methods += [
+        Method(
+            f"{name} on the pole alone",
+            False,
+            settings("rtol {}", partial(_by_hand, motion, name), loose),
         )
-
-    return Method("Taylor series by heyoka", False, [setting(v) for v in (1e-9, 1e-12, 1e-16)])
-
-
-def _picard(start: FloatArray, t: FloatArray, end: float, length: int, order: int) -> Run:
-    from earthspin.motion.axes import axis_path
-    from earthspin.motion.forces import Figure, Forces
-
-    def run() -> tuple[Any, int]:
-        forces = Forces(
-            figure=Figure(h=H, spin_rate=SPIN),
-            gm=GM,
-            positions=lambda times: kernel().positions(CODES, centre(), times / DAY),
-        )
-        path = axis_path(forces, start, 0.0, (0.0, end), window=length * DAY, order=order)
-        return path.at(t)["figure"], path.windows.times.size
-
-    return run
+        for name in (("LSODA",) if quick else ("RK45", "LSODA", "DOP853"))
+    ]
+    if taylor.is_installed():
+        series = settings("tolerance {}", partial(_peer, motion), (1e-9, 1e-12, 1e-16))
+        methods.append(Method("Taylor series by heyoka", False, series))
+    return methods
 
 
-class _Tide:
-    """Tidal tensor at any time, from Chebyshev series over pieces of two days."""
-
-    PIECE, NODES = 2 * DAY, 16
-
-    def __init__(self, end: float) -> None:
-        x = np.cos(np.pi * (np.arange(self.NODES) + 0.5) / self.NODES)
-        count = int(end / self.PIECE) + 2
-        times = self.PIECE * (np.arange(count)[:, np.newaxis] + (x + 1) / 2)
-        found = kernel().positions(CODES, centre(), times.ravel() / DAY)
-        tensor = np.zeros((times.size, 3, 3))
-        for name, r in found.items():
-            scale = GM[name] / np.linalg.norm(r, axis=1) ** 5
-            tensor += scale[:, None, None] * r[:, :, None] * r[:, None, :]
-        values = tensor.reshape(count, self.NODES, 9)
-        self._series = np.linalg.solve(
-            np.polynomial.chebyshev.chebvander(x, self.NODES - 1), values
-        )
-        self._degrees = np.arange(self.NODES)
-        self.calls = 0
-
-    def __call__(self, time: float) -> FloatArray:
-        self.calls += 1
-        piece = int(time / self.PIECE)
-        angle = np.arccos(min(max(2 * (time / self.PIECE - piece) - 1, -1.0), 1.0))
-        return np.asarray(np.cos(self._degrees * angle) @ self._series[piece]).reshape(3, 3)
-
-
-def _exact(start: FloatArray, momentum: FloatArray, t: FloatArray, end: float, rtol: float) -> Run:
-    from earthspin.motion.exact import axisymmetric_motion
-
-    times = np.concatenate([[0.0], t])
-
-    def run() -> tuple[Any, int]:
-        tide = _Tide(end)
-        _, axis = axisymmetric_motion(tide, H, SPIN, momentum, start, times, rtol=rtol)
-        return axis[1:], tide.calls
-
-    return run
-
-
-def _attitude(
-    start: FloatArray, momentum: FloatArray, t: FloatArray, end: float, rtol: float
-) -> Run:
-    from earthspin.motion.attitude import (
-        attitude_motion,
-        quaternion_from_matrix,
-        rotation_matrix,
+def _picard(motion: Motion, length: int, order: int) -> Found:
+    """What the package does: windows of so many days, with so many nodes."""
+    forces = Forces(
+        figure=Figure(h=H, spin_rate=SPIN),
+        gm=GM,
+        positions=lambda times: positions(times / DAY),
     )
-    from earthspin.motion.triaxial import equatorial_basis
-
-    x = equatorial_basis(start)[0]
-    turn = quaternion_from_matrix(np.stack([x, np.cross(start, x), start], axis=1))
-    times = np.concatenate([[0.0], t])
-
-    def run() -> tuple[Any, int]:
-        tide = _Tide(end)
-        _, turned = attitude_motion(tide, H, 0.0, SPIN, momentum, turn, times, rtol=rtol)
-        return rotation_matrix(turned[1:])[:, :, 2], tide.calls
-
-    return run
+    span = (0.0, motion.end)
+    path = axis_path(forces, motion.start, 0.0, span, window=length * DAY, order=order)
+    return path.at(motion.times)["figure"], path.windows.times.size
 
 
-def _by_hand(start: FloatArray, t: FloatArray, method: str, rtol: float) -> Run:
+def _exact(motion: Motion) -> Found:
+    tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
+    _, axis = axisymmetric_motion(
+        tide, H, SPIN, motion.momentum, motion.start, times, rtol=TOLERANCE
+    )
+    return axis[1:], tide.calls
+
+
+def _attitude(motion: Motion) -> Found:
+    tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
+    x = equatorial_basis(motion.start)[0]
+    start = quaternion_from_matrix(np.stack([x, np.cross(motion.start, x), motion.start], axis=1))
+    _, turned = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
+    return rotation_matrix(turned[1:])[:, :, 2], tide.calls
+
+
+def _peer(motion: Motion, tolerance: float) -> Found:
+    """Taylor series of angular momentum and figure axis by heyoka."""
+    days = motion.times / DAY
+    return taylor.figure_axis(
+        motion.momentum, motion.start, days, h=H, spin_rate=SPIN, tolerance=tolerance
+    )
+
+
+def _by_hand(motion: Motion, method: str, rtol: float) -> Found:
     """Integrate the angular momentum, torque taken along it; then tilt it to the first order."""
-    from scipy.integrate import solve_ivp
-
+    start, t = motion.start, motion.times
     scale = 3 * H / SPIN
     kappa = (1 - H) / SPIN
-    legs = ((0, CODES["sun"]), (0, 3), (3, centre()), (3, CODES["moon"]))
+    legs = ((0, CODES["sun"]), (0, 3), (3, CENTRE), (3, CODES["moon"]))
     segments = [kernel()._segments[leg] for leg in legs]
 
     def rate(time: float, axis: FloatArray) -> FloatArray:
@@ -234,13 +195,8 @@ def _by_hand(start: FloatArray, t: FloatArray, method: str, rtol: float) -> Run:
             total += gm * (r @ axis) / (r @ r) ** 2.5 * np.cross(r, axis)
         return scale * total
 
-    def run() -> tuple[Any, int]:
-        momentum = start + kappa * np.cross(start, rate(0.0, start))
-        done = solve_ivp(
-            rate, (0.0, t[-1]), momentum, method, t_eval=t, rtol=rtol, atol=1e-3 * rtol
-        )
-        axes = done.y.T
-        tilts = [kappa * np.cross(a, rate(time, a)) for time, a in zip(t, axes, strict=True)]
-        return axes - np.stack(tilts), done.nfev
-
-    return run
+    momentum = start + kappa * np.cross(start, rate(0.0, start))
+    done = solve_ivp(rate, (0.0, t[-1]), momentum, method, t_eval=t, rtol=rtol, atol=1e-3 * rtol)
+    axes = done.y.T
+    tilts = [kappa * np.cross(a, rate(time, a)) for time, a in zip(t, axes, strict=True)]
+    return axes - np.stack(tilts), done.nfev

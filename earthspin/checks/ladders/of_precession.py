@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from earthspin.checks.ladders import model_sky
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.torque.average import TAPERS, Window
 
 FloatArray = NDArray[np.float64]
 
@@ -52,8 +53,6 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _methods(epochs: FloatArray, quick: bool) -> list[Method]:
-    from earthspin.torque.average import TAPERS
-
     windows = QUICK_WINDOWS if quick else WINDOWS
     ours = [
         Method(
@@ -77,7 +76,6 @@ def _methods(epochs: FloatArray, quick: bool) -> list[Method]:
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
     """A window of this length about one epoch, timed, and about all, judged."""
-    from earthspin.torque.average import Window
 
     def mean_about(epoch: float, push: Callable[[FloatArray], FloatArray]) -> tuple[float, int]:
         window = Window(epoch * DAY, 1.0, length, taper)

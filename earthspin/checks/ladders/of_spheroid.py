@@ -7,10 +7,15 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
+from earthspin.checks.sky import unit_vectors
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.mass.maccullagh import maccullagh_torque
+from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
+from earthspin.mass.zonal import spheroid_zonals
 
 FloatArray = NDArray[np.float64]
 Field = Callable[[Any], tuple[Any, Any]]
@@ -28,12 +33,8 @@ def points() -> FloatArray:
 
     Rounded to 2^-30, so that they are the same wherever they are made.
     """
-    latitude = np.radians(LATITUDES)
-    azimuth = 0.3 + np.arange(latitude.size)
-    across = np.cos(latitude)
-    direction = np.stack(
-        [across * np.cos(azimuth), across * np.sin(azimuth), np.sin(latitude)], axis=-1
-    )
+    azimuth = np.arange(0.3, len(LATITUDES))
+    direction = unit_vectors(azimuth, np.radians(LATITUDES))
     direction = np.round(direction * 2.0**30) / 2.0**30
     return np.concatenate([distance * direction for distance in DISTANCES])
 
@@ -103,11 +104,8 @@ def _methods(place: FloatArray, quick: bool) -> list[Method]:
 
 
 def _exact(r: FloatArray) -> tuple[Any, Any]:
-    from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
-
-    return spheroid_attraction(1.0, 1.0, FLATTENING, r), spheroid_torque(
-        1.0, 1.0, FLATTENING, 1.0, r
-    )
+    attraction = spheroid_attraction(1.0, 1.0, FLATTENING, r)
+    return attraction, spheroid_torque(1.0, 1.0, FLATTENING, 1.0, r)
 
 
 def _torque(push: Any, r: Any) -> Any:
@@ -117,10 +115,6 @@ def _torque(push: Any, r: Any) -> Any:
 
 def _series(r: FloatArray, n_max: int) -> tuple[Any, Any]:
     """Zonal series by Legendre polynomials and their derivatives."""
-    from numpy.polynomial import legendre
-
-    from earthspin.mass.zonal import spheroid_zonals
-
     zonals = spheroid_zonals(FLATTENING, n_max)
     distance = np.linalg.norm(r, axis=1)
     u = r[:, 2] / distance
@@ -138,8 +132,6 @@ def _series(r: FloatArray, n_max: int) -> tuple[Any, Any]:
 
 def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
     """Monopole and C - A alone (I.9.31, I.9.32)."""
-    from earthspin.mass.maccullagh import maccullagh_torque
-
     bulge = (1 - (1 - FLATTENING) ** 2) / 5
     square = np.sum(r * r, axis=1)
     distance = np.sqrt(square)

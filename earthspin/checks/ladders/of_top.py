@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
-from earthspin.checks.stored import load, rotation_error
-from earthspin.checks.work_precision import Ladder, Method, Setting, plain
+from earthspin.checks.ladders.rotation import FEW_FINE, FINE, Rotation, ladder_of_rotation
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.top.integration import integrate_heavy_top
+from earthspin.top.motion import heavy_top_motion
+from earthspin.top.start import HeavyTop
 
 FloatArray = NDArray[np.float64]
 
@@ -24,82 +27,55 @@ TOP = {
     "theta_rate": 0.3,
     "psi": 0.2,
 }
-#: Nutations that are followed. Half of the stored times lie within the first few.
-PERIODS, FEW_PERIODS = 100.0, 5.0
-TIMES = 40
-
-ROUNDING = 1e-28
 
 
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
-    true = load("top", TOP)
-    wanted = slice(0, TIMES // 2 if quick else TIMES)
-    t = true["times"].hi[wanted]
-    omega, attitude = true["omega"][wanted], true["attitude"][wanted]
-    span = f"{FEW_PERIODS if quick else PERIODS:g} nutations of a heavy top"
-    return Ladder(
-        quantity="top",
-        unit="1",
-        problem=f"{span} that goes in loops, at {t.size} times; the error is the largest of the "
-        "angular velocity, relative to its size, and of the attitude, in rad",
-        subject=span,
-        reference="the textbook's closed form (I.7.9 to I.7.17) with 80 digits, kept to 32",
-        reference_error=ROUNDING,
-        methods=_methods(t, quick),
-        useful=0.1,
-        error=lambda found: rotation_error(found, omega, attitude),
+    return ladder_of_rotation(
+        "top",
+        TOP,
+        quick,
+        periods="nutations of a heavy top",
+        detail=" that goes in loops",
+        reference="the textbook's closed form (I.7.9 to I.7.17)",
+        methods=_methods,
     )
 
 
 def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    fine = (1e-4, 1e-8) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-13)
+    fine = FEW_FINE if quick else FINE
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     return [
-        Method("closed form", True, [Setting("", _closed_form(t))], bound=5e-13),
+        Method("closed form", True, [Setting("", partial(_closed_form, t))], bound=5e-13),
         Method(
             "integrate_heavy_top",
             True,
-            [Setting(f"DOP853, rtol {plain(rtol)}", _integrated(t, rtol)) for rtol in fine],
+            settings("DOP853, rtol {}", partial(_integrated, t), fine),
             bound=1e-3 if quick else 1e-9,
         ),
         *(
             Method(
                 f"Euler angles, {name}",
                 False,
-                [Setting(f"rtol {plain(rtol)}", _by_hand(t, name, rtol)) for rtol in steps],
+                settings("rtol {}", partial(_by_hand, t, name), steps),
             )
             for name, steps in (("RK45", coarse), ("LSODA", coarse), ("DOP853", fine))
         ),
     ]
 
 
-def _closed_form(t: FloatArray) -> Callable[[], tuple[Any, int]]:
-    from earthspin.top.motion import heavy_top_motion
-    from earthspin.top.start import HeavyTop
-
-    def run() -> tuple[Any, int]:
-        motion = heavy_top_motion(HeavyTop(**TOP), t)
-        return (motion.omega_body, motion.attitude), t.size
-
-    return run
+def _closed_form(t: FloatArray) -> Rotation:
+    motion = heavy_top_motion(HeavyTop(**TOP), t)
+    return (motion.omega_body, motion.attitude), t.size
 
 
-def _integrated(t: FloatArray, rtol: float) -> Callable[[], tuple[Any, int]]:
-    from earthspin.top.integration import integrate_heavy_top
-    from earthspin.top.start import HeavyTop
-
-    def run() -> tuple[Any, int]:
-        motion = integrate_heavy_top(HeavyTop(**TOP), t, relative_tolerance=rtol)
-        return (motion.omega_body, motion.attitude), motion.evaluations
-
-    return run
+def _integrated(t: FloatArray, rtol: float) -> Rotation:
+    motion = integrate_heavy_top(HeavyTop(**TOP), t, relative_tolerance=rtol)
+    return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(t: FloatArray, method: str, rtol: float) -> Callable[[], tuple[Any, int]]:
+def _by_hand(t: FloatArray, method: str, rtol: float) -> Rotation:
     """The textbook's equations in the Euler angles (I.7.5 to I.7.8)."""
-    from scipy.integrate import solve_ivp
-
     i1, i3, weight = TOP["transverse_moment"], TOP["axial_moment"], TOP["weight_moment"]
     spin = TOP["spin"]
     a = i3 * spin / i1
@@ -114,15 +90,13 @@ def _by_hand(t: FloatArray, method: str, rtol: float) -> Callable[[], tuple[Any,
         return [theta_rate, push, phi_rate, spin - phi_rate * c]
 
     start = [TOP["theta"], TOP["theta_rate"], 0.0, TOP["psi"]]
-
-    def run() -> tuple[Any, int]:
-        done = solve_ivp(rates, (0.0, t[-1]), start, method, t_eval=t, rtol=rtol, atol=1e-2 * rtol)
-        return _of_euler_angles(done.y, a, b, spin), done.nfev
-
-    return run
+    done = solve_ivp(rates, (0.0, t[-1]), start, method, t_eval=t, rtol=rtol, atol=1e-2 * rtol)
+    return _of_euler_angles(done.y, a, b, spin), done.nfev
 
 
-def _of_euler_angles(state: FloatArray, a: float, b: float, spin: float) -> tuple[Any, Any]:
+def _of_euler_angles(
+    state: FloatArray, a: float, b: float, spin: float
+) -> tuple[FloatArray, FloatArray]:
     """Angular velocity in the body (I.7.3) and attitude Rz(phi) Rx(theta) Rz(psi)."""
     theta, theta_rate, phi, psi = state
     across = (b - a * np.cos(theta)) / np.sin(theta)

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
+import erfa
 import numpy as np
 from numpy.typing import NDArray
+from skyfield import nutationlib as tables
+from skyfield.api import load
+from skyfield.jpllib import SpiceKernel
 
-from earthspin.checks.ladders.sky import CODES, centre, kernel
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.sky import CENTRE, CODES, kernel, positions, unit_vectors
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
 from earthspin.constants import J2000_JD, MAS
+from earthspin.sky import iau
+from earthspin.sky.equator import rotate
 
 FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
@@ -55,7 +61,7 @@ def ladder(quick: bool) -> Ladder:
 def reference(days: FloatArray) -> LongArray:
     """True directions of Sun and Moon, shape (2, n, 3)."""
     turn = long_matrix(days)
-    found = kernel().positions(CODES, centre(), days)
+    found = positions(days)
     place = np.stack([found[name] for name in CODES]).astype(np.longdouble)
     seen = np.sum(turn * place[:, :, np.newaxis, :], axis=-1)
     return np.asarray(seen / np.sqrt(np.sum(seen * seen, axis=-1))[..., np.newaxis])
@@ -83,8 +89,6 @@ def long_nutation(t: LongArray) -> tuple[LongArray, LongArray]:
     t : ndarray, shape (n,)
         Julian centuries from J2000.0.
     """
-    from skyfield import nutationlib as tables
-
     polynomials = (tables.fa0, tables.fa1, tables.fa2, tables.fa3, tables.fa4)
     moon_and_sun = sum(
         c[:, 0, np.newaxis].astype(np.longdouble) * t**n for n, c in enumerate(polynomials)
@@ -131,33 +135,27 @@ def _about(axis: int, angle: LongArray) -> LongArray:
 
 
 def _methods(days: FloatArray, quick: bool) -> list[Method]:
-    import erfa
-
-    from earthspin.sky import iau
-
     start, end = float(days[0]), float(days[-1])
 
-    def nodes(model: str, spacing: float) -> Setting:
-        def run() -> tuple[Any, int]:
-            nutation = iau.Nutation(start, end, model=model, spacing=spacing)
-            return _seen(nutation.true_equator(days), days), days.size
-
-        return Setting(f"every {spacing:g} d", run)
+    def from_nodes(model: str, spacing: float) -> tuple[Any, int]:
+        nutation = iau.Nutation(start, end, model=model, spacing=spacing)
+        return _seen(nutation.true_equator(days), days), days.size
 
     def at_each(matrices: Callable[[], FloatArray]) -> list[Setting]:
         return [Setting("", lambda: (_seen(matrices(), days), days.size))]
 
+    fine, coarse = ((8.0, 1.0), (2.0,)) if quick else (SPACINGS, SPACINGS[2:5])
     return [
         Method(
             "IAU 2000A from nodes",
             True,
-            [nodes("2000A", spacing) for spacing in ((8.0, 1.0) if quick else SPACINGS)],
+            settings("every {} d", partial(from_nodes, "2000A"), fine),
             bound=8e-12,
         ),
         Method(
             "IAU 2000B from nodes",
             True,
-            [nodes("2000B", spacing) for spacing in ((2.0,) if quick else SPACINGS[2:5])],
+            settings("every {} d", partial(from_nodes, "2000B"), coarse),
             bound=2 * MAS,
         ),
         Method(
@@ -174,42 +172,26 @@ def _methods(days: FloatArray, quick: bool) -> list[Method]:
 
 def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
     """Directions of Sun and Moon, shape (2, n, 3)."""
-    from earthspin.sky.equator import rotate
-
-    found = kernel().positions(CODES, centre(), days)
+    found = positions(days)
     seen = np.stack([rotate(turn, found[name]) for name in CODES])
     return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
 
 
 @cache
 def _skyfield_kernel() -> Any:
-    from skyfield.jpllib import SpiceKernel
-
     return SpiceKernel(str(kernel().path))
 
 
 def _skyfield(days: FloatArray) -> Callable[[], tuple[Any, int]]:
     """Skyfield as one uses it, with fresh times."""
-    from skyfield.api import load
-
     scale = load.timescale(builtin=True)
 
     def run() -> tuple[Any, int]:
         t = scale.tdb_jd(J2000_JD, days)
-        here, found = _skyfield_kernel()[centre()], []
+        here, found = _skyfield_kernel()[CENTRE], []
         for code in CODES.values():
             ra, dec, _ = (_skyfield_kernel()[code] - here).at(t).radec(epoch="date")
-            across = np.cos(dec.radians)
-            found.append(
-                np.stack(
-                    [
-                        across * np.cos(ra.radians),
-                        across * np.sin(ra.radians),
-                        np.sin(dec.radians),
-                    ],
-                    axis=-1,
-                )
-            )
+            found.append(unit_vectors(ra.radians, dec.radians))
         return np.stack(found), days.size
 
     return run

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.ladders.sky import CODES, GM, centre, kernel
+from earthspin.checks.sky import GM, chebyshev_pieces, positions
 from earthspin.constants import DAY
 
 FloatArray = NDArray[np.float64]
@@ -70,18 +70,17 @@ def figure_axis(
 
 def _pieces(end: float) -> FloatArray:
     """Coefficients of powers of x in [-1, 1], per piece, for Sun and Moon, m."""
+
+    def sun_and_moon(days: FloatArray) -> FloatArray:
+        found = positions(days)
+        return np.stack([found[name] for name in GM], axis=1)
+
     count = int((end - FIRST_EDGE) / PIECE) + 1
-    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-    edges = FIRST_EDGE + PIECE * np.arange(count)[:, np.newaxis]
-    days = edges + PIECE * (nodes + 1) / 2
-    found = kernel().positions(CODES, centre(), days.ravel())
-    values = np.stack([found[name] for name in GM], axis=1).reshape(count, DEGREE + 1, 6)
-    vander = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
+    series = chebyshev_pieces(sun_and_moon, FIRST_EDGE, PIECE, count, DEGREE + 1)
     to_powers = np.zeros((DEGREE + 1, DEGREE + 1))
     for n in range(DEGREE + 1):
         to_powers[: n + 1, n] = np.polynomial.chebyshev.cheb2poly(np.eye(DEGREE + 1)[n])[: n + 1]
-    series = to_powers @ np.linalg.solve(vander, values)
-    return np.ascontiguousarray(np.swapaxes(series, 1, 2)).reshape(count, -1)
+    return np.ascontiguousarray(np.swapaxes(to_powers @ series, 1, 2)).reshape(count, -1)
 
 
 @cache
