@@ -242,9 +242,7 @@ def differences(
     )
 
 
-_ERROR = {
-    "residual_error": Variable((), "mas", "95 % half-width of a residual, from H and integration")
-}
+_HALF_WIDTH = Variable((), "mas", "95 % half-width of a residual, from H and integration")
 RESIDUALS = {
     "dpsi_sineps": Variable(
         ("time",),
@@ -258,7 +256,7 @@ RESIDUALS = {
         "our pole less the IAU's in obliquity, line removed",
         error="residual_error",
     ),
-    **_ERROR,
+    "residual_error": _HALF_WIDTH,
 }
 
 
@@ -282,15 +280,15 @@ _BY_MODEL = {
         ("time", "model"),
         "mas",
         "our pole less the IAU's in longitude times sin(eps), for three models, line removed",
-        error="residual_error",
+        error="error_by_model",
     ),
     "deps_by_model": Variable(
         ("time", "model"),
         "mas",
         "our pole less the IAU's in obliquity, for three models, line removed",
-        error="residual_error",
+        error="error_by_model",
     ),
-    **_ERROR,
+    "error_by_model": _HALF_WIDTH,
 }
 
 
@@ -303,7 +301,7 @@ def residuals_by_model(differences: Differences) -> xr.Dataset:
         {
             "dpsi_sineps_by_model": fitted[..., 0],
             "deps_by_model": fitted[..., 1],
-            "residual_error": differences.error,
+            "error_by_model": differences.error,
         },
         coords=_dates(differences) | {"model": list(differences.models)},
     )
@@ -312,15 +310,15 @@ def residuals_by_model(differences: Differences) -> xr.Dataset:
 _SIZE = ("model", "direction")
 RESIDUAL_SIZES = {
     "residual_rms": Variable(
-        _SIZE, "mas", "root mean square after constant and rate", error="residual_error"
+        _SIZE, "mas", "root mean square after constant and rate", error="residual_size_error"
     ),
     "residual_maximum": Variable(
-        _SIZE, "mas", "largest after constant and rate", error="residual_error"
+        _SIZE, "mas", "largest after constant and rate", error="residual_size_error"
     ),
     "residual_rms_unfitted": Variable(
-        _SIZE, "mas", "root mean square with nothing fitted", error="residual_error"
+        _SIZE, "mas", "root mean square with nothing fitted", error="residual_size_error"
     ),
-    **_ERROR,
+    "residual_size_error": _HALF_WIDTH,
 }
 
 
@@ -334,7 +332,7 @@ def residual_sizes(differences: Differences) -> xr.Dataset:
             "residual_rms": np.sqrt(np.mean(fitted**2, axis=0)),
             "residual_maximum": np.max(np.abs(fitted), axis=0),
             "residual_rms_unfitted": np.sqrt(np.mean(plain**2, axis=0)),
-            "residual_error": differences.error,
+            "residual_size_error": differences.error,
         },
         coords={"model": list(differences.models), "direction": ["dpsi_sineps", "deps"]},
     )
