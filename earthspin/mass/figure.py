@@ -68,6 +68,11 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
     return values
 
 
+def polar_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
+    """C = a (1 - f), in the unit of the equatorial radius a."""
+    return np.asarray(np.asarray(radius, dtype=float) * (1 - check_flattening(flattening)))
+
+
 def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
     """e2 = (a2 - c2)/a2 = f (2 - f), negative for a prolate body (I.9.38)."""
     f = check_flattening(flattening)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import fspath
 from pathlib import Path
@@ -18,20 +19,28 @@ from earthspin.engine.labels import Variable, build, si, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
-from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
 from earthspin.units import Days, FloatArray, Number, Numbers, kind_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.wobble.observed import WobbleFit
+    from earthspin.wobble.estimate import WobbleFit
+
+ComplexArray = NDArray[np.complex128]
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood", "least-squares"]
 _SCALE = {"long_name": "time", "standard_name": "time", "comment": "0h UTC in daily tables"}
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
+#: Nearer to the conventional pole than this, in mas, the pole never stays.
+SMALLEST = 0.1
+#: Cycles per day up to which a spectrum is given: three in a year.
+FASTEST = 3 / 365.25
+#: Sum of the amplitudes of the tidal terms of x, mas: Q1, O1, P1, K1, N2, M2, S2, K2.
+OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
 
@@ -61,7 +70,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     Dataset
         Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` gives what
         `fit_chandler` finds in it as the section `chandler`, over `middle`, the middles of sliding
-        windows.
+        windows, and its amplitudes over `frequency` as the section `spectrum`.
 
     Raises
     ------
@@ -108,6 +117,7 @@ def not_observed(body: Body) -> str | None:
 @part(gives=OBSERVED, unless=not_observed)
 def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) -> xr.Dataset:
     """Observed polar motion from a table of the IERS."""
+    from earthspin.mass.figure import polar_radius
     from earthspin.sky.eop import read_polar_motion
 
     series = read_polar_motion(file, kind)
@@ -121,7 +131,7 @@ def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) ->
             "y": series.y,
             "x_error": NORMAL_95 * series.x_error,
             "y_error": NORMAL_95 * series.y_error,
-            "polar_radius": body.needed("radius") * (1 - body.needed("flattening")),
+            "polar_radius": polar_radius(body.needed("radius"), body.needed("flattening")),
         },
         coords={"time": ("time", _stamps(series.mjd - _MJD), _SCALE)},
     )
@@ -167,10 +177,17 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr
     from earthspin.wobble import observed
 
     time, p = complex_pole(observed_pole)
-    if np.ptp(p.real) == 0 and np.ptp(p.imag) == 0:
-        raise UndefinedError("the pole stands still: there is no wobble in it")
-    found = observed.fit(time, p, method)
-    seen = observed.envelope(time, p, found.period, window)
+    return _free_wobble(time, p, observed.fit(time, p, method), window)
+
+
+def _free_wobble(
+    time: FloatArray, p: ComplexArray, found: WobbleFit, window: float | None
+) -> xr.Dataset:
+    """Label what was found, and the amplitudes of its period in sliding windows."""
+    from earthspin.wobble.envelope import envelope
+    from earthspin.wobble.resonance import coordinates_of
+
+    seen = envelope(time, p, found.period, window)
     values = {
         "chandler_period": found.period * DAY,
         "chandler_period_error": found.period_error * DAY,
@@ -179,7 +196,7 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr
         "chandler_phase": np.unwrap(np.angle(seen.chandler)),
         "annual_amplitude": abs(seen.annual) * MAS,
         "annual_retrograde_amplitude": abs(seen.annual_retrograde) * MAS,
-        "mean_pole": np.column_stack([seen.drift.real, -seen.drift.imag]) * MAS,
+        "mean_pole": np.column_stack(coordinates_of(seen.drift)) * MAS,
     }
     result = build(
         CHANDLER | (QUALITY if found.gives_quality else {}),
@@ -189,7 +206,7 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr
             "axis": ("axis", ["x", "y"]),
         },
     )
-    result.chandler_period.attrs["method"] = method
+    result.chandler_period.attrs["method"] = found.method
     if not found.gives_quality:
         result.chandler_period.attrs["quality_factor"] = "refused: a sinusoid cannot give it"
     return result
@@ -204,7 +221,29 @@ def _quality(found: WobbleFit) -> dict[str, float]:
     }
 
 
-def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
+SPECTRUM = {
+    "spectral_amplitude": Variable(
+        ("frequency",), "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
+    )
+}
+
+
+@part(gives=SPECTRUM)
+def spectrum(observed_pole: xr.Dataset) -> xr.Dataset:
+    """Amplitude spectrum of the observed pole, prograde and retrograde, up to `FASTEST`."""
+    from earthspin.wobble.spectrum import spectrum
+
+    frequency, amplitude = spectrum(*complex_pole(observed_pole))
+    slow = abs(frequency) <= FASTEST
+    cycles = {"units": "1/d", "long_name": "cycles per day, negative if retrograde"}
+    return build(
+        SPECTRUM,
+        {"spectral_amplitude": amplitude[slow] * MAS},
+        coords={"frequency": ("frequency", frequency[slow], cycles)},
+    )
+
+
+def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Days from J2000.0 and x - i y in mas of labelled polar motion, whole and in order.
 
     Raises
@@ -213,6 +252,8 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
         If it has no x and y with units along time, or its days repeat or go back.
     """
     _need_series(pole, ("x", "y"), ("arcsec", "mas"))
+    from earthspin.wobble.resonance import pole_of
+
     time = _days_in_order(pole)
     for name in ("x", "y"):
         largest = float(abs(si(pole[name])).max())
@@ -222,7 +263,14 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, NDArray[np.complex128]]:
                 f"{largest / ARCSEC:.3g} arcsec",
                 "polar motion stays below one; is the unit right?",
             )
-    return time, (si(pole.x).values - 1j * si(pole.y).values) / MAS
+    p = pole_of(si(pole.x).values, si(pole.y).values) / MAS
+    if 0 < np.max(abs(p)) < SMALLEST:
+        raise SceneError(
+            "largest distance of the pole",
+            f"{np.max(abs(p)):.3g} mas",
+            f"it goes farther than {SMALLEST:g} mas; is the unit right?",
+        )
+    return time, p
 
 
 def _days_in_order(series: xr.Dataset) -> FloatArray:
@@ -269,20 +317,24 @@ def _need_series(given: Any, names: tuple[str, str], units: tuple[str, ...]) -> 
 
 
 def _stamps(days: FloatArray) -> NDArray[np.datetime64]:
-
     return datetime64(days)
 
 
 @part
 def neglected() -> Neglected:
-    """What observations leave out."""
-    return Neglected(what="nothing: the pole as it was observed")
+    """What tables of the pole leave out by convention."""
+    return Neglected(
+        sizes={"tides of a day and of half a day": OCEAN_TIDES * MAS},
+        unit="mas",
+        what="largest sum of its terms in x, left out of tables by convention",
+        source="IERS Conventions (1996), ch. 8: eight terms, as listed by the Paris Observatory",
+    )
 
 
 made_of(
     PolarMotion,
     answer=observed_pole,
-    sections={"chandler": chandler, "neglected": neglected},
+    sections={"chandler": chandler, "spectrum": spectrum, "neglected": neglected},
 )
 
 polar_motion = ask(PolarMotion)
@@ -294,18 +346,29 @@ _DAYS = Number("d", "433 d", above=0.0)
 _PURE = Number("", "100", above=0.0)
 
 
-def fit_chandler(ds: xr.Dataset, *, method: str = "burg", window: Any = None) -> xr.Dataset:
+def fit_chandler(
+    ds: xr.Dataset,
+    *,
+    method: str | None = None,
+    window: Any = None,
+    excitation: xr.Dataset | None = None,
+) -> xr.Dataset:
     """Period, quality factor and amplitude of the free wobble in polar motion.
 
     Parameters
     ----------
     ds : Dataset
         `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas").
-    method : str
-        ``"burg"``, ``"likelihood"``, or ``"least-squares"``, which gives no quality factor.
+    method : str, optional
+        ``"burg"`` (the default), ``"likelihood"``, or ``"least-squares"``, which gives no quality
+        factor.
     window : duration, optional
         Length of the sliding windows (a number is in days); one beat of annual and free wobble by
         default.
+    excitation : Dataset, optional
+        `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. What it drives is then
+        taken away, with the same period and quality factor, and the likelihood is that of the rest;
+        over the span that both cover.
 
     Returns
     -------
@@ -317,11 +380,61 @@ def fit_chandler(ds: xr.Dataset, *, method: str = "burg", window: Any = None) ->
     Raises
     ------
     EarthspinError
-        If the series is uneven, has no numbers, or is too short; it says how long is needed.
+        If the series is uneven, has no numbers, or is too short (it says how long is needed), or if
+        there is no wobble in it.
     """
-    word = kind_of(Method).read(method, Where("method"))
     length = None if window is None else _DAYS.read(window, Where("window"))
-    return chandler(ds, word, length).rename(middle="time")
+    if excitation is None:
+        word = kind_of(Method).read(method or "burg", Where("method"))
+        return _with_source(chandler(ds, word, length).rename(middle="time"), ds)
+    if method not in (None, "likelihood"):
+        raise SceneError("method", method, "with an excitation it is 'likelihood'")
+    from earthspin.wobble.observed import fit_with_excitation
+
+    time, p, chi = _together(ds, excitation)
+    found = fit_with_excitation(time, p, chi)
+    return _with_source(_free_wobble(time, p, found, length).rename(middle="time"), ds)
+
+
+def _with_source(found: xr.Dataset, pole: xr.Dataset) -> xr.Dataset:
+    """Say what drove the pole, where that is known."""
+    return found.assign_attrs({"source": pole.attrs["source"]} if "source" in pole.attrs else {})
+
+
+def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
+    """Days, pole and mean excitation between them, mas, over the span that both cover."""
+    from earthspin.wobble.resonance import ends_of_steps
+
+    time, p = complex_pole(pole)
+    middles, driving = _complex_excitation(chi)
+    ends = ends_of_steps(middles, _even_step(middles))
+    step = _even_step(time)
+    first = np.searchsorted(ends, time[0] - SAME_DAY)
+    start = np.searchsorted(time, ends[first] - SAME_DAY) if first < ends.size else time.size
+    count = min(ends.size - first, time.size - start)
+    if count < 2:
+        raise SceneError("excitation", "its dates", "it has no span in common with the pole")
+    if np.max(abs(ends[first : first + count] - time[start : start + count])) > SAME_DAY:
+        raise SceneError(
+            "excitation",
+            f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d",
+            f"give means over the steps of the pole, each {step:.3g} d: those between its days; "
+            "read_excitation(..., daily=True) makes them from 0h to 0h",
+        )
+    return (
+        time[start : start + count],
+        p[start : start + count],
+        driving[first : first + count - 1],
+    )
+
+
+def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
+    """Days from J2000.0 of the middles of the steps, and chi1 + i chi2 in mas."""
+    from earthspin.wobble.resonance import excitation_of
+
+    _need_series(chi, ("chi1", "chi2"), ("mas",))
+    time = _days_in_order(chi)
+    return time, excitation_of(si(chi.chi1).values, si(chi.chi2).values) / MAS
 
 
 CHI = {
@@ -361,16 +474,17 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     time, p = complex_pole(ds)
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
+    start_x, start_y = ex.coordinates_of(p[0])
     result = build(
         CHI,
         {"chi1": chi.real * MAS, "chi2": chi.imag * MAS},
-        coords={"time": ("time", _stamps(time[:-1] + step / 2), _SCALE)},
+        coords={"time": ("time", _stamps(ex.middles_of_steps(time)), _SCALE)},
     )
     result.attrs |= {
         "chandler_period": days,
         "chandler_quality_factor": q,
-        "start_x": float(p[0].real),
-        "start_y": float(-p[0].imag),
+        "start_x": float(start_x),
+        "start_y": float(start_y),
         "start_day": float(time[0]),
         "step": step,
         "comment": "means over the step (d) around each time; start of the pole in mas and in days "
@@ -383,7 +497,12 @@ _Q = Where("quality_factor")
 
 
 def polar_motion_from(
-    chi: xr.Dataset, *, period: Any = None, quality_factor: Any = None, start: Any = None
+    chi: xr.Dataset,
+    *,
+    period: Any = None,
+    quality_factor: Any = None,
+    start: Any = None,
+    fitted_to: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Polar motion that an excitation drives: the inverse of `excitation`.
 
@@ -395,6 +514,9 @@ def polar_motion_from(
         Of the free wobble (a number is in days); those that `excitation` noted by default.
     start : pair of angles, optional
         x and y at the start (a number is in mas); as noted, or zero.
+    fitted_to : Dataset, optional
+        `x` and `y` as observed; the start is then the one that comes nearest to them beside drift
+        and seasonal terms, over the span that both cover.
 
     Returns
     -------
@@ -408,60 +530,105 @@ def polar_motion_from(
     """
     from earthspin.wobble import resonance as ex
 
-    _need_series(chi, ("chi1", "chi2"), ("mas",))
+    time, driving = _complex_excitation(chi)
     known = chi.attrs
     period = known.get("chandler_period") if period is None else period
     q = known.get("chandler_quality_factor") if quality_factor is None else quality_factor
     if period is None or q is None:
         raise SceneError("period", period, "give period and quality_factor of the free wobble")
-    time = _days_in_order(chi)
     step = _even_step(time)
     if abs(known.get("step", step) - step) > SAME_DAY:
         raise SceneError("time", f"steps of {step:g} d", f"the means are over {known['step']:g} d")
+    s = ex.chandler_frequency(_DAYS.read(period, Where("period")), _PURE.read(q, _Q))
+    ends = ex.ends_of_steps(time, step)
+    if fitted_to is not None:
+        if start is not None:
+            raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
+        ends, driving, begin = _fitted_start(fitted_to, chi, s)
+    else:
+        x, y = _given_start(chi, start, ends[0])
+        begin = complex(ex.pole_of(x, y))
+    p = ex.polar_motion_from(driving, step, s, begin)
+    result = build(
+        POLE,
+        dict(zip(("x", "y"), (v * MAS for v in ex.coordinates_of(p)), strict=True)),
+        coords={"time": ("time", _stamps(ends), _SCALE)},
+    )
+    result.attrs["source"] = f"driven by {known.get('source', 'a given excitation')}"
+    return result
+
+
+def _fitted_start(
+    pole: xr.Dataset, chi: xr.Dataset, s: complex
+) -> tuple[FloatArray, ComplexArray, complex]:
+    """Days and excitation that the pole covers, and where it starts."""
+    from earthspin.wobble.driven import fitted_start
+
+    days, p, driving = _together(pole, chi)
+    return days, driving, fitted_start(days, p, driving, s)
+
+
+def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, float]:
+    """X and y at the start in mas: as given, as noted, or zero."""
     if start is None:
-        noted = known.get("start_day")
-        if noted is not None and abs(noted - (time[0] - step / 2)) > SAME_DAY:
+        noted = chi.attrs.get("start_day")
+        if noted is not None and abs(noted - first) > SAME_DAY:
             raise SceneError(
                 "start", None, "the series begins at another day than was noted; give it"
             )
-        start = (known.get("start_x", 0.0), known.get("start_y", 0.0))
+        start = (chi.attrs.get("start_x", 0.0), chi.attrs.get("start_y", 0.0))
     x, y = Numbers("mas", "50 mas", (2,)).read(start, Where("start"))
-    s = ex.chandler_frequency(_DAYS.read(period, Where("period")), _PURE.read(q, _Q))
-    driving = (si(chi.chi1).values + 1j * si(chi.chi2).values) / MAS
-    p = ex.polar_motion_from(driving, step, s, complex(x, -y))
-    ends = time[0] - step / 2 + step * np.arange(p.size)
-    return build(
-        POLE,
-        {"x": p.real * MAS, "y": -p.imag * MAS},
-        coords={"time": ("time", _stamps(ends), _SCALE)},
-    )
+    return x, y
 
 
-def read_excitation(path: str | Path) -> xr.Dataset:
+def read_excitation(
+    path: str | Path | Sequence[str | Path],
+    *,
+    components: Sequence[str] | None = None,
+    terms: Sequence[str] = ("mass", "motion"),
+    daily: bool = False,
+) -> xr.Dataset:
     """Read effective angular momentum functions in the common ASCII layout.
 
     Parameters
     ----------
-    path : str or Path
+    path : str, Path or sequence of them
+        Files, or folders of them: yearly files of a component are joined, epochs that stand twice
+        count once.
+    components : sequence of str, optional
+        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as they stand in the names of files; the sum
+        of all by default.
+    terms : sequence of str
+        ``"mass"``, ``"motion"``, or both.
+    daily : bool
+        Whether to average to days, from 0h to 0h, as `excitation` of a daily pole is.
 
     Returns
     -------
     Dataset
-        `chi1`, `chi2` (mas) over `time`: mass and motion terms together.
+        `chi1`, `chi2` (mas) over `time`.
 
     Raises
     ------
     SeriesError
-        If the file cannot be used; it names the line.
+        If a file cannot be used; it names the line.
     """
-    from earthspin.sky.eop import read_angular_momentum
+    from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 
-    read = read_angular_momentum(path)
-    return build(
+    for word in terms:
+        if word not in TERMS:
+            raise SceneError("terms", word, nearest(word, TERMS))
+    if not terms:
+        raise SceneError("terms", terms, nearest("", TERMS))
+    read = read_angular_momentum(path, components, daily=daily)
+    chi = sum(getattr(read, word) for word in set(terms))
+    result = build(
         CHI,
-        {"chi1": read.chi.real, "chi2": read.chi.imag},
+        {"chi1": chi.real, "chi2": chi.imag},
         coords={"time": ("time", _stamps(read.mjd - _MJD), _SCALE)},
     )
+    result.attrs["source"] = f"{' + '.join(components or ('all components',))} ({', '.join(terms)})"
+    return result
 
 
 def _even_step(time: FloatArray) -> float:

@@ -24,13 +24,14 @@ from earthspin.views.drawing import (
 )
 from earthspin.views.reading import Result, answer_of, needed, of_sections
 from earthspin.views.table import Table, date, measured, with_error
-from earthspin.wobble.observed import YEAR, spectrum
+from earthspin.wobble.record import NEAR, YEAR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+JULIAN = 365.25  # d, the year of the axes
 #: Sections that the figures stand on.
-DRAWN = ("chandler",)
+DRAWN = ("chandler", "spectrum")
 
 
 # --- tables --------------------------------------------------------------------------------------
@@ -134,7 +135,8 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 @style()
 def drawings(tree: Result) -> list[Drawing]:
     """Amplitude and phase, spectra, and the path of the pole."""
-    return [*of_sections(tree, {"chandler": amplitude_and_phase}), spectra(tree), path(tree)]
+    parts = {"chandler": amplitude_and_phase, "spectrum": spectra}
+    return [*of_sections(tree, parts), path(tree)]
 
 
 @style()
@@ -220,22 +222,20 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        `x`, `y` over `time`, evenly spaced.
+        Of the question ``polar-motion``, which is run again without its section ``spectrum``.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.8)
-    answer = answer_of(result)
-    x, y = _in_mas(answer)
-    days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
-    frequency, amplitude = spectrum(days, x - 1j * y)
+    found = needed(result, "spectrum").spectral_amplitude
+    frequency, amplitude = found.frequency.values * JULIAN, found.values
     for sign, colour, words in ((1, BLUE, "prograde"), (-1, RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
         ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
     for period, words, side, by in (
-        (433.0, "free wobble", "right", -4), (YEAR, "year", "left", 4),
+        (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4),
         (YEAR / 2, "half a year", "left", 4),
     ):  # fmt: skip
-        at = 365.25 / period
+        at = JULIAN / period
         ax.axvline(at, color="0.7", lw=0.7, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
         note(ax, words, (at, 0.97), (by, 0), color=GREY, **where)
@@ -268,6 +268,31 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
     ax.legend(loc="lower left", ncols=2)
+    return ax
+
+
+def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Amplitude of the free wobble as observed and as an excitation drives it.
+
+    Parameters
+    ----------
+    observed, modelled : Dataset
+        As `fit_chandler` gives them, of an observed pole and of one of `polar_motion_from`; the
+        attribute ``source`` of the second says what drove it.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.4)
+    for found, colour, words in (
+        (observed, BLUE, "observed"),
+        (modelled, RED, modelled.attrs.get("source", "driven by a given excitation")),
+    ):
+        found, time, size, half = _free_wobble(found)
+        low = np.maximum(size - half, 0)
+        ax.fill_between(time, low, size + half, color=colour, alpha=0.2, lw=0)
+        ax.plot(time, size, color=colour, lw=1.4, label=words)
+    ax.set_ylim(0, None)
+    ax.set_ylabel("amplitude (mas)")
+    ax.legend(loc="best")
     return ax
 
 

@@ -18,10 +18,36 @@ from scipy.signal import lfilter
 
 from earthspin.errors import UndefinedError
 
+Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Share of a steady excitation's effect that must be left at the end of a step.
 _LEAST_TRACE = 1e-10
+
+
+def pole_of(x: Array | float, y: Array | float) -> Complex:
+    """Polar motion p = x - i y: y is counted towards 90 degrees west."""
+    return np.asarray(x - 1j * y)
+
+
+def coordinates_of(p: Complex) -> tuple[Array, Array]:
+    """Coordinates x, y of polar motion p = x - i y."""
+    return p.real, -p.imag
+
+
+def excitation_of(chi1: Array, chi2: Array) -> Complex:
+    """Excitation chi1 + i chi2: both are counted towards the east."""
+    return np.asarray(chi1 + 1j * chi2)
+
+
+def middles_of_steps(ends: Array) -> Array:
+    """Times that the means over the steps between even times belong to, shape (n - 1,)."""
+    return np.asarray((ends[:-1] + ends[1:]) / 2)
+
+
+def ends_of_steps(middles: Array, step: float) -> Array:
+    """Times between which means over even steps were taken, shape (n + 1,)."""
+    return np.asarray(middles[0] - step / 2 + step * np.arange(middles.size + 1))
 
 
 def chandler_frequency(period: float, quality_factor: float) -> complex:
@@ -66,7 +92,8 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
     Raises
     ------
     UndefinedError
-        For a step of whole free periods without loss, at whose end nothing tells what drove it.
+        For a step that is not greater than zero, or one of whole free periods without loss, at
+        whose end nothing tells what drove it.
     """
     decay, rise = _response(step, s)
     if abs(rise) <= _LEAST_TRACE * abs(s.real * step):
@@ -101,6 +128,8 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
 
 def _response(step: float, s: complex) -> tuple[complex, complex]:
     """exp(i s D), and 1 less it without cancellation."""
+    if not step > 0:
+        raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
     return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))
 
 

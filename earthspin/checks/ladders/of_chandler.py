@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.wobble.observed import BAND, METHODS, fit, simulate
+from earthspin.wobble.observed import METHODS, fit
+from earthspin.wobble.record import BAND
+from earthspin.wobble.simulation import simulate
 
 Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
 

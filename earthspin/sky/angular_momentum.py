@@ -1,0 +1,233 @@
+"""Effective angular momentum functions of air, sea and land, from one file or many.
+
+The layout is the common one: year, month, day, hour, MJD, then chi1, chi2, chi3 of the mass term
+and, if there is one, of the motion term, as pure numbers (Dobslaw & Dill 2018, GFZ, user's guide).
+They come as a file for each year and component, and the years may overlap.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import SeriesError, nearest
+from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: Components by the word that names of files hold.
+COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "sea level"}
+#: Both ways in which a component excites the pole.
+TERMS = ("mass", "motion")
+#: What no component has ever reached, rad: 20 arcseconds.
+LARGEST = 1e-4
+#: Dates that are closer than this are the same, d.
+SAME_TIME = 1e-6
+
+
+@dataclass(frozen=True)
+class AngularMomentum:
+    """Effective angular momentum functions.
+
+    Attributes
+    ----------
+    mjd : array, shape (n,)
+        Evenly spaced.
+    mass, motion : complex array, shape (n,)
+        chi1 + i chi2 of the two terms, rad.
+    """
+
+    mjd: Array
+    mass: Complex
+    motion: Complex
+
+    @property
+    def chi(self) -> Complex:
+        """Both terms together."""
+        return self.mass + self.motion
+
+    def daily(self) -> AngularMomentum:
+        """Means over days from 0h to 0h, dated at noon; values between samples lie on lines.
+
+        Daily values at noon are taken for the means that they are.
+
+        Raises
+        ------
+        SeriesError
+            If no whole day is covered.
+        """
+        step = (self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1)
+        if abs(step - 1) < SAME_TIME and abs(self.mjd[0] % 1 - 0.5) < SAME_TIME:
+            return self
+        edges = np.arange(np.ceil(self.mjd[0] - SAME_TIME), self.mjd[-1] + SAME_TIME)
+        if edges.size < 2:
+            raise SeriesError("excitation", "it covers no whole day", "leave out daily")
+        edges[[0, -1]] = np.clip(edges[[0, -1]], self.mjd[0], self.mjd[-1])
+
+        def means(values: Complex) -> Complex:
+            pieces = np.diff(self.mjd) * (values[1:] + values[:-1]) / 2
+            total = np.concatenate([[0], np.cumsum(pieces)])
+            # Within a piece the integral of a line is a parabola.
+            at = np.clip(np.searchsorted(self.mjd, edges, side="right") - 1, 0, pieces.size - 1)
+            into = edges - self.mjd[at]
+            slope = np.diff(values)[at] / np.diff(self.mjd)[at]
+            return np.asarray(np.diff(total[at] + into * (values[at] + slope * into / 2)))
+
+        middles = np.asarray(np.round(edges[:-1]) + 0.5, dtype=float)
+        return AngularMomentum(middles, means(self.mass), means(self.motion))
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A line as read."""
+
+    file: Path
+    line: int
+    mjd: float
+    mass: complex
+    motion: complex
+
+
+def read_angular_momentum(
+    paths: str | Path | Sequence[str | Path],
+    components: Iterable[str] | None = None,
+    *,
+    daily: bool = False,
+) -> AngularMomentum:
+    """Read effective angular momentum functions: join the files of each component, and sum these.
+
+    Parameters
+    ----------
+    paths : str, Path or sequence of them
+        Files, or folders of them. The component of a file is told from ``AAM``, ``OAM``, ``HAM`` or
+        ``SLAM`` in its name.
+    components : iterable of str, optional
+        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``; all that are there by default.
+    daily : bool
+        Whether to average to days. Components with different dates cannot be summed without.
+
+    Raises
+    ------
+    SeriesError
+        If a file cannot be used; it names the line.
+    """
+    files = _files(paths, components)
+    joined = [_joined(of) for of in files.values()]
+    parts = [part.daily() for part in joined] if daily else joined
+    first, last = max(p.mjd[0] for p in parts), min(p.mjd[-1] for p in parts)
+    together = [_between(part, first, last) for part in parts]
+    mjd, names = together[0].mjd, ", ".join(str(of[0]) for of in files.values())
+    if any(p.mjd.size != mjd.size or np.any(abs(p.mjd - mjd) > SAME_TIME) for p in together):
+        raise SeriesError(names, "the components have different dates", "average them: daily=True")
+    if mjd.size < 2:
+        raise SeriesError(names, "there is no span of two steps that all components cover")
+    mass, motion = (np.sum([getattr(p, term) for p in together], axis=0) for term in TERMS)
+    return AngularMomentum(mjd, mass, motion)
+
+
+def _between(series: AngularMomentum, first: float, last: float) -> AngularMomentum:
+    inside = (series.mjd >= first - SAME_TIME) & (series.mjd <= last + SAME_TIME)
+    return AngularMomentum(series.mjd[inside], series.mass[inside], series.motion[inside])
+
+
+def _files(
+    paths: str | Path | Sequence[str | Path], components: Iterable[str] | None
+) -> dict[str, list[Path]]:
+    """Files of each component."""
+    given = [paths] if isinstance(paths, (str, Path)) else list(paths)
+    found: dict[str, list[Path]] = {}
+    for path in map(Path, given):
+        for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+            # SLAM holds no other; AAM is looked for in the name alone, not in the folder's.
+            name = next((word for word in COMPONENTS if word in file.name.upper()), "")
+            found.setdefault(name, []).append(file)
+    if not found:
+        raise SeriesError(", ".join(map(str, given)), "there is no file")
+    if components is None:
+        if len(found) > 1 and "" in found:
+            raise SeriesError(
+                found[""][0],
+                "its name does not tell its component",
+                f"names hold one of {', '.join(COMPONENTS)}",
+            )
+        return found
+    wanted = list(components)
+    for word in wanted:
+        if word not in found:
+            raise SeriesError(
+                ", ".join(map(str, given)),
+                f"there is no component {word!r}",
+                nearest(word, found) if any(found) else "names of files do not tell components",
+            )
+    return {word: found[word] for word in wanted}
+
+
+def _joined(files: list[Path]) -> AngularMomentum:
+    """All rows of one component, sorted; an epoch that stands twice counts once."""
+    rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
+    if len(rows) < 2:
+        raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
+    kept = rows[:1]
+    for row in rows[1:]:
+        last = kept[-1]
+        if row.mjd > last.mjd + SAME_TIME:
+            kept.append(row)
+        elif (row.mass, row.motion) != (last.mass, last.motion):
+            raise SeriesError(
+                row.file,
+                f"MJD {row.mjd:.3f} stands twice, in line {last.line} of '{last.file.name}' with "
+                "other numbers",
+                "keep one of them",
+                row.line,
+            )
+    mjd = np.array([row.mjd for row in kept])
+    steps = np.diff(mjd)
+    uneven = abs(steps - np.median(steps)) > SAME_TIME
+    if np.any(uneven):
+        bad = kept[int(np.argmax(uneven)) + 1]
+        raise SeriesError(
+            bad.file,
+            f"the step changes before MJD {bad.mjd:.3f}",
+            "even steps are needed; is a file missing?",
+            bad.line,
+        )
+    return AngularMomentum(
+        mjd, np.array([row.mass for row in kept]), np.array([row.motion for row in kept])
+    )
+
+
+def _rows(file: Path) -> Iterable[_Row]:
+    """Rows of one file; lines that do not start with a number are comments."""
+    last = -math.inf
+    for number, line in enumerate(lines_of(file), start=1):
+        words = line.split()
+        if not words or not is_number(words[0]):
+            continue
+        if len(words) not in (8, 11):
+            raise SeriesError(
+                file, f"{len(words)} columns", "8 or 11 are expected; is it cut off?", line=number
+            )
+        *calendar, mjd = numbers(file, number, words[:5])
+        check_calendar(file, number, calendar, mjd)
+        if mjd < last:
+            raise SeriesError(
+                file, f"MJD {mjd:.3f} comes after {last:.3f}", "time runs backwards", line=number
+            )
+        last = mjd
+        terms = numbers(file, number, words[5:])
+        mass, motion = complex(*terms[:2]), complex(*terms[3:5])
+        for one in (mass, motion):
+            if not abs(one) <= LARGEST:
+                raise SeriesError(
+                    file,
+                    f"excitation {one:.3g} is no such number",
+                    "radians are wanted",
+                    line=number,
+                )
+        yield _Row(file, number, mjd, mass, motion)

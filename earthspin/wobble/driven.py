@@ -1,0 +1,31 @@
+"""The pole that a known excitation drives, set beside the one that was observed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from earthspin.wobble.record import Array, Complex, known_terms, least_squares
+from earthspin.wobble.resonance import polar_motion_from
+
+
+def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
+    """Where the driven pole must start to come nearest to the observed one.
+
+    Drift and seasonal terms, which models of the excitation hold least well, are fitted beside it
+    and stay out of it.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        Even steps.
+    p : complex array, shape (n,)
+        Observed, x - i y.
+    chi : complex array, shape (n - 1,)
+        Means over the steps, in the unit of p.
+    s : complex
+        As `chandler_frequency` gives it.
+    """
+    step = float((time[-1] - time[0]) / (time.size - 1))
+    left = p - polar_motion_from(chi, step, s)
+    free = np.exp(1j * s * (time - time[0]))
+    return complex(least_squares(np.column_stack([known_terms(time), free]), left)[-1])

@@ -1,0 +1,298 @@
+"""The free wobble by maximum likelihood: an oscillator driven by white and red noise.
+
+Beside what drives it the record holds a red background, white noise, drift and seasons. With an
+excitation that is known (of air, water and ground) its own effect on the pole is taken away
+first, with the same period and quality factor, and what is left is driven at random.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+from scipy.linalg import LinAlgError, cholesky_banded, solve_banded
+from scipy.optimize import brentq, minimize
+
+from earthspin.constants import NORMAL_95
+from earthspin.errors import UndefinedError
+from earthspin.wobble.estimate import WobbleFit
+from earthspin.wobble.oscillator import DrivenOscillator
+from earthspin.wobble.record import (
+    BAND,
+    NEAR,
+    YEAR,
+    Array,
+    Complex,
+    block_means,
+    in_blocks,
+    known_terms,
+    turning,
+)
+from earthspin.wobble.resonance import polar_motion_from
+
+BLOCK = 120.0  # d
+SAMPLE = 10.0  # d, over which a record is averaged before it is turned back
+MEMORY = 365.0  # d, of red excitation and background
+MIDDLE = 2 * np.pi / NEAR
+
+#: Where the search starts: rate, and the logarithms of decay, red, background and white.
+START = np.array([0.0, -9.5, -2.0, -3.0, -4.0])
+#: What the search takes for a step of one.
+UNIT = np.array([1e-4, 1.0, 1.0, 1.0, 1.0])
+LOWEST = np.array([2 * np.pi / BAND[1] - MIDDLE, -13.5, -6.0, -8.0, -8.0])
+HIGHEST = np.array([2 * np.pi / BAND[0] - MIDDLE, -5.0, 4.0, 5.0, 3.0])
+#: Relative steps in the likelihood at which a search ends: for its peak, and for its sides.
+FINE, COARSE = 1e-10, 1e-7
+#: How near an end of the band is its edge, d.
+EDGE = 0.5
+#: Minus twice the logarithm of a likelihood that rounding has lost.
+IMPOSSIBLE = 1e12
+
+
+class Likelihood:
+    """Likelihood of a driven wobble, a red background and known terms, in block means.
+
+    Series and columns are turned back by the expected wobble before they are averaged, so
+    that the wobble stands nearly still in blocks of months. What is known is integrated
+    out (restricted likelihood, Patterson & Thompson 1971, Biometrika 58, 545), the scale of
+    all power as well.
+
+    The covariance of the means is a sum of two powers, a^k and b^k, from the first lag on. A mean
+    less (a + b) of its last and plus a b of its last but one is then correlated with two
+    neighbours alone: the covariance has five diagonals, and the likelihood takes a time in
+    proportion to the number of blocks.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        d, evenly spaced.
+    p : complex array, shape (n,)
+    """
+
+    def __init__(self, time: Array, p: Complex) -> None:
+        self.terms = self._averaged(time, known_terms(time))
+        self.record = self._averaged(time, p[:, None])
+        self.span = float(time[-1] - time[0])
+        step = self.span / (time.size - 1)
+        sample = max(1, round(SAMPLE / step))
+        self.size = sample * max(1, round(BLOCK / (sample * step))) * step
+
+    @staticmethod
+    def _averaged(time: Array, columns: Complex) -> Complex:
+        """Means over blocks of columns that were turned back."""
+        t, means, step = in_blocks(time, columns, SAMPLE)
+        return np.asarray(
+            block_means(means * turning(t, -NEAR)[:, None], max(1, round(BLOCK / step)))
+        )
+
+    def data(self, s: complex) -> Complex:
+        """Columns that are known, and the record as the last one, for a frequency of the wobble."""
+        return np.column_stack([self.terms, self.record])
+
+    def __call__(
+        self, rate: float, decay: float, red: float, background: float, white: float
+    ) -> float:
+        """Minus twice the logarithm of the likelihood.
+
+        Parameters
+        ----------
+        rate : float
+            Frequency less that of `NEAR`, rad/d.
+        decay, red, background, white : float
+            Logarithms: of the decay, 1/d; of the red noise that drives the wobble over the
+            white, at its frequency; of the variances of background and of white noise in a
+            block, over what drives the wobble in a year.
+        """
+        s = complex(MIDDLE + rate, np.exp(decay))
+        flat = abs(1j * s.real + 1 / MEMORY) ** 2 / abs(s) ** 2
+        oscillator = DrivenOscillator(
+            s,
+            MEMORY,
+            white=1 / YEAR,
+            red=float(np.exp(red)) * flat * MEMORY / (2 * YEAR),
+            background=float(np.exp(background)),
+        )
+        factors, lags = oscillator.of_means(self.size, MIDDLE)
+        lags[0] += np.exp(white)
+        return _minus_twice_log(self.data(s), factors, lags)
+
+
+class LikelihoodWithExcitation(Likelihood):
+    """The same of what is left when the effect of a known excitation is taken away.
+
+    Where the pole stood at the start is a column more, exp(i s t).
+
+    Parameters
+    ----------
+    time, p
+        As of `Likelihood`.
+    chi : complex array, shape (n - 1,)
+        Mean excitation of each step, in the unit of p.
+    """
+
+    def __init__(self, time: Array, p: Complex, chi: Complex) -> None:
+        super().__init__(time, p)
+        self.time, self.chi = time, chi
+        self.step = float((time[-1] - time[0]) / (time.size - 1))
+
+    def data(self, s: complex) -> Complex:
+        """Columns that are known, and the record less what the excitation drives."""
+        start = np.exp(1j * s * (self.time - self.time[0]))
+        driven = polar_motion_from(self.chi, self.step, s)
+        moving = self._averaged(self.time, np.column_stack([start, driven]))
+        return np.column_stack([self.terms, moving[:, :1], self.record - moving[:, 1:]])
+
+
+def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
+    """Minus twice the logarithm of the restricted likelihood of the last column.
+
+    Parameters
+    ----------
+    data : complex array, shape (n, k)
+    factors : complex array, shape (2,)
+        a and b.
+    lags : complex array, shape (3,)
+        Covariance at lags of none, one and two.
+    """
+    none, one, two = lags
+    first, second = -factors.sum(), factors.prod()
+    # Covariance of a shortened mean with the mean itself, the last, and the last but one.
+    with_two = two + first * one + second * none
+    with_one = one + first * none + second * np.conj(one)
+    with_none = none + first * np.conj(one) + second * np.conj(two)
+    diagonals = np.zeros((3, len(data)), dtype=complex)
+    diagonals[0, :2] = none
+    diagonals[0, 2:] = with_none + np.conj(first) * with_one + np.conj(second) * with_two
+    diagonals[1, :2] = one, with_one
+    diagonals[1, 2:] = with_one + np.conj(first) * with_two
+    diagonals[2] = with_two
+    try:
+        lower = cholesky_banded(diagonals, lower=True, check_finite=False)
+    except LinAlgError:
+        return IMPOSSIBLE
+    short = data.copy()
+    short[2:] += first * data[1:-1] + second * data[:-2]
+    white = solve_banded((2, 0), lower, short, check_finite=False)
+    # The last diagonal element of R is the length of what the columns do not explain.
+    triangle = abs(np.diag(np.linalg.qr(white, mode="r")))
+    rows, columns = data.shape
+    return float(
+        2 * (rows - columns + 1) * np.log(triangle[-1])
+        + 2 * np.log(lower[0].real).sum()
+        + 2 * np.log(triangle[:-1]).sum()
+    )
+
+
+def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
+    """Maximum likelihood, with errors where it falls by half the 95 % point of chi-squared."""
+    return _largest(Likelihood(time, p), "likelihood")
+
+
+def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
+    """Maximum likelihood of polar motion together with an excitation that is known.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        d, evenly spaced.
+    p : complex array, shape (n,)
+        x - i y in any unit.
+    chi : complex array, shape (n - 1,)
+        chi1 + i chi2, means over the steps, in the unit of p.
+
+    Raises
+    ------
+    UndefinedError
+        If the likelihood is largest at the edge of what is looked through.
+    """
+    return _largest(LikelihoodWithExcitation(time, p, chi), "likelihood with excitation")
+
+
+def lowest(
+    likelihood: Likelihood, start: Array = START, fixed: int | None = None
+) -> tuple[Array, float]:
+    """Parameters at which a likelihood is largest, and minus twice its logarithm there.
+
+    Parameters
+    ----------
+    likelihood : Likelihood
+    start : array, shape (5,)
+        Where the search starts.
+    fixed : int, optional
+        Number of a parameter that stays as it is.
+    """
+    bounds = np.column_stack([LOWEST, HIGHEST])
+    if fixed is not None:
+        bounds[fixed] = start[fixed]
+    best = minimize(
+        lambda z: likelihood(*(z * UNIT)),
+        start / UNIT,
+        method="L-BFGS-B",
+        bounds=bounds / UNIT[:, None],
+        options={"ftol": FINE if fixed is None else COARSE},
+    )
+    return best.x * UNIT, float(best.fun)
+
+
+def _largest(likelihood: Likelihood, method: str) -> WobbleFit:
+    """Where a likelihood is largest, and where it has fallen on either side."""
+    at, least = lowest(likelihood)
+    period = 2 * np.pi / (MIDDLE + at[0])
+    if min(abs(period - end) for end in BAND) < EDGE:
+        raise UndefinedError(
+            f"no free wobble: the likelihood is largest at the edge of what is looked through, "
+            f"{BAND[0]:.0f} to {BAND[1]:.0f} d"
+        )
+
+    # The best possible scatter of the rate is sqrt(decay/span); that of the decay is as large.
+    scatter = NORMAL_95 * np.exp(-at[1] / 2) / np.sqrt(likelihood.span)
+
+    def ends(of: int, reach: float) -> tuple[float, float]:
+        """Ends of an interval, the other parameters fitted anew at every point of it."""
+        nearby = at.copy()
+
+        def profile(value: float) -> float:
+            """How many standard deviations the likelihood has fallen."""
+            nonlocal nearby
+            nearby[of] = value
+            nearby, height = lowest(likelihood, nearby, fixed=of)
+            return float(np.sqrt(max(height - least, 0.0)))
+
+        def side(limit: float) -> float:
+            nonlocal nearby
+            nearby = at.copy()
+            return _risen(profile, float(at[of]), limit, reach, NORMAL_95)
+
+        return side(LOWEST[of]), side(HIGHEST[of])
+
+    slow, fast = (2 * np.pi / (MIDDLE + rate) for rate in ends(0, np.exp(at[1]) * scatter))
+    decays = np.exp(ends(1, min(scatter, 1.0)))
+    slowest, fastest = decays
+    if slowest == np.exp(LOWEST[1]):  # even a wobble without any loss is likely enough
+        slowest = 0.0
+    with np.errstate(divide="ignore"):
+        quality = np.pi / period / np.array([np.exp(at[1]), fastest, slowest])
+    return WobbleFit(
+        method, float(period), float((slow - fast) / 2), tuple(float(q) for q in quality)
+    )
+
+
+def _risen(
+    of: Callable[[float], float], best: float, limit: float, reach: float, target: float
+) -> float:
+    """Where a function that is zero at `best` has risen to a target, towards a limit.
+
+    The limit stands for a place that lies beyond it.
+    """
+    # Searches from elsewhere end a little elsewhere: a height is looked up, not found twice.
+    height = cache(of)
+    room, sign, tolerance = abs(limit - best), np.sign(limit - best), 1e-2 * reach
+    near = best
+    while reach < room and height(best + sign * reach) < target:
+        near = best + sign * reach
+        reach *= 2
+    far = best + sign * min(reach, room)
+    if height(far) <= target:
+        return limit
+    return float(brentq(lambda v: height(v) - target, near, far, xtol=tolerance))

@@ -1,0 +1,104 @@
+"""Whether there is a free wobble at all: power about its frequency against that of its neighbours.
+
+A model without a wobble has a smooth spectrum. What it would hold between the periods of `BAND` is
+taken from the bands on either side, as a power of the frequency, and the power there is compared
+with it by Fisher's ratio.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import fdtri
+
+from earthspin.errors import UndefinedError
+from earthspin.wobble.record import BAND, YEAR, Array, Complex, in_blocks, without_known_terms
+
+BLOCK = 30.0  # d
+#: Periods of the neighbours, slower and faster, d; what the seasons leave is not among them.
+SLOWER, FASTER = (780.0, 500.0), (345.0, 230.0)
+#: Chance that noise alone passes.
+FALSE_ALARM = 1e-2
+#: Share of a record that rounding leaves of drift and seasons.
+ROUNDING = 1e-9
+
+
+def need_wobble(time: Array, p: Complex) -> None:
+    """Refuse a record in which no free wobble stands out.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        d, evenly spaced.
+    p : complex array, shape (n,)
+
+    Raises
+    ------
+    UndefinedError
+        If nothing is left beside drift and seasons, or what is left has no peak.
+    """
+    t, means, _ = in_blocks(time, p, BLOCK)
+    rest = without_known_terms(t, means)
+    if np.max(abs(rest)) <= ROUNDING * np.max(abs(p)):
+        raise UndefinedError("no free wobble: nothing is left beside drift and seasons")
+    spectrum = Periodogram.of(t, rest)
+    ratio, needed = spectrum.ratio()
+    if ratio < needed:
+        raise UndefinedError(
+            f"no free wobble between {BAND[0]:.0f} and {BAND[1]:.0f} d stands out: the power there "
+            f"is {ratio:.2g} times that of a smooth spectrum, and {needed:.2g} times could be noise"
+        )
+    peak = spectrum.peak()
+    if not BAND[0] <= peak <= BAND[1]:
+        raise UndefinedError(
+            f"no free wobble between {BAND[0]:.0f} and {BAND[1]:.0f} d stands out: there is more "
+            f"power at {peak:.0f} d"
+        )
+
+
+@dataclass(frozen=True)
+class Periodogram:
+    """Power at whole numbers of turns in a record, prograde, less what the seasons touch.
+
+    Attributes
+    ----------
+    frequency, power : array, shape (n,)
+        Cycles per day; power in any unit.
+    """
+
+    frequency: Array
+    power: Array
+
+    @classmethod
+    def of(cls, time: Array, rest: Complex) -> Periodogram:
+        """Of polar motion less drift and seasons, evenly spaced in days."""
+        length = (time[-1] - time[0]) * time.size / (time.size - 1)
+        frequency = np.arange(1, int(length / FASTER[1]) + 1) / length
+        frequency = frequency[abs(frequency - 1 / YEAR) > 1 / length]
+        sums = np.exp(-2j * np.pi * np.outer(frequency, time)) @ rest
+        return cls(frequency, np.asarray(abs(sums) ** 2, dtype=float))
+
+    def between(self, longest: float, shortest: float) -> Periodogram:
+        """The part between two periods, d."""
+        inside = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
+        return Periodogram(self.frequency[inside], self.power[inside])
+
+    def ratio(self) -> tuple[float, float]:
+        """Power in the wobble's band over what its neighbours let expect, and what noise reaches.
+
+        The second is passed by noise with a chance of `FALSE_ALARM`.
+        """
+        band, slower, faster = (self.between(*ends) for ends in (BAND[::-1], SLOWER, FASTER))
+        at, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
+        weight = (at - low) / (high - low)
+        expected = slower.power.mean() ** (1 - weight) * faster.power.mean() ** weight
+        # The expected power scatters as the two parts do, each with its weight.
+        scatter = (1 - weight) ** 2 / slower.power.size + weight**2 / faster.power.size
+        needed = fdtri(2 * band.power.size, 2 / scatter, 1 - FALSE_ALARM)
+        return float(band.power.mean() / expected), float(needed)
+
+    def peak(self) -> float:
+        """Period of the greatest power among the wobble and what is faster, d."""
+        part = self.between(BAND[1], FASTER[1])
+        return float(1 / part.frequency[np.argmax(part.power)])

@@ -1,0 +1,113 @@
+"""Records of polar motion, and what is not free wobble in them: drift and seasons.
+
+Polar motion is complex, p = x - i y, so that the free wobble turns with exp(+i omega t).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+YEAR = 365.2422  # d, the tropical year of the seasons
+#: Seasonal terms that are fitted and removed, d; negative ones turn backwards.
+SEASONS = (YEAR, -YEAR, YEAR / 2, -YEAR / 2)
+#: Periods among which the free wobble is looked for, d.
+BAND = (400.0, 470.0)
+#: Where the search starts, d.
+NEAR = 433.0
+#: Degree of the slow drift.
+DRIFT = 3
+#: Longest step between samples, d: a tenth of a year, as in the oldest tables.
+LONGEST_STEP = 37.0
+
+
+def shortest_span(period: float = NEAR) -> float:
+    """Days that are needed to tell the free wobble from the annual one: one beat of the two."""
+    return 1 / (1 / YEAR - 1 / period)
+
+
+def check(time: Array, p: Complex) -> None:
+    """Refuse a record that no method can use.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        d.
+    p : complex array, shape (n,)
+
+    Raises
+    ------
+    UndefinedError
+        If shapes differ, values are no numbers, steps are uneven or too long, or the span is short.
+    """
+    if np.shape(time) != np.shape(p) or np.ndim(p) != 1:
+        raise UndefinedError(f"{np.shape(time)} times for {np.shape(p)} positions; give as many")
+    if not (np.all(np.isfinite(time)) and np.all(np.isfinite(p))):
+        raise UndefinedError("polar motion has values that are no numbers; leave those days out")
+    steps = np.diff(time)
+    if steps.size == 0 or np.any(abs(steps - steps.mean()) > 1e-3 * abs(steps.mean())):
+        raise UndefinedError("times are not evenly spaced; fill the gaps or take another span")
+    if not 0 < steps.mean() <= LONGEST_STEP:
+        raise UndefinedError(
+            f"a step of {steps.mean():.3g} d is not possible; it lies between 0 and "
+            f"{LONGEST_STEP:g} d"
+        )
+    span, needed = time[-1] - time[0], 2 * shortest_span()
+    if span < needed:
+        raise UndefinedError(
+            f"a span of {span / 365.25:.1f} years is too short to separate {YEAR:.0f} from "
+            f"{NEAR:.0f} days; it takes {needed / 365.25:.0f} years, two beats of the two wobbles"
+        )
+
+
+def turning(time: Any, period: float) -> Complex:
+    """exp(2 pi i time/period)."""
+    return np.asarray(np.exp(2j * np.pi * time / period))
+
+
+def drift_terms(time: Array, degree: int = DRIFT) -> Complex:
+    """Columns of powers of time, scaled to -1 to 1; shape (n, degree + 1)."""
+    centre, half = (time[-1] + time[0]) / 2, (time[-1] - time[0]) / 2
+    scaled = (time - centre) / half
+    return np.column_stack([scaled**k for k in range(degree + 1)]).astype(complex)
+
+
+def known_terms(time: Array, drift: int = DRIFT) -> Complex:
+    """Columns of drift and seasonal terms, shape (n, drift + 5)."""
+    seasons = [turning(time, period) for period in SEASONS]
+    return np.column_stack([drift_terms(time, drift), *seasons])
+
+
+def block_means(values: Any, size: int) -> Any:
+    """Means of consecutive blocks along the first axis; what is left over is dropped."""
+    count = len(values) // size
+    return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
+
+
+def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
+    """Means over blocks of about a length in days, and the spacing that they have.
+
+    A sinusoid stays one and is shortened by sinc(block/T).
+    """
+    step = (time[-1] - time[0]) / (time.size - 1)
+    size = max(1, round(length / step))
+    return block_means(time, size), block_means(p, size), size * float(step)
+
+
+def least_squares(columns: Complex, values: Complex) -> Complex:
+    """Coefficients of the columns."""
+    return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
+
+
+def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
+    """Polar motion less drift and seasons, fitted together with a wobble that stays."""
+    columns = known_terms(time)
+    found = least_squares(np.column_stack([columns, turning(time, period)]), p)
+    return np.asarray(p - columns @ found[:-1])

@@ -1,0 +1,85 @@
+"""Simulated polar motion of known truth, to put the methods to the test."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import lfilter
+
+from earthspin.wobble.oscillator import DrivenOscillator
+from earthspin.wobble.record import NEAR, YEAR, Array, Complex, turning
+from earthspin.wobble.resonance import chandler_frequency
+
+#: Memory of the red excitation, d.
+RED_MEMORY = 500.0
+#: Memories of the slow and the fast background, d, and their sizes over the wobble's.
+BACKGROUND = ((365.0, 0.08), (15.0, 0.06))
+
+
+def simulate(
+    years: float,
+    period: float = NEAR,
+    quality_factor: float = 100.0,
+    *,
+    step: float = 10.0,
+    amplitude: float = 128.0,
+    red: float = 0.0,
+    seed: int | None = None,
+) -> tuple[Array, Complex]:
+    """A driven wobble with seasons, drift and background, to put the methods to the test.
+
+    Parameters
+    ----------
+    years : float
+        Of 365.25 d.
+    period, quality_factor : float
+        Of the free wobble; d.
+    step : float
+        d.
+    amplitude : float
+        Root mean square of the wobble that white noise drives, mas.
+    red : float
+        Root mean square of a red excitation that drives the wobble as well, mas.
+    seed : int, optional
+
+    Returns
+    -------
+    time : array
+        d.
+    p : complex array
+        mas. The background's level is that of the observed motion.
+    """
+    generator = np.random.default_rng(seed)
+    time = np.arange(0.0, years * 365.25, step)
+
+    def process(rate: complex, size: float) -> Complex:
+        """Stationary complex process with covariance size2 exp(rate |lag|)."""
+        kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
+        keep = np.exp(rate * step)
+        kick[1:] *= np.sqrt(1 - abs(keep) ** 2)
+        return np.asarray(size * lfilter([1.0], [1.0, -keep], kick))
+
+    rate = 2 * np.pi / period
+    p = process(1j * rate - rate / (2 * quality_factor), amplitude)
+    for memory, share in BACKGROUND:
+        p += process(-1 / memory, share * amplitude)
+    p += 94 * turning(time, YEAR) + 4.5 * turning(time, -YEAR) + 5 * turning(time, YEAR / 2)
+    if red:
+        driven = DrivenOscillator(
+            chandler_frequency(period, quality_factor), RED_MEMORY, red=red**2
+        )
+        p += driven.sampled(time.size, step, generator)
+    return time, p + (30 - 300j) + (1.6 - 3.4j) * time / 365.25
+
+
+def red_share(period: float, quality_factor: float, red: float, amplitude: float = 128.0) -> float:
+    """Share of red noise in what drives the wobble of `simulate`, at its frequency.
+
+    Parameters
+    ----------
+    period, quality_factor, red, amplitude : float
+        As of `simulate`.
+    """
+    s = chandler_frequency(period, quality_factor)
+    white = 2 * s.imag * amplitude**2 / abs(s) ** 2  # power of the white excitation, mas2 d
+    slow = 2 * RED_MEMORY * red**2 / (1 + (s.real * RED_MEMORY) ** 2)
+    return slow / (white + slow)
