@@ -1,7 +1,7 @@
-"""Observed polar motion, and the excitation that models of air and water give, from files.
+"""Observed polar motion, from files.
 
-Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, twenty to the year) and
-finals2000A (daily, with predictions, which are left out). astropy carries C04; nothing is
+Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, ten rows to the year, twenty since
+1890) and finals2000A (daily, with predictions, which are left out). astropy carries C04; nothing is
 ever fetched. What is wrong in a file is an error that names its line; what can be put
 right without guessing is put right, and said.
 """
@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -18,13 +19,27 @@ from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import SeriesError
+from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers
 
 Array = NDArray[np.float64]
 
 #: Polar motion has never passed 0.7 arcsec; more is another unit, or another column.
 LARGEST = 2.0
-#: Gaps up to this many steps are bridged by straight lines.
-LONGEST_BRIDGE = 10
+#: Nor has it ever stayed within this of the conventional pole, arcsec; less is another unit.
+SMALLEST = 1e-3
+#: What the pole moves in a day at most, arcsec, and what is no jump yet beside it.
+FASTEST, JUMP = 0.01, 0.1
+#: Gaps up to this many steps are bridged by straight lines, but none of more days than this: the
+#: oldest tables have a row in a tenth of a year.
+LONGEST_BRIDGE, LONGEST_DAYS = 10, 37.0
+#: How far dates may be from even ones, as a share of a step.
+DATE_ROUNDING = 1e-3
+#: Period of the free wobble by which the error of a bridge is told, d.
+FREE_WOBBLE = 433.0
+#: By number of columns: that of the MJD, which x and y follow, and that of the error of x.
+_C04_LAYOUTS = {16: (3, 10), 21: (4, 13)}
+#: Of the table by date.
+_C01_COLUMNS = 29
 _ERRORS = ("x_error", "y_error")
 
 
@@ -82,21 +97,6 @@ class PoleSeries:
 
 
 @dataclass(frozen=True)
-class AngularMomentum:
-    """Effective angular momentum functions.
-
-    Attributes
-    ----------
-    mjd : array, shape (n,)
-    chi : complex array, shape (n,)
-        chi1 + i chi2, mass and motion terms together, rad.
-    """
-
-    mjd: Array
-    chi: NDArray[np.complex128]
-
-
-@dataclass(frozen=True)
 class _Row:
     """A line as read: date, x, y and their errors in arcseconds."""
 
@@ -128,97 +128,78 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
         If the file cannot be used; it names the line.
     """
     file = c04_path() if str(path) == "c04" else Path(path)
-    lines = _lines(file)
+    lines = lines_of(file)
     kind = kind or _kind(file, lines)
     if kind not in _READERS:
         raise SeriesError(file, f"kind {kind!r} is unknown", f"allowed: {', '.join(_READERS)}")
     rows = list(_READERS[kind](file, lines))
     repairs: list[str] = []
+    _check_dates(file, rows)
     rows = _drop_missing(rows, repairs)
     if len(rows) < 2:
         raise SeriesError(file, f"it holds {len(rows)} rows of polar motion", "is it complete?")
     _check_size(file, rows)
     rows = _in_order(file, rows, repairs)
+    _check_jumps(file, rows)
     return _even(file, rows, kind, repairs)
-
-
-def read_angular_momentum(path: str | Path) -> AngularMomentum:
-    """Read effective angular momentum functions in the common ASCII layout.
-
-    Year, month, day, hour, MJD, then chi1, chi2, chi3 of the mass term and, if there is
-    one, of the motion term, as pure numbers (Dobslaw & Dill 2018, GFZ, user's guide);
-    lines that do not start with a number are comments.
-
-    Raises
-    ------
-    SeriesError
-        If the file cannot be used; it names the line.
-    """
-    file = Path(path)
-    dates, chi = [], []
-    for number, line in enumerate(_lines(file), start=1):
-        words = line.split()
-        if not words or not _is_number(words[0]):
-            continue
-        if len(words) not in (8, 11):
-            raise SeriesError(
-                file, f"{len(words)} columns", "8 or 11 are expected; is it cut off?", line=number
-            )
-        values = _floats(file, number, words[4:])
-        terms = values[1:]
-        one = sum(terms[0::3]) + 1j * sum(terms[1::3])
-        if not math.isfinite(abs(one)) or abs(one) > 1e-4:
-            raise SeriesError(
-                file, f"excitation {one:.3g} is no such number", "radians are wanted", line=number
-            )
-        dates.append(values[0])
-        chi.append(one)
-    if len(dates) < 2:
-        raise SeriesError(file, f"it holds {len(dates)} rows of excitation")
-    mjd = np.array(dates)
-    steps = np.diff(mjd)
-    if np.any(abs(steps - steps[0]) > 1e-6) or steps[0] <= 0:
-        bad = int(np.argmax(abs(steps - steps[0]) > 1e-6))
-        raise SeriesError(
-            file, f"the step changes after MJD {mjd[bad]:.3f}", "even steps are needed"
-        )
-    return AngularMomentum(mjd, np.array(chi))
 
 
 # --- the kinds of table --------------------------------------------------------------------------
 
 
 def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """C04 of any solution: the date, with or without the hour, then MJD, x, y."""
-    errors = None
+    """C04: the date, with the hour (20 C04) or without (14 C04 and before), then MJD, x, y."""
+    columns = 0
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if not words or not words[0].isdigit():
             continue
-        if len(words) < 12:
+        columns = columns or len(words)
+        if len(words) != columns or columns not in _C04_LAYOUTS:
+            allowed = " or ".join(map(str, _C04_LAYOUTS))
             raise SeriesError(
-                file, f"{len(words)} columns", "12 or more are expected; is it cut off?", number
+                file,
+                f"{len(words)} columns",
+                f"{allowed} are expected, as many in each row; is it cut off, or a column lost?",
+                number,
             )
-        first = 4 if float(words[3]) < 1000 else 3
-        errors = errors or (len(words) - first - 1) // 2 + first + 1
-        if len(words) <= errors + 1:
-            raise SeriesError(file, "it ends early", "is the file cut off?", number)
-        values = _floats(file, number, [words[i] for i in (first, first + 1, first + 2)])
-        spread = _floats(file, number, words[errors : errors + 2])
-        yield _Row(number, values[0], (values[1], values[2], spread[0], spread[1]))
+        first, errors = _C04_LAYOUTS[columns]
+        *calendar, mjd, x, y = numbers(file, number, words[: first + 3])
+        check_calendar(file, number, [*calendar, 0.0][:4], mjd)
+        x_error, y_error = numbers(file, number, words[errors : errors + 2])
+        yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
 def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """C01: the year with decimals, then x, its error, y, its error."""
+    """C01, as it is now by modified Julian date, or by Besselian years as it was.
+
+    By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 columns more. By year: the year
+    with decimals, x, its error, y, its error.
+    """
+    columns = 0
     for number, line in enumerate(lines, start=1):
         words = line.split()
-        if not words or not _is_number(words[0]):
+        if not words or not is_number(words[0]):
             continue
-        if len(words) < 5:
-            raise SeriesError(file, f"{len(words)} columns", "5 or more are expected", number)
-        year, x, x_error, y, y_error = _floats(file, number, words[:5])
-        # Besselian years, to the millisecond of arc that this table has.
-        mjd = 15019.81352 + (year - 1900.0) * 365.242198781
+        columns = columns or len(words)
+        if len(words) != columns or columns < 5:
+            raise SeriesError(
+                file, f"{len(words)} columns", "5 or more are expected, as many in each row", number
+            )
+        if columns == _C01_COLUMNS:
+            mjd, x, y = numbers(file, number, words[:3])
+            x_error, y_error = numbers(file, number, words[6:8])
+        else:
+            year, x, x_error, y, y_error = numbers(file, number, words[:5])
+            if not 1800 <= year <= 2200:
+                raise SeriesError(
+                    file,
+                    f"the year is {year:g}",
+                    f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns",
+                    number,
+                )
+            # Besselian years, to the millisecond of arc that this table has.
+            mjd = 15019.81352 + (year - 1900.0) * 365.242198781
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
@@ -230,7 +211,11 @@ def _finals(file: Path, lines: list[str]) -> Iterator[_Row]:
         if len(line.rstrip("\n")) < 55:
             raise SeriesError(file, "it ends early", "is the file cut off?", number)
         cells = (line[7:15], line[18:27], line[37:46], line[27:36], line[46:55])
-        mjd, x, y, x_error, y_error = _floats(file, number, list(cells))
+        mjd, x, y, x_error, y_error = numbers(file, number, list(cells))
+        year, month, day = numbers(file, number, [line[0:2], line[2:4], line[4:6]])
+        # Two digits: 73 is 1973, and 72 is 2072, if the table lives so long.
+        century = 1900 if year >= 73 else 2000
+        check_calendar(file, number, [century + year, month, day, mjd % 1 * 24], mjd)
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
@@ -245,13 +230,14 @@ def _kind(file: Path, lines: list[str]) -> str:
     """Tell the kind of table from the first row of numbers."""
     for line in lines:
         words = line.split()
-        if not words or not _is_number(words[0]):
+        if not words or not is_number(words[0]):
             continue
         if len(line) > 60 and line[16:17] in ("I", "P"):
             return "finals2000A"
         if words[0].isdigit() and 1800 <= int(words[0]) <= 2200 and len(words) >= 6:
             return "c04"
-        if "." in words[0] and 1800 <= float(words[0]) <= 2200:
+        by_date = len(words) == _C01_COLUMNS
+        if by_date or ("." in words[0] and 1800 <= float(words[0]) <= 2200):
             return "c01"
         break
     raise SeriesError(
@@ -262,28 +248,6 @@ def _kind(file: Path, lines: list[str]) -> str:
 # --- what can be wrong ---------------------------------------------------------------------------
 
 
-def _lines(file: Path) -> list[str]:
-    try:
-        return file.read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError as error:
-        raise SeriesError(file, f"it cannot be read: {error.strerror}") from None
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
-
-
-def _floats(file: Path, number: int, words: list[str]) -> list[float]:
-    try:
-        return [float(word) for word in words]
-    except ValueError as error:
-        raise SeriesError(file, str(error), "a number is expected", number) from None
-
-
 def _drop_missing(rows: list[_Row], repairs: list[str]) -> list[_Row]:
     """Rows without a position become gaps."""
     kept = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
@@ -292,13 +256,50 @@ def _drop_missing(rows: list[_Row], repairs: list[str]) -> list[_Row]:
     return kept
 
 
+def _check_dates(file: Path, rows: list[_Row]) -> None:
+    for row in rows:
+        if not math.isfinite(row.mjd):
+            raise SeriesError(file, f"the date is {row.mjd}", "give each row a date", row.line)
+
+
 def _check_size(file: Path, rows: list[_Row]) -> None:
     for row in rows:
-        if max(abs(row.values[0]), abs(row.values[1])) > LARGEST:
+        x, y, *errors = row.values
+        if max(abs(x), abs(y)) > LARGEST:
             raise SeriesError(
                 file,
-                f"x, y = {row.values[0]:g}, {row.values[1]:g} arcsec",
+                f"x, y = {x:g}, {y:g} arcsec",
                 "polar motion stays below one; is it in milliarcseconds?",
+                row.line,
+            )
+        if min(errors) < 0:
+            raise SeriesError(
+                file,
+                f"errors of x, y = {errors[0]:g}, {errors[1]:g} arcsec",
+                "errors are not negative; is a column lost?",
+                row.line,
+            )
+    farthest = max(rows, key=lambda row: math.hypot(*row.values[:2]))
+    if 0 < math.hypot(*farthest.values[:2]) < SMALLEST:
+        raise SeriesError(
+            file,
+            f"x, y = {farthest.values[0]:g}, {farthest.values[1]:g} arcsec, and no more elsewhere",
+            f"the pole goes farther than {SMALLEST:g} arcsec; is it in radians?",
+            farthest.line,
+        )
+
+
+def _check_jumps(file: Path, rows: list[_Row]) -> None:
+    """Refuse a step that is farther than the pole goes and the stated errors allow."""
+    for last, row in pairwise(rows):
+        x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
+        days = row.mjd - last.mjd
+        scatter = sum(error for one in (last, row) for error in one.values[2:] if error > 0)
+        if max(x, y) > JUMP + FASTEST * days + 3 * scatter:
+            raise SeriesError(
+                file,
+                f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d",
+                f"it moves by less than {FASTEST:g} arcsec a day; is a digit wrong?",
                 row.line,
             )
 
@@ -329,19 +330,28 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
     mjd = np.array([row.mjd for row in rows])
     values = np.array([row.values for row in rows]) * ARCSEC
     steps = np.diff(mjd)
-    step = float(np.median(steps))
+    usual = float(np.median(steps))
     longest = int(np.argmax(steps))
-    if steps[longest] > LONGEST_BRIDGE * step * (1 + 1e-6):
+    bridge = min(LONGEST_BRIDGE * usual, max(LONGEST_DAYS, usual)) * (1 + DATE_ROUNDING)
+    if steps[longest] > bridge:
         raise SeriesError(
             file,
             f"a gap of {steps[longest]:.1f} d follows MJD {mjd[longest]:.2f}",
-            f"gaps up to {LONGEST_BRIDGE} steps are bridged; take a span on one side of it",
+            f"gaps up to {bridge:.0f} d are bridged; take a span on one side of it",
             rows[longest].line,
         )
-    even = mjd[0] + step * np.arange(round((mjd[-1] - mjd[0]) / step) + 1)
-    if even.size != mjd.size or np.max(abs(even - mjd)) > 1e-3 * step:
-        repairs.append(f"{max(even.size - mjd.size, 0)} missing steps bridged by straight lines")
+    # Dates are rounded: the mean of all steps is more exact than any one of them.
+    count = round((mjd[-1] - mjd[0]) / usual)
+    whole = int(np.sum(np.round(steps / usual)))
+    count = whole if abs(whole - count) <= DATE_ROUNDING * count else count
+    even = np.linspace(mjd[0], mjd[-1], count + 1)
+    step = float(even[1] - even[0])
+    if even.size != mjd.size or np.max(abs(even - mjd)) > DATE_ROUNDING * step:
+        cut = (math.pi * steps[longest] / FREE_WOBBLE) ** 2 / 2
+        repairs.append(
+            f"{max(even.size - mjd.size, 0)} missing steps bridged by straight lines, which cut "
+            f"a wobble of {FREE_WOBBLE:g} d by up to {cut:.1%}"
+        )
         values = np.column_stack([np.interp(even, mjd, column) for column in values.T])
-        mjd = even
     x, y, x_error, y_error = values.T
-    return PoleSeries(mjd, x, y, x_error, y_error, kind, "; ".join(repairs))
+    return PoleSeries(even, x, y, x_error, y_error, kind, "; ".join(repairs))
