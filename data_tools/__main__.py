@@ -9,6 +9,7 @@ from data_tools import (
     accuracy_pages,
     cf,
     error_models,
+    free_wobble,
     hashes,
     kernels,
     neglected,
@@ -29,6 +30,10 @@ VERBS = {
     "accuracy-pages": (
         accuracy_pages.main,
         "measure error against run time, for docs/work_precision.md",
+    ),
+    "free-wobble": (
+        free_wobble.main,
+        "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
     ),
     "references": (references.main, "make the stored references of the checks again"),
     "signatures": (signatures.main, "write the signatures of the public calls for editors"),

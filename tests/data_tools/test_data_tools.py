@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from data_tools import error_models, neglected
+from data_tools import error_models, free_wobble, neglected
 from data_tools.__main__ import main
 from data_tools.kernels import largest_differences
 from data_tools.windows import rates, scatter
@@ -122,3 +122,15 @@ def test_the_table_of_what_is_neglected_holds(
         claimed = stands.swing + stands.rate * reach + stands.bend * reach**2
         found = float(swing) + float(rate) * reach + float(bend) * reach**2
         assert found == pytest.approx(claimed, rel=0.1, abs=0)
+
+
+def test_a_cell_of_the_free_wobble_is_as_stored() -> None:
+    """Eight of the four hundred records: within three of their standard errors."""
+    cell = free_wobble.Cell("burg", 100.0, 65.0, 12.0)
+    row = [part.strip() for part in cell.row(8).split("|")[1:-1]]
+    assert row[:3] == ["100", "65", "19%"]
+    table = free_wobble.PAGE.read_text().split('`"likelihood"`')[0].splitlines()
+    stored = next(x for x in table if x.startswith("| 100 | 65 | 19% |")).split("|")[1:-1]
+    bias, scatter = (float(stored[n].split("±")[0]) for n in (3, 4))
+    assert abs(float(row[3].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
+    assert 90 <= float(stored[5]) <= 100
