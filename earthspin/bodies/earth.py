@@ -57,7 +57,10 @@ EARTH = Body.cited(
     pole=IAU_2006,
     interior="prem",
     observed_wobble=Constant(
-        430.9, "d", 0.7, "Nastula & Gross 2015, JGR Solid Earth 120, 6474: observed, with Q = 127"
+        430.9,
+        "d",
+        0.7,
+        "Nastula & Gross 2015, JGR Solid Earth 120, 6474 (recalled), with Q = 127",
     ),
     reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
 )
