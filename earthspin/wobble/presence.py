@@ -41,7 +41,7 @@ def need_wobble(time: Array, p: Complex) -> None:
     t, means, _ = in_blocks(time, p, BLOCK)
     rest = without_known_terms(t, means)
     if np.max(abs(rest)) <= ROUNDING * np.max(abs(p)):
-        raise UndefinedError("no free wobble: nothing is left beside drift and seasons")
+        raise UndefinedError("no free wobble: the pole stands still but for drift and seasons")
     spectrum = Periodogram.of(t, rest)
     ratio, needed = spectrum.ratio()
     if ratio < needed:

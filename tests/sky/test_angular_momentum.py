@@ -124,6 +124,21 @@ def test_means_of_days_of_a_bent_line(tmp_path: Path) -> None:
     assert np.allclose(found.mass, [0.75e-7, 0.125e-7], rtol=1e-9, atol=0)
 
 
+def test_days_that_begin_between_samples(tmp_path: Path) -> None:
+    """Samples at 1h, 7h, 13h and 19h of a parabola, against a fine sum of lines between them."""
+    file = tmp_path / "parabola"
+    times = np.round(51544 + 1 / 24 + np.arange(14) / 4, 3)
+    values = 1e-9 * (times - 51544) ** 2
+    rows = [row(t, complex(v, 1e-9), None) for t, v in zip(times, values, strict=True)]
+    file.write_text("\n".join(rows))
+    found = read_angular_momentum(file, daily=True)
+    assert np.array_equal(found.mjd, [51545.5, 51546.5])
+    inside = (np.arange(100_000) + 0.5) / 100_000
+    means = [np.interp(day + inside, times, values).mean() for day in (51545, 51546)]
+    assert np.allclose(found.mass.real, means, rtol=1e-8, atol=0)
+    assert np.allclose(found.mass.imag, 1e-9, rtol=1e-9, atol=0)
+
+
 def test_what_does_not_fit_together(folder: Path) -> None:
     with pytest.raises(SeriesError, match="different dates; average them: daily=True"):
         read_angular_momentum(folder)

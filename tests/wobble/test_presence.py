@@ -14,8 +14,8 @@ def noise(seed: int, size: int = DAYS.size) -> np.ndarray:
 
 
 NOTHING = {
-    "constant": (np.full(DAYS.size, 30 - 300j), "nothing is left beside drift and seasons"),
-    "annual": (90 * record.turning(DAYS, record.YEAR), "nothing is left"),
+    "constant": (np.full(DAYS.size, 30 - 300j), "stands still but for drift and seasons"),
+    "annual": (90 * record.turning(DAYS, record.YEAR), "stands still"),
     "annual, of 365.25 d": (90 * record.turning(DAYS, 365.25), "more power at 3[67]"),
     "annual, of 365 d": (90 * record.turning(DAYS, 365.0), "more power at 3[67]"),
     "white noise": (noise(1), "times that of a smooth spectrum"),
