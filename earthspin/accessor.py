@@ -1,6 +1,6 @@
 """`ds.earthspin`: what an answer knows of itself, registered with the first answer.
 
-``import earthspin.accessor`` registers it by hand.
+``import earthspin.accessor`` registers it without an answer.
 """
 
 from __future__ import annotations

@@ -101,7 +101,8 @@ class Method:
     ----------
     name : str
     ours : bool
-        Whether it is what this package does, or what one would do by hand or with a peer.
+        Whether it is what this package does, or what one would do with SciPy set by hand, or
+        with another library.
     settings : sequence of Setting
         From coarse to fine.
     bound : float
@@ -297,7 +298,7 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
 
 
 def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
-    """Error against run time of every method for a quantity, ours and by hand.
+    """Error against run time of every method for a quantity, ours and those set by hand.
 
     Parameters
     ----------

@@ -125,10 +125,16 @@ def test_table_shows_each_setting_once(result: xr.Dataset) -> None:
 
 def test_figure_has_ours_filled_and_the_others_open(result: xr.Dataset) -> None:
     ax = plot_accuracy(result)
-    lines = ax.get_lines()
-    assert len(lines) == result.sizes["method"] + 1  # and the front
-    for line, ours in zip(lines, result.ours.values, strict=False):
+    points = [line for line in ax.get_lines() if line.get_marker() not in ("None", "", None)]
+    marked = [line for line in points if line.get_linestyle() == "None" and len(line.get_xdata())]
+    assert len(marked) == result.sizes["method"]
+    for line, ours in zip(marked, result.ours.values, strict=True):
         assert (line.get_markerfacecolor() == "white") != ours
+    for line in ax.get_lines():
+        # what joins points never goes back in run time, nor up in error
+        if line.get_linestyle() != "None":
+            assert np.all(np.diff(line.get_xdata()) >= 0)
+            assert np.all(np.diff(line.get_ydata()) <= 0)
     assert ax.get_xscale() == ax.get_yscale() == "log"
 
 
