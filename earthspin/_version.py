@@ -1,3 +1,13 @@
-"""The version, in one place; the build reads it from here."""
+"""The version, in one place; the build reads it from here. And those of other packages."""
+
+from functools import lru_cache
 
 __version__ = "0.1.0"
+
+
+@lru_cache
+def version(package: str) -> str:
+    """Version of an installed package, looked up once."""
+    from importlib import metadata
+
+    return metadata.version(package)

@@ -109,6 +109,7 @@ def build(
     values: Mapping[str, Any],
     coords: Mapping[str, Any] | None = None,
     frame: str | None = None,
+    no_error: str = "",
 ) -> xr.Dataset:
     """Label the values that a part gave.
 
@@ -123,6 +124,8 @@ def build(
         Labels by dimension.
     frame : str, optional
         Axes of the variables that have the dimension `component`.
+    no_error : str
+        Why errors are not given where they are NaN; empty if all are given.
 
     Raises
     ------
@@ -150,11 +153,13 @@ def build(
         laid = value.transpose(*declared.dims, ...)
         factor = from_si(declared.units)
         data = laid.values if factor == 1 else np.asarray(laid.values * factor)
-        if data.dtype.kind == "f" and np.isnan(data).any():
-            raise UndefinedError(
-                f"{declared.long_name} has no value here; check the body's numbers"
-            )
         attributes = _attributes(name, declared, schema)
+        if data.dtype.kind == "f" and np.isnan(data).any():
+            if not (no_error and "_error" in name):
+                raise UndefinedError(
+                    f"{declared.long_name} has no value here; check the body's numbers"
+                )
+            attributes["comment"] = no_error
         if frame and "component" in laid.dims:
             attributes["frame"] = frame
         arrays[name] = xr.Variable(laid.dims, data, attributes)

@@ -21,6 +21,9 @@ R = TypeVar("R", covariant=True)
 #: Says why a part is left out, from keys of the question; None keeps it.
 Reason = Callable[..., str | None]
 
+#: Says for people what a part does, from keys of the question.
+Teller = Callable[..., str]
+
 #: The parameter by which a part asks for one stretch of a long series.
 BLOCK = "block"
 
@@ -50,12 +53,20 @@ class Part(Generic[P, R]):
         Each takes keys of the question by name and gives a reason for leaving the part out.
     chooses : bool
         Whether it chooses settings for an accuracy that was asked for.
+    tells : callable or None
+        Takes keys of the question by name and says what the part does with them.
     """
 
     def __init__(
-        self, function: Callable[P, R], gives: Schema, unless: tuple[Reason, ...], chooses: bool
+        self,
+        function: Callable[P, R],
+        gives: Schema,
+        unless: tuple[Reason, ...],
+        chooses: bool,
+        tells: Teller | None = None,
     ) -> None:
         self.function, self.gives, self.unless, self.chooses = function, gives, unless, chooses
+        self.tells = tells
         self.name = function.__name__
         self.does = _first_sentence(function)
         self.__doc__, self.__module__ = function.__doc__, function.__module__
@@ -87,18 +98,25 @@ class Part(Generic[P, R]):
     def reason(self, keys: dict[str, Any]) -> str | None:
         """Why it is left out of the answer to a question with these keys; None if it is not."""
         for says in self.unless:
-            wanted = _parameters(says, inspect.Parameter.empty)
-            why = says(**{name: keys[name] for name in wanted})
+            why = says(**_wanted(says, keys))
             if why is not None:
                 return why
         return None
+
+    def told(self, keys: dict[str, Any]) -> str:
+        """What it does for a question with these keys, as it stands in a plan."""
+        return self.does if self.tells is None else self.tells(**_wanted(self.tells, keys))
 
 
 @overload
 def part(function: Callable[P, R], /) -> Part[P, R]: ...
 @overload
 def part(
-    *, gives: Schema = ..., unless: Reason | tuple[Reason, ...] = ..., chooses: bool = ...
+    *,
+    gives: Schema = ...,
+    unless: Reason | tuple[Reason, ...] = ...,
+    chooses: bool = ...,
+    tells: Teller | None = ...,
 ) -> Callable[[Callable[P, R]], Part[P, R]]: ...
 def part(
     function: Callable[P, R] | None = None,
@@ -107,6 +125,7 @@ def part(
     gives: Schema | None = None,
     unless: Reason | tuple[Reason, ...] = (),
     chooses: bool = False,
+    tells: Teller | None = None,
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
     """Make a part of a typed function.
 
@@ -120,13 +139,20 @@ def part(
         Reasons for leaving it out, by keys of the question.
     chooses : bool
         Whether it chooses settings for an accuracy.
+    tells : callable, optional
+        Says for a plan what it does, by keys of the question; its docstring by default.
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     def made(function: Callable[P, R]) -> Part[P, R]:
-        return Part(function, gives or {}, reasons, chooses)
+        return Part(function, gives or {}, reasons, chooses, tells)
 
     return made if function is None else made(function)
+
+
+def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
+    """The keys that a function takes."""
+    return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:

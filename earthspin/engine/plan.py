@@ -56,10 +56,9 @@ class Plan:
     @property
     def rows(self) -> list[Row]:
         """The plan as a table: what runs first, then what is left out."""
-        ran = bool(self.seconds)
+        status, keys = "ran" if self.seconds else "runs", self.question.keys()
         rows = [
-            Row(one.title, "ran" if ran else "runs", one.does, self.seconds.get(one.name))
-            for one in self.parts
+            Row(one.title, status, one.told(keys), self.seconds.get(one.name)) for one in self.parts
         ]
         return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
 

@@ -134,7 +134,7 @@ class Question:
                 raise SceneError(name, value, unknown_key(type(self), name), source=source)
         chosen = {name: value for name, value in given.items() if value is not None}
         object.__setattr__(self, "given", frozenset(chosen))
-        object.__setattr__(self, "source", source)
+        object.__setattr__(self, "read_from", source)
         for name, one in keys.items():
             shown = f"{self.table}.{name}" if one.setting and in_scene else name
             where = Where(shown, source)
@@ -160,14 +160,14 @@ class Question:
 
     def where(self, name: str) -> Where:
         """Name a key for messages."""
-        return Where(name, self.source)
+        return Where(name, self.read_from)
 
     def error(self, name: str, given: object, problem: str) -> SceneError:
         """Make the error that says what is wrong with a key."""
         return self.where(name).error(given, problem)
 
     given: ClassVar[frozenset[str]]
-    source: ClassVar[str]
+    read_from: ClassVar[str]
 
     # --- as a scene ------------------------------------------------------------------------------
 
@@ -232,7 +232,7 @@ class Question:
         """Return the question with some keys changed, checked again."""
         kept = {name: getattr(self, name) for name in self.given if name not in changes}
         made = type(self).__new__(type(self))
-        made._fill(kept | {"title": self.title} | changes, self.source, in_scene=False)
+        made._fill(kept | {"title": self.title} | changes, self.read_from, in_scene=False)
         return made
 
     def _repr_html_(self) -> str:

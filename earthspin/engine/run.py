@@ -6,10 +6,9 @@ import time
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from earthspin._version import __version__
+from earthspin._version import __version__, version
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import BLOCK, Block
@@ -255,11 +254,3 @@ def _without_bytes(value: Any, packed: list[str]) -> Any:
         packed.append(value["float64"])
         short["float64"] = _PACKED.format(len(packed) - 1)
     return short
-
-
-@lru_cache
-def version(package: str) -> str:
-    """Version of an installed package, looked up once."""
-    from importlib import metadata
-
-    return metadata.version(package)
