@@ -1,4 +1,4 @@
-"""Dates and times: text, datetimes and times of astropy become days of TDB.
+"""Dates and times: text, datetimes, times of astropy and of Skyfield become days of TDB.
 
 Inside, a time is a count of days from J2000.0 TDB: a float64 keeps it to a third of a microsecond
 over a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
@@ -9,6 +9,7 @@ zone, a Time in UTC) is converted.
 from __future__ import annotations
 
 import datetime as dt
+import math
 import re
 import warnings
 from collections.abc import Mapping
@@ -34,8 +35,8 @@ def microseconds(value: Any, where: Where) -> int:
     Parameters
     ----------
     value : str, date, datetime, datetime64 or Time
-        Plain dates mean TDB. A Time is converted from its own scale; a date with a time zone is
-        UTC, and is converted, too.
+        Plain dates mean TDB. A Time of astropy is converted from its own scale, one of Skyfield
+        gives its TDB; a date with a time zone is UTC, and is converted, too.
     where : Where
         What is being read.
 
@@ -61,10 +62,10 @@ def microseconds(value: Any, where: Where) -> int:
         except OverflowError:
             raise where.error(value, "there is no such date in UTC") from None
         return int(_from_utc(value, where))
-    if is_time(value):
+    if is_time(value) or is_skyfield_time(value):
         if value.shape != ():
-            raise where.error(f"{value.size} times", "give one date")
-        return round(float(_days_from_time(value, where)) * MICROSECONDS_PER_DAY)
+            raise where.error(f"{math.prod(value.shape)} times", "give one date")
+        return round(float(_days_of(value, where)) * MICROSECONDS_PER_DAY)
     if not isinstance(value, (str, dt.date, np.datetime64)):
         raise where.error(value, "write a date like '2000-01-01T12:00'")
     try:
@@ -95,7 +96,7 @@ def days(times: object, where: Where) -> FloatArray:
 
     Parameters
     ----------
-    times : Time, DataArray, pandas index, array of datetime64, or sequence of dates
+    times : Time (astropy's or Skyfield's), DataArray, pandas index, datetime64, or list of dates
     where : Where
 
     Returns
@@ -107,8 +108,8 @@ def days(times: object, where: Where) -> FloatArray:
     SceneError
         If one of them is no date, or there are none.
     """
-    if is_time(times):
-        found = np.atleast_1d(_days_from_time(times, where))
+    if is_time(times) or is_skyfield_time(times):
+        found = np.atleast_1d(_days_of(times, where))
     else:
         counts = _counts(times, where)
         whole, rest = np.divmod(counts, MICROSECONDS_PER_DAY)
@@ -169,6 +170,21 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
     return found
 
 
+def _days_of(time: Any, where: Where) -> Any:
+    """Days from J2000.0 TDB of a time of astropy's or Skyfield's."""
+    if not is_skyfield_time(time):
+        return _days_from_time(time, where)
+    found = (time.whole - 2451545.0) + time.tdb_fraction
+    if not np.all(np.isfinite(found)):
+        raise where.error("NaN", "NaN is no date")
+    return found
+
+
+def is_skyfield_time(value: object) -> bool:
+    """Recognise a Time of Skyfield's without importing Skyfield for those who use none."""
+    return type(value).__module__ == "skyfield.timelib" and hasattr(value, "tdb_fraction")
+
+
 def is_time(value: object) -> bool:
     """Recognise an astropy Time without importing astropy for those who use none."""
     return type(value).__module__.startswith("astropy.time") and hasattr(value, "scale")
@@ -193,14 +209,20 @@ class Span:
     first: int
     last: int
 
-    words, hint = "two dates", "tuple[Date, Date]"
+    words, hint = "two dates", "tuple[Date, Date] | SkyfieldTime"
 
     @classmethod
     def read(cls, given: Any, where: Where) -> Span:
         """Read two dates; the earlier comes first."""
         if isinstance(given, Span):
             return given
-        pair = not isinstance(given, (str, Mapping, set)) and hasattr(given, "__len__")
+        if is_skyfield_time(given) and given.shape:
+            given = list(given)
+        pair = (
+            not is_skyfield_time(given)
+            and not isinstance(given, (str, Mapping, set))
+            and hasattr(given, "__len__")
+        )
         if not pair or getattr(given, "ndim", 1) != 1 or len(given) != 2:
             raise where.error(given, "give two dates, like ['2000-01-01', '2001-01-01']")
         first, last = (microseconds(date, where) for date in given)
