@@ -28,12 +28,14 @@ from astropy.time import Time
 from astropy.units import Quantity
 from numpy.typing import ArrayLike
 from skyfield.jpllib import SpiceKernel
+from skyfield.timelib import Time as SkyfieldTime
+from skyfield.vectorlib import VectorFunction
 
 Value = str | float | Quantity | dt.timedelta | np.timedelta64
 Pure = float | Quantity
 Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
-Date = str | dt.date | np.datetime64 | Time
-Dates = Time | ArrayLike | xr.DataArray | Sequence[Date]
+Date = str | dt.date | np.datetime64 | Time | SkyfieldTime
+Dates = Time | SkyfieldTime | ArrayLike | xr.DataArray | Sequence[Date]
 '''
 
 

@@ -11,12 +11,14 @@ from astropy.time import Time
 from astropy.units import Quantity
 from numpy.typing import ArrayLike
 from skyfield.jpllib import SpiceKernel
+from skyfield.timelib import Time as SkyfieldTime
+from skyfield.vectorlib import VectorFunction
 
 Value = str | float | Quantity | dt.timedelta | np.timedelta64
 Pure = float | Quantity
 Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
-Date = str | dt.date | np.datetime64 | Time
-Dates = Time | ArrayLike | xr.DataArray | Sequence[Date]
+Date = str | dt.date | np.datetime64 | Time | SkyfieldTime
+Dates = Time | SkyfieldTime | ArrayLike | xr.DataArray | Sequence[Date]
 
 from earthspin.bodies import BODIES as BODIES
 from earthspin.bodies import EARTH as EARTH
@@ -55,14 +57,16 @@ from earthspin._version import __version__ as __version__
 
 def precession(
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
     | Mapping[str, Any]
-    | Sequence[Body | str | Mapping[str, Any]]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
     | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    span: tuple[Date, Date] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    span: tuple[Date, Date] | SkyfieldTime | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
 def torque_series(
@@ -70,13 +74,15 @@ def torque_series(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
     | Mapping[str, Any]
-    | Sequence[Body | str | Mapping[str, Any]]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
     | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
     equator: Literal["mean", "true"] | None = ...,
     accuracy: Value | None = ...,
@@ -86,13 +92,15 @@ def pole(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
     | Mapping[str, Any]
-    | Sequence[Body | str | Mapping[str, Any]]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
     | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
     effects: Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
@@ -110,13 +118,15 @@ def compare_iau(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
     | Mapping[str, Any]
-    | Sequence[Body | str | Mapping[str, Any]]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
     | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
     effects: Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
@@ -130,14 +140,14 @@ def compare_iau(
 ) -> xr.Dataset: ...
 def wobble_ladder(
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     ocean: Literal["real", "global", "none"] | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
 def polar_motion(
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
-    span: tuple[Date, Date] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     method: Literal["burg", "likelihood", "least-squares"] | None = ...,
@@ -171,7 +181,7 @@ def heavy_top(
 def spheroid_field(
     position: Values,
     *,
-    body: Body | str | Mapping[str, Any] | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...

@@ -40,7 +40,8 @@ BLOCK = 1 << 17
 
 #: Attributes of an answer that say what made it, beside its scene.
 VERSIONS = (
-    "earthspin_version", "numpy_version", "jplephem_version", "pyerfa_version", "ephemeris_sha256",
+    "earthspin_version", "numpy_version", "jplephem_version", "skyfield_version", "pyerfa_version",
+    "ephemeris_sha256",
 )  # fmt: skip
 
 

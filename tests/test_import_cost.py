@@ -60,6 +60,14 @@ def test_a_scene_draws_nothing(scene: str) -> None:
     assert "jplephem" in loaded
 
 
+def test_skyfield_is_loaded_where_it_is_asked_for() -> None:
+    """Not by the plan of it."""
+    question = "earthspin.load_scene('torque', {'source': 'skyfield', 'step': '30 d'})"
+    planned = modules_after(f"import earthspin; print(earthspin.plan({question}))")
+    assert not planned & HEAVY
+    assert "skyfield" in modules_after(f"import earthspin; earthspin.run({question})")
+
+
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_planning_loads_numpy_at_most(scene: str) -> None:
     """And no physics that a plan does not tell of."""

@@ -14,7 +14,15 @@ from dataclasses import replace as _replace
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
-from earthspin.bodies.kinds import CitedPeriod, Codes, Line, Magnitude, Moments, Uncertainties
+from earthspin.bodies.kinds import (
+    CitedPeriod,
+    Codes,
+    Line,
+    Magnitude,
+    Moments,
+    OwnPlace,
+    Uncertainties,
+)
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
@@ -78,6 +86,9 @@ class Body:
         Name of what lies under the surface, a word of `earthspin.interior.named`; None is rigid.
     observed_wobble : Constant or None
         Period of the free wobble as observed, d.
+    position : vector function, Trajectory or None
+        What gives its place, where a kernel does not: a vector function of Skyfield's, or an object
+        as `earthspin.sky.protocol` describes it.
     relative_uncertainty : mapping
         One standard deviation over value, by field name.
     reference : str
@@ -110,13 +121,14 @@ class Body:
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
     interior: Annotated[str | None, Line()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
+    position: Annotated[Any, OwnPlace()] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
     reference: Annotated[str, Line()] = ""
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
-    hint: ClassVar[str] = "Body | str | Mapping[str, Any]"
+    hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
 
     def __post_init__(self) -> None:
         for name in UNITS:
@@ -133,6 +145,12 @@ class Body:
                 raise BodyError(self.name, name, value, "it must be a finite number")
         self._check_labels()
         self._check_directions()
+        if self.position is not None:
+            from earthspin.sky.sources import read_position
+
+            object.__setattr__(
+                self, "position", read_position(self.position, Where(f"{self.name}.position"))
+            )
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
         self._require("gm", lambda gm: gm <= _LARGEST_GM, f"give at most {_LARGEST_GM:g} m3 s-2")
         self._require("cycle", lambda t: t > 0, "a cycle lasts longer than zero")
@@ -304,7 +322,7 @@ class Body:
         if isinstance(given, Body):
             return given
         if not isinstance(given, Mapping):
-            return body(given, where)
+            return _placed(given, where) if hasattr(given, "target") else body(given, where)
         table = dict(given)
         start = table.pop("from", "earth")
         for key, value in table.items():
@@ -338,6 +356,10 @@ class Body:
         if start is None or start is self:
             return ""
         words = []
+        if self.position is not None:
+            from earthspin.sky.sources import describe_position
+
+            words.append(f"position = {describe_position(self.position)}")
         for name in (*UNITS, "pole", "orbit_pole", "interior"):
             value, before = getattr(self, name), getattr(start, name)
             if hasattr(value, "dims"):
@@ -526,6 +548,14 @@ _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 #: Numbers that the free wobble follows from, and how far a body may be from the one observed.
 _OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
 SAME_BODY = 0.01
+
+
+def _placed(given: Any, where: Where) -> Body:
+    """The named body that a vector function of Skyfield's leads to, placed by it."""
+    found = next((b for b in BODIES.values() if given.target in b.naif), None)
+    if found is None:
+        raise where.error(given, "its mass is not known; give Body(name=..., gm=..., position=...)")
+    return found.replace(position=given)
 
 
 def _close(value: Numeric | None, other: Numeric | None) -> bool:

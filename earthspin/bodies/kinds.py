@@ -157,6 +157,26 @@ class CitedPeriod:
         return {name: known for name, known in asdict(value).items() if known is not None}
 
 
+@dataclass(frozen=True)
+class OwnPlace:
+    """What gives the place of a body, where a kernel does not."""
+
+    words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
+    hint = "VectorFunction | Trajectory | Mapping[str, Any]"
+
+    def read(self, given: object, where: Where) -> Any:
+        """Take a vector function or trajectory, or a table that names segments of kernels."""
+        from earthspin.sky.sources import read_position
+
+        return read_position(given, where)
+
+    def write(self, value: Any) -> Plain:
+        """Name the segments, or say what it was."""
+        from earthspin.sky.sources import write_position
+
+        return write_position(value)
+
+
 def _labelled(table: Mapping[str, Any], where: Where) -> Any:
     """A labelled array as `Magnitude.write` wrote it.
 

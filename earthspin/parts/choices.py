@@ -11,6 +11,7 @@ from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.parts.pulls import forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.sky.sources import OF_DATE, SourceName
 
 if TYPE_CHECKING:
     from earthspin.choosing.averages import Averaging
@@ -40,6 +41,8 @@ def windows_on_offer(
     _, epoch = start_of(body, pulls)
     first, last = (day * DAY - epoch for day in epochs.span())
     bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in perturbers}
+    if not all(one.naif for one in (body, *perturbers)):
+        return []
     masses: dict[int, float] = {}
     for name, gm in forces.gm.items():
         code = bodies[name].naif[0]
@@ -85,6 +88,8 @@ def averages_on_offer(
     from earthspin.sky.equator import angle
     from earthspin.torque.average import best_window
 
+    if not all(one.naif for one in (body, *perturbers)):
+        return []
     cycle = max(p.cycle for p in perturbers)
     pole = body.needed("pole")
     normal = pole.orbit_normal(body.orbit_pole)
@@ -127,7 +132,12 @@ def on_mean_equator(equator: str) -> str | None:
     return "the equator is the mean one" if equator == "mean" else None
 
 
-@part(unless=(no_accuracy, on_mean_equator, no_iau_model), chooses=True)
+def equator_comes_along(source: SourceName) -> str | None:
+    """Leave nutation out where the source of positions has a true equator of its own."""
+    return f"{source} has the equator of date" if source in OF_DATE else None
+
+
+@part(unless=(no_accuracy, on_mean_equator, no_iau_model, equator_comes_along), chooses=True)
 def chosen_nutation(
     sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:

@@ -86,8 +86,7 @@ def _follow(
     """Integrate on chosen windows, or on the finest."""
     from earthspin.motion.axes import WINDOW, axis_path, window_count
 
-    sky = pulls.sky
-    sky.ephemeris.check_times(np.array(epochs.span()), {*pulls.targets.values(), sky.centre})
+    pulls.sky.check_times(epochs.span(), pulls.targets)
     axis, epoch = start_of(body, pulls)
     first, last = epochs.span()
     span = first * DAY, last * DAY

@@ -23,6 +23,7 @@ from earthspin.units import Plain, Several, Word
 
 if TYPE_CHECKING:
     from earthspin.motion.forces import Forces
+    from earthspin.sky.protocol import Place
 
 
 class EffectWord:
@@ -57,15 +58,15 @@ class Moved(Series):
 
 @dataclass(frozen=True)
 class Pulls:
-    """Masses and places of all that may pull, and the limits of the kernel.
+    """Masses and places of all that may pull, and the limits of the source.
 
     Attributes
     ----------
     sky : Sky
     gm : dict of str to float
         m3 s-2; the question's perturbers first, planets behind them.
-    targets : dict of str to int
-        NAIF codes.
+    targets : dict of str to Place
+        Where the source finds them.
     near : tuple of str
         The question's perturbers.
     limits : tuple of float
@@ -74,7 +75,7 @@ class Pulls:
 
     sky: Sky
     gm: dict[str, float]
-    targets: dict[str, int]
+    targets: dict[str, Place]
     near: tuple[str, ...]
     limits: tuple[float, float]
     _seen: dict[tuple[float, float, int], dict[str, NDArray[np.float64]]] = field(
@@ -102,8 +103,8 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
         for name in bodies.PLANETS:
             if name not in masses and name != body.name:
                 masses[name] = float(BODIES[name].gm)
-                targets[name] = sky.ephemeris.code(BODIES[name].naif, name)
-    start, end = sky.ephemeris.coverage({*targets.values(), sky.centre})
+                targets[name] = sky.place(BODIES[name])
+    start, end = sky.coverage(targets)
     return Pulls(sky, masses, targets, tuple(sky.targets), (start * DAY, end * DAY))
 
 

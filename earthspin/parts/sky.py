@@ -2,24 +2,38 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
-from earthspin.engine.run import version
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.sky.protocol import OfDate, Place, Source, words
+from earthspin.sky.sources import (
+    SourceName,
+    describe_position,
+    describe_source,
+    is_measured,
+    is_vector_function,
+    open_source,
+    place_of,
+)
 
 if TYPE_CHECKING:
-    from earthspin.sky.ephemeris import Ephemeris
+    from earthspin.sky.iau import Nutation
+    from earthspin.sky.poles import Pole
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,6 +47,12 @@ class KernelName:
         """Take a name or a path; of a kernel of Skyfield's, its file."""
         if hasattr(given, "spk") and hasattr(given, "path"):
             given = given.path
+        if is_vector_function(given):
+            raise where.error(
+                given,
+                "it places one body; give it to a perturber, like SUN.replace(position=...), and "
+                "a kernel here",
+            )
         if not isinstance(given, (str, os.PathLike)) or not os.fspath(given).strip():
             raise where.error(given, "it is a name, a path, or a Skyfield kernel")
         return os.fspath(given)
@@ -48,6 +68,11 @@ class Pulled(Question):
     body: Body = key(EARTH, doc="what spins; its numbers may be labelled arrays")
     perturbers: tuple[Body, ...] = key((SUN, MOON), doc="what pulls on it")
     ephemeris: Annotated[str, KernelName()] = key("de421", doc="where the bodies are")
+    source: SourceName = key(
+        "jplephem",
+        doc="who reads the positions: jplephem, fast, or Skyfield, step by step as one would "
+        "write it",
+    )
 
     #: What the question needs to know of the body, beside its mass.
     needs: ClassVar[tuple[str, ...]] = (
@@ -75,71 +100,123 @@ class Pulled(Question):
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
+        for one in (self.body, *self.perturbers):
+            if getattr(self, "accuracy", None) is not None and unmeasured(one):
+                raise self.error(
+                    "accuracy",
+                    getattr(self, "accuracy", None),
+                    f"how far off the positions of '{one.name}' are was never measured, so none "
+                    "can be promised; leave accuracy out",
+                )
+
+
+def unmeasured(body: Body) -> bool:
+    """Whether a body has a place of its own whose error was never measured."""
+    return body.position is not None and not is_measured(body.position)
+
+
+class Address(NamedTuple):
+    """How a body is known to a source: name, NAIF codes, and its own place, if it has one."""
+
+    name: str
+    codes: tuple[int, ...]
+    position: Any = None
 
 
 @dataclass(frozen=True)
 class Places:
-    """By what names and codes the bodies of a question are known to a kernel.
+    """How the bodies of a question are known to a source of positions.
 
     Attributes
     ----------
-    centre : tuple
-        Name and NAIF codes of the body that spins.
-    targets : tuple of tuple
-        The same of each perturber.
+    centre : Address
+        Of the body that spins.
+    targets : tuple of Address
+        Of each perturber.
     radius : float
         Of the body that spins, m; the largest, where it is an array.
     """
 
-    centre: tuple[str, tuple[int, ...]]
-    targets: tuple[tuple[str, tuple[int, ...]], ...]
+    centre: Address
+    targets: tuple[Address, ...]
     radius: float
 
 
 @dataclass(frozen=True)
 class Sky:
-    """An open kernel, and the codes by which it knows the bodies of a question.
+    """An open source of positions, and where it finds the bodies of a question.
 
     Attributes
     ----------
-    ephemeris : Ephemeris
-    centre : int
-        NAIF code of the body that spins.
-    targets : dict of str to int
-        NAIF code of each perturber.
+    source : Source
+    centre : Place
+        Of the body that spins: a NAIF code, or a trajectory of its own.
+    targets : dict of str to Place
+        The same of each perturber.
     radius : float
         Of the body that spins, m.
     """
 
-    ephemeris: Ephemeris
-    centre: int
-    targets: dict[str, int]
+    source: Source
+    centre: Place
+    targets: dict[str, Place]
     radius: float = 0.0
 
     @cached_property
     def provenance(self) -> dict[str, str]:
         """Kernel and readers, for the attributes of an answer."""
-        return {
-            "ephemeris": self.ephemeris.name,
-            "ephemeris_sha256": self.ephemeris.sha256,
-            "jplephem_version": version("jplephem"),
-            "pyerfa_version": version("pyerfa"),
+        own = {
+            name: words(place) for name, place in self.targets.items() if not isinstance(place, int)
         }
+        told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
+        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
 
-    def error(self, code: int) -> tuple[float, float]:
+    def error(self, target: Place) -> tuple[float, float]:
         """How far a body may be from where it is seen: angle (rad), distance (m)."""
-        return self.ephemeris.error(code, self.centre)
+        return self.source.error(target, self.centre)
+
+    @property
+    def unmeasured(self) -> tuple[str, ...]:
+        """Perturbers of whose positions no error was ever measured."""
+        return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
+
+    @property
+    def no_error(self) -> str:
+        """Why some errors are not given; empty if all are."""
+        if not self.unmeasured:
+            return ""
+        return (
+            f"NaN, not given, for {', '.join(self.unmeasured)} and what depends on it: how far off "
+            "the positions are was never measured"
+        )
+
+    def place(self, body: Body) -> Place:
+        """Where the source finds another body."""
+        return place_of(self.source, body.name, body.naif, body.position)
+
+    def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
+        """First and last day on which the bodies can be placed; the perturbers by default."""
+        return self.source.coverage(self._all(targets))
+
+    def check_times(
+        self, days: Iterable[float], targets: Mapping[str, Place] | None = None
+    ) -> None:
+        """Refuse days on which not all of the bodies can be placed; the perturbers by default."""
+        self.source.check_times(np.array(list(days)), self._all(targets))
+
+    def _all(self, targets: Mapping[str, Place] | None) -> set[Place]:
+        return {*(self.targets if targets is None else targets).values(), self.centre}
 
     def positions(
-        self, days: NDArray[np.float64], targets: Mapping[str, int] | None = None
-    ) -> dict[str, NDArray[np.float64]]:
+        self, days: FloatArray, targets: Mapping[str, Place] | None = None
+    ) -> dict[str, FloatArray]:
         """Positions seen from the body, m, shape (n, 3) each, at days from J2000.0 TDB.
 
         Parameters
         ----------
         days : ndarray, shape (n,)
-        targets : mapping of str to int, optional
-            NAIF codes; the perturbers by default.
+        targets : mapping of str to Place, optional
+            The perturbers by default.
 
         Raises
         ------
@@ -147,16 +224,65 @@ class Sky:
             If one comes into the body: torques on the bulge hold outside alone.
         """
         targets = self.targets if targets is None else targets
-        found = self.ephemeris.positions(targets, self.centre, days)
+        found = self.source.positions(targets, self.centre, days)
         for name, place in found.items():
-            squares = np.einsum("ti,ti->t", place, place)
-            nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
-            if nearest <= self.radius:
-                raise UndefinedError(
-                    f"'{name}' comes to {nearest:.4g} m from the centre of a body with a radius "
-                    f"of {self.radius:.4g} m; a torque on the bulge holds outside it alone"
-                )
+            self._refuse_inside(name, np.einsum("ti,ti->t", place, place))
         return found
+
+    def equator(self, body: Body, days: FloatArray) -> FloatArray:
+        """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
+
+        The Earth's is the source's own, if it has one.
+        """
+        pole: Pole = body.needed("pole")
+        if isinstance(self.source, OfDate) and pole.of_the_iau:
+            return self.source.equator(days, true=False)
+        return pole.equator(body.orbit_pole, days)
+
+    def radec(
+        self,
+        body: Body,
+        days: FloatArray,
+        targets: Mapping[str, Place] | None = None,
+        *,
+        true: bool = False,
+        nutation: Nutation | None = None,
+    ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
+        """Right ascension, declination (rad) and distance (m) at the equator of date.
+
+        Parameters
+        ----------
+        body : Body
+            Whose equator it is.
+        days : ndarray, shape (n,)
+            From J2000.0 TDB.
+        targets : mapping of str to Place, optional
+            The perturbers by default.
+        true : bool
+            At the true equator; the mean one by default.
+        nutation : Nutation, optional
+            That leads there, for a source without an equator of its own.
+        """
+        from earthspin.sky.equator import rotate, spherical
+
+        pole: Pole = body.needed("pole")
+        if isinstance(self.source, OfDate) and pole.of_the_iau:
+            targets = self.targets if targets is None else targets
+            found = self.source.radec(targets, self.centre, days, true=true)
+            for name, (_, _, distance) in found.items():
+                self._refuse_inside(name, distance * distance)
+            return found
+        axes = pole.equator(body.orbit_pole, days, nutation)
+        positions = self.positions(days, targets)
+        return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
+
+    def _refuse_inside(self, name: str, squares: FloatArray) -> None:
+        nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
+        if nearest <= self.radius:
+            raise UndefinedError(
+                f"'{name}' comes to {nearest:.4g} m from the centre of a body with a radius "
+                f"of {self.radius:.4g} m; a torque on the bulge holds outside it alone"
+            )
 
 
 @dataclass(frozen=True)
@@ -167,36 +293,53 @@ class Stretch:
     last: float
 
 
+def address(body: Body) -> Address:
+    """How a body is known to a source."""
+    return Address(body.name, body.naif, body.position)
+
+
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
-    """Names and codes of the bodies."""
+    """Names, codes and own places of the bodies."""
     radius = 0.0 if body.radius is None else body.radius
     return Places(
-        (body.name, body.naif),
-        tuple((p.name, p.naif) for p in perturbers),
+        address(body),
+        tuple(map(address, perturbers)),
         float(radius.max() if hasattr(radius, "max") else radius),
     )
 
 
-@part
-def sky(ephemeris: str, places: Places) -> Sky:
-    """Open the kernel and find the bodies in it."""
-    from earthspin.sky.ephemeris import open_ephemeris
+def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
+    """Say which source the positions come from."""
+    told = [f"positions {describe_source(source, ephemeris)}"]
+    told += [
+        f"{one.name} by {describe_position(one.position)}"
+        for one in (body, *perturbers)
+        if one.position is not None
+    ]
+    return "; ".join(told)
 
-    kernel = open_ephemeris(ephemeris)
-    centre = kernel.code(places.centre[1], places.centre[0])
-    targets = {name: kernel.code(codes, name) for name, codes in places.targets}
-    for name, code in targets.items():
-        if code == centre:
+
+@part(tells=from_where)
+def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
+    """Open the source of positions and find the bodies in it."""
+    opened = open_source(source, ephemeris)
+    name, codes, position = places.centre
+    centre = place_of(opened, name, codes, position)
+    targets = {name: place_of(opened, name, *of) for name, *of in places.targets}
+    for name, place in targets.items():
+        if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
-    return Sky(kernel, centre, targets, places.radius)
+    return Sky(opened, centre, targets, places.radius)
 
 
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
-    """The span asked for, if the kernel covers it, or all that the kernel covers."""
-    codes = {*sky.targets.values(), sky.centre}
-    if span is None:
-        return Stretch(*sky.ephemeris.coverage(codes))
-    sky.ephemeris.check_times(np.array(span.days), codes)
-    return Stretch(*span.days)
+    """The span asked for, if the source covers it, or all that the source covers."""
+    if span is not None:
+        sky.check_times(span.days)
+        return Stretch(*span.days)
+    first, last = sky.coverage()
+    if not math.isfinite(last - first):
+        raise SceneError("span", None, "nothing limits these positions in time; give a span")
+    return Stretch(first, last)

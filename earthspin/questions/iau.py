@@ -28,7 +28,7 @@ from earthspin.parts.path import (
     rigid,
 )
 from earthspin.parts.pulls import Moved, Pulls, pulls
-from earthspin.parts.sky import places, sky
+from earthspin.parts.sky import places, sky, unmeasured
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.progress import progress
 
@@ -71,6 +71,18 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
         doc="first and last date of the residuals, TDB",
     )
     step: Step = key("5 d", doc="time between two residuals")
+
+    def check(self) -> None:
+        """What is compared to the microarcsecond stands on positions whose error is known."""
+        super().check()
+        for one in (self.body, *self.perturbers):
+            if unmeasured(one):
+                raise self.error(
+                    "perturbers",
+                    one.name,
+                    "how far off its positions are was never measured, and the comparison with "
+                    "the IAU gives errors; use pole() for them",
+                )
 
 
 # --- the answer: rates effect by effect ----------------------------------------------------------
@@ -211,11 +223,11 @@ def differences(
     from earthspin.sky import iau
 
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
-    done, sky = pole_analysis, pulls.sky
+    done = pole_analysis
     days = epochs.days(0, epochs.size)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
-    sky.ephemeris.check_times(ends[[0, 1]], {*pulls.targets.values(), sky.centre})
+    pulls.sky.check_times(ends, pulls.targets)
     iau_eta = complex_nutation(iau.nutation_of(iau.true_pole(days), days))
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)

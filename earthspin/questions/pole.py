@@ -24,7 +24,7 @@ from earthspin.parts.path import (
     nonrigid_shift,
     pole_analysis,
 )
-from earthspin.parts.pulls import Moved, pulls
+from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs
@@ -111,6 +111,7 @@ DIRECTIONS = {
 def axes(
     axis_path: AxisPath,
     epochs: TimeGrid | TimeList,
+    pulls: Pulls,
     body: Body,
     accuracy: float | None,
     response: Shift | None = None,
@@ -121,7 +122,7 @@ def axes(
     now = epochs.days(0, epochs.size)
     found = axis_path.at(now * DAY)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    method = np.full(now.size, axis_path.error)
+    method = np.full(now.size, np.nan if pulls.sky.unmeasured else axis_path.error)
     from_input = error_of_input(axis_path, found["figure"], u_h)
     error = np.hypot(method, from_input)
     refuse_unkept(
@@ -144,6 +145,7 @@ def axes(
             "direction_error_input": from_input,
         },
         coords={"time": ("time", datetime64(now), dict(DATES)), "axis": list(AXES)},
+        no_error=pulls.sky.no_error,
     )
     for name in ("X", "Y", "Z"):
         result[name].attrs["frame"] = "GCRS"

@@ -96,6 +96,10 @@ class Samples:
         The window that converges fastest on this span; its centre is the epoch.
     obliquity : float
         Of the axis to the orbit at the epoch, rad.
+    unmeasured : tuple of str
+        Perturbers of whose positions no error was ever measured.
+    no_error : str
+        That, in words; empty if there are none.
     """
 
     times: NDArray[np.float64]
@@ -104,6 +108,8 @@ class Samples:
     torque: NDArray[np.float64]
     window: Window
     obliquity: float
+    unmeasured: tuple[str, ...] = ()
+    no_error: str = ""
 
 
 @part
@@ -128,9 +134,9 @@ def torque_samples(
     times = window.sample_times(step)
     days = times / DAY
 
-    equator, normal = pole.equator(orbit, days), pole.orbit_normal(orbit)
+    equator, normal = sky.equator(body, days), pole.orbit_normal(orbit)
     axis = equator[..., 2, :]
-    axis_at_epoch = pole.equator(orbit, np.array([window.centre / DAY]))[..., 2, :]
+    axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :]
     _refuse_locked(sky, body, window.centre, axis_at_epoch.reshape(3))
     positions = sky.positions(days)
     torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in perturbers]
@@ -142,6 +148,8 @@ def torque_samples(
         torque=np.stack([rotate(equator, t) for t in torques], axis=1),
         window=window,
         obliquity=angle(axis_at_epoch.reshape(3), normal),
+        unmeasured=sky.unmeasured,
+        no_error=sky.no_error,
     )
 
 
@@ -149,7 +157,7 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]
     """Refuse a spin that is locked to the orbit about a perturber: its average is another."""
     from earthspin.torque import locking
 
-    first, last = (DAY * day for day in sky.ephemeris.coverage({*sky.targets.values(), sky.centre}))
+    first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
         if abs(spin_period) < locking.SLOW:
             continue
@@ -182,6 +190,8 @@ class MeanRates:
         Window and sampling in words.
     evaluations : int
         Epochs at which the sky was evaluated.
+    no_error : str
+        Why errors are not given; empty if they are.
     """
 
     rate: Estimate
@@ -189,6 +199,7 @@ class MeanRates:
     ratio: NDArray[np.float64]
     method: str
     evaluations: int
+    no_error: str
 
     def total(self) -> tuple[xr.DataArray, xr.DataArray]:
         """Rate by all perturbers and its error, rad/s."""
@@ -219,7 +230,7 @@ def mean_rates(
     def along(values: NDArray[np.float64]) -> xr.DataArray:
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
-    swing = np.array([p.slow_swing for p in perturbers])
+    swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
     of_push, of_torque = _measured_errors(perturbers, chosen_average)
     push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
     if of_push is not None and times[1] - times[0] == SAMPLING:
@@ -252,6 +263,7 @@ def mean_rates(
         ratio=rates.rate_ratio(push),
         method=f"{_taken(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
+        no_error=samples.no_error,
     )
 
 
@@ -336,6 +348,7 @@ def precession_rates(mean_rates: MeanRates, torque_samples: Samples) -> xr.Datas
             "obliquity": torque_samples.obliquity,
             "reference_epoch": datetime64(np.array(torque_samples.window.centre / DAY)),
         },
+        no_error=mean_rates.no_error,
     )
     result["precession_rate"].attrs["window"] = _taken(torque_samples.window)
     result["precession_rate_error"].attrs |= {
@@ -523,6 +536,7 @@ def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Da
             "tropical_year": year,
             "time_per_day_of_drift": s.time_per_day_of_drift(year),
         },
+        no_error=mean_rates.no_error,
     )
 
 
@@ -553,6 +567,7 @@ def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
             "closure": closure(rate, iau_rate),
             "closure_error": error,
         },
+        no_error=mean_rates.no_error,
     )
 
 
@@ -568,15 +583,12 @@ STANDSTILLS = {
 @part(gives=STANDSTILLS, unless=no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     """Major and minor standstills of the moon: dates and extreme declinations."""
-    from earthspin.sky.equator import rotate, spherical
     from earthspin.sky.standstill import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 
     def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
-        position = sky.ephemeris.positions(moon, sky.centre, days)["moon"]
-        equator = body.needed("pole").equator(body.orbit_pole, days)
-        return spherical(rotate(equator, position))[1]
+        return sky.radec(body, days, moon)["moon"][1]
 
     kernel_error, _ = sky.error(sky.targets["moon"])
     found = find_standstills(declination, stretch.first, stretch.last)
@@ -594,6 +606,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
                 {"long_name": "day of the extreme declination (TDB)"},
             )
         },
+        no_error=sky.no_error,
     )
 
 

@@ -16,7 +16,7 @@ from earthspin.engine.labels import Variable, build, si, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
-from earthspin.parts.choices import chosen_nutation, on_mean_equator
+from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import DATES, Series, epochs, refuse_what_does_not_fit
@@ -74,7 +74,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
             )
 
 
-@part(unless=on_mean_equator)
+@part(unless=(on_mean_equator, equator_comes_along))
 def nutation(
     epochs: TimeGrid | TimeList, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:
@@ -118,7 +118,6 @@ def torques(
     import xarray as xr
 
     from earthspin.mass.inertia import moment_difference
-    from earthspin.sky.equator import rotate, spherical
     from earthspin.torque.gravity import torque_error, torque_from_declination
 
     if block is None:
@@ -127,10 +126,8 @@ def torques(
         )
         block = Block(0, epochs.size)
     now = epochs.days(block.first, block.last)
-    axes = body.needed("pole").equator(body.orbit_pole, now, nutation)
-    positions = sky.positions(now)
     names = list(sky.targets)
-    seen = {name: spherical(rotate(axes, positions[name])) for name in names}
+    seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     turned = 0.0 if chosen_nutation is None else chosen_nutation.error
     bounds = {name: sky.error(sky.targets[name]) for name in names}
     kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
@@ -173,19 +170,24 @@ def torques(
             "component": ["x", "y", "z"],
         },
         frame=f"{equator} equator and equinox of date",
+        no_error=sky.no_error,
     )
     result["direction_error"].attrs |= {
-        "method": _equator_words(nutation, chosen_nutation),
+        "method": _equator_words(equator, nutation, chosen_nutation),
         "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
     }
     return result
 
 
-def _equator_words(nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None) -> str:
+def _equator_words(
+    equator: str, nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
+) -> str:
     """How the equator was found, for people."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
-    return "mean equator" if chosen is None else chosen.words
+    if chosen is not None:
+        return chosen.words
+    return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
 PROMISE = promise("mas", "in direction")

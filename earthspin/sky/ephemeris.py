@@ -8,6 +8,7 @@ because jplephem extrapolates a whole record past the last one without a word.
 from __future__ import annotations
 
 import hashlib
+import math
 import os
 import weakref
 from collections import Counter
@@ -15,14 +16,16 @@ from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
 from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
 from earthspin.sky.kernel_differences import largest_difference
+from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
 FloatArray = NDArray[np.float64]
 
@@ -31,9 +34,12 @@ NAMED_KERNELS = ("de421", "de440")
 
 _BLOCK = 1 << 16  # epochs evaluated at once: arrays stay in the processor's cache
 
+#: A step on the way from the barycentre to a body: a segment (centre, target), or a trajectory.
+Step: TypeAlias = "tuple[int, int] | Trajectory"
+
 
 class Ephemeris:
-    """An open kernel.
+    """An open kernel, read with jplephem: the fast source of positions, and the default.
 
     Parameters
     ----------
@@ -45,7 +51,7 @@ class Ephemeris:
     Attributes
     ----------
     evaluations : Counter
-        How many positions each segment (centre, target) has given so far.
+        How many positions each segment (centre, target) or trajectory has given so far.
 
     Raises
     ------
@@ -56,7 +62,7 @@ class Ephemeris:
     def __init__(self, path: str | Path, name: str | None = None) -> None:
         self.path = Path(path)
         self.name = name or self.path.name
-        self.evaluations: Counter[tuple[int, int]] = Counter()
+        self.evaluations: Counter[Step] = Counter()
         kernel = _open_spk(self.path)
         weakref.finalize(self, kernel.close)
         self._segments = {(s.center, s.target): s for s in kernel.segments}
@@ -72,6 +78,15 @@ class Ephemeris:
         """Hash of the kernel file; made once for each file, size and time of change."""
         state = self.path.stat()
         return _sha256(self.path, state.st_size, state.st_mtime_ns)
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Kernel and reader, for the attributes of an answer."""
+        return {
+            "ephemeris": self.name,
+            "ephemeris_sha256": self.sha256,
+            "jplephem_version": version("jplephem"),
+        }
 
     @property
     def targets(self) -> set[int]:
@@ -96,118 +111,136 @@ class Ephemeris:
             f"it holds {', '.join(map(str, sorted(self.targets)))}",
         )
 
-    def coverage(self, codes: Iterable[int]) -> tuple[float, float]:
+    def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
         """First and last day (TDB, from J2000.0) on which all of these can be placed.
 
         Parameters
         ----------
-        codes : iterable of int
-            NAIF codes.
+        places : iterable of int or Trajectory
+            NAIF codes, and bodies with trajectories of their own.
         """
-        legs = {leg for code in codes for leg in self._path_to_root(code)}
-        start = max(self._segments[leg].start_jd for leg in legs) - J2000_JD
-        end = min(self._segments[leg].end_jd for leg in legs) - J2000_JD
-        return float(start), float(end)
+        steps = {step for place in places for step in self._path_to_root(place)}
+        starts, ends = zip(*(self._covered(step) for step in steps), strict=True)
+        return max(starts), min(ends)
+
+    def _covered(self, step: Step) -> tuple[float, float]:
+        if not isinstance(step, tuple):
+            return step.coverage
+        segment = self._segments[step]
+        return float(segment.start_jd - J2000_JD), float(segment.end_jd - J2000_JD)
 
     def positions(
-        self, targets: Mapping[str, int], centre: int, days: FloatArray
+        self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
         """Positions of several bodies as seen from one, at the same times.
 
         Parameters
         ----------
-        targets : mapping of str to int
-            NAIF code by label.
-        centre : int
-            NAIF code of the body that looks.
+        targets : mapping of str to int or Trajectory
+            NAIF code or trajectory by label.
+        centre : int or Trajectory
+            The same of the body that looks.
         days : ndarray, shape (n,)
             Days from J2000.0 TDB.
 
         Returns
         -------
         dict of str to ndarray, shape (n, 3)
-            Metres, ICRF axes. Segments that two targets share are evaluated once.
+            Metres, ICRF axes. Steps that two targets share are evaluated once.
 
         Raises
         ------
         CoverageError
-            If a time lies outside the kernel.
+            If a time lies outside the kernel or a trajectory.
+        UndefinedError
+            If a trajectory gives no finite position.
         """
         self.check_times(days, {*targets.values(), centre})
         found = {label: np.empty((days.size, 3)) for label in targets}
         for first in range(0, days.size, _BLOCK):
             block = slice(first, first + _BLOCK)
-            legs: dict[tuple[int, int], FloatArray] = {}
-            for label, code in targets.items():
-                found[label][block] = self._difference(code, centre, days[block], legs).T
+            steps: dict[Step, FloatArray] = {}
+            for label, place in targets.items():
+                found[label][block] = self._difference(place, centre, days[block], steps).T
         return found
 
     def _difference(
-        self, target: int, centre: int, days: FloatArray, legs: dict[tuple[int, int], FloatArray]
+        self, target: Place, centre: Place, days: FloatArray, steps: dict[Step, FloatArray]
     ) -> FloatArray:
-        """Position of target minus centre in metres, shape (3, n); common legs cancel."""
+        """Position of target minus centre in metres, shape (3, n); common steps cancel."""
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
         total = np.zeros((3, days.size))
-        for path, sign in ((outward, 1e3), (homeward, -1e3)):
-            for leg in path:
-                if leg in outward and leg in homeward:
+        for path, sign in ((outward, 1.0), (homeward, -1.0)):
+            for step in path:
+                if step in outward and step in homeward:
                     continue
-                if leg not in legs:
-                    legs[leg] = self._evaluate(leg, days)
-                total += sign * legs[leg]
+                if step not in steps:
+                    steps[step] = self._evaluate(step, days)
+                total += sign * steps[step]
         if not np.all(np.any(total, axis=0)):
+            where, seen_from = words(target), words(centre).removeprefix("NAIF ")
             raise KernelError(
-                self.path, f"it puts NAIF {target} in the middle of {centre}", "fetch it again"
+                self.path, f"it puts {where} in the middle of {seen_from}", "fetch it again"
             )
         return total
 
-    def _evaluate(self, leg: tuple[int, int], days: FloatArray) -> FloatArray:
-        """Position along one segment, km, shape (3, n)."""
-        damaged = KernelError(self.path, f"its segment {leg} is damaged", "fetch it again")
+    def _evaluate(self, step: Step, days: FloatArray) -> FloatArray:
+        """Position along one step, m, shape (3, n)."""
+        self.evaluations[step] += days.size
+        if not isinstance(step, tuple):
+            return checked(step.positions(days), step, days).T
+        damaged = KernelError(self.path, f"its segment {step} is damaged", "fetch it again")
         try:
-            position: FloatArray = self._segments[leg].compute(J2000_JD, days)[:3]
+            position: FloatArray = self._segments[step].compute(J2000_JD, days)[:3]
         except (ValueError, ArithmeticError, IndexError):
             raise damaged from None
         if not np.all(np.isfinite(position)):
             raise damaged
-        self.evaluations[leg] += days.size
-        return position
+        return 1e3 * position
 
-    def _path_to_root(self, code: int) -> list[tuple[int, int]]:
-        """List the segments that lead from the solar-system barycentre to a body."""
-        path: list[tuple[int, int]] = []
-        while code != 0:
-            leg = next((leg for leg in self._segments if leg[1] == code), None)
-            if leg is None:
-                raise KernelError(self.path, f"no segment leads to NAIF {code}")
-            path.append(leg)
-            code = leg[0]
+    def _path_to_root(self, place: Place) -> list[Step]:
+        """List the steps that lead from the solar-system barycentre to a body, the last first."""
+        path: list[Step] = []
+        if not isinstance(place, int):
+            path, place = [place], place.centre
+        while place != 0:
+            step = next((step for step in self._segments if step[1] == place), None)
+            if step is None:
+                raise KernelError(self.path, f"no segment leads to NAIF {place}")
+            path.append(step)
+            place = step[0]
         return path
 
-    def error(self, code: int, centre: int) -> tuple[float, float]:
+    def error(self, target: Place, centre: Place) -> tuple[float, float]:
         """How far a body may be from where the kernel puts it: angle (rad), distance (m).
 
         Parameters
         ----------
-        code, centre : int
-            NAIF codes of the body, and of the one that it is seen from.
+        target, centre : int or Trajectory
+            The body, and the one that it is seen from. NaN for a trajectory that stands on
+            something else than a kernel: its error was never measured.
         """
-        mas, metres = largest_difference(centre, code)
+        codes = measured_code(centre), measured_code(target)
+        if codes[0] is None or codes[1] is None:
+            return math.nan, math.nan
+        mas, metres = largest_difference(codes[0], codes[1])
         return mas * MAS, metres
 
-    def check_times(self, days: FloatArray, codes: Iterable[int]) -> None:
+    def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
         """Refuse times at which not all of these bodies can be placed.
 
         Raises
         ------
         CoverageError
-            Naming what the kernel covers.
+            Naming what is covered, and what else than the kernel limits it.
         """
-        start, end = self.coverage(codes)
+        places = set(places)
+        start, end = self.coverage(places)
         inside = (days >= start) & (days <= end)  # NaN is not inside
         if not inside.all():
+            others = sorted(words(place) for place in places if not isinstance(place, int))
             raise CoverageError(
-                self.name,
+                " with ".join([self.name, *others]),
                 (_date(np.min(days)), _date(np.max(days))),
                 (_date(start), _date(end)),
             )

@@ -106,10 +106,11 @@ def period(rate: Numeric) -> Numeric:
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period, to first order; infinite at rest."""
+    """Half-width of the period, to first order; infinite at rest, NaN where none is given."""
     with np.errstate(divide="ignore", invalid="ignore"):
         # fmax takes the other where 0/0 leaves no number, so that infinity stays infinity
-        return period(rate) * np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
+        relative = np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
+        return period(rate) * np.maximum(relative, np.minimum(rate_error, 0.0))
 
 
 def rate_ratio(push: Numeric) -> Numeric:

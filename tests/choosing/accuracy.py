@@ -85,7 +85,7 @@ def random_span(rng: Generator, longest: float) -> tuple[str, str]:
 
 def sky_of(question: Pulled) -> Sky:
     """The sky of a question."""
-    return sky(question.ephemeris, places(question.body, question.perturbers))
+    return sky(question.ephemeris, places(question.body, question.perturbers), question.source)
 
 
 def pulls_of(question: Pole) -> Pulls:

@@ -16,6 +16,7 @@ from earthspin.scenes import QUESTIONS
 VALUES: dict[str, Any] = {
     "body": "earth",
     "perturbers": ["sun"],
+    "source": "skyfield",
     "ephemeris": "de421",
     "span": ["2000-01-01", "2000-02-01"],
     "step": "1 d",

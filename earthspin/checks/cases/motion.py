@@ -144,7 +144,7 @@ def _average_and_pole() -> Distances:
 def _samples(cycles: float | None = None) -> Samples:
     """Daily torques of Sun and Moon over a number of turns of the node, or all that there are."""
     both = BODY, (SUN, MOON)
-    above = sky("de421", places(*both))
+    above = sky("de421", places(*both), "jplephem")
     if cycles is None:
         return torque_samples(above, stretch(above, None), *both)
     half = cycles * MOON.cycle / DAY / 2 + 1e-3

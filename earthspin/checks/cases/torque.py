@@ -42,7 +42,7 @@ NORTH = np.array([0.0, 0.0, 1.0])
 def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     """Averaged rates as `precession` gives them, without all that stands beside them."""
     both = body, (perturber,)
-    above = sky("de421", places(*both))
+    above = sky("de421", places(*both), "jplephem")
     samples = torque_samples(above, stretch(above, None), *both)
     return precession_rates(mean_rates(samples, *both, None), samples)
 

@@ -1,0 +1,144 @@
+"""What gives positions: the protocols that a source and a trajectory keep.
+
+A *source* places many bodies by their NAIF codes, as a kernel does. A *trajectory* places one body
+as seen from another, whatever it stands on: a vector function of Skyfield's, an orbit, a table.
+Every source takes trajectories beside its own codes; nothing above this package knows which is
+which.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
+
+from earthspin.errors import UndefinedError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    FloatArray: TypeAlias = NDArray[np.float64]
+
+
+class Trajectory(Protocol):
+    """One body as seen from another: all that is needed to place a body of one's own.
+
+    It can be hashed, as a frozen dataclass can: what two bodies share is evaluated once.
+
+    Attributes
+    ----------
+    centre : int
+        NAIF code of what it is seen from; 0 is the barycentre of the solar system.
+    coverage : tuple of float
+        First and last day on which it is known, TDB from J2000.0; infinite if always.
+    code : int or None, not needed
+        NAIF code by which the measured error of a kernel is found, if a kernel is what it stands
+        on. Without it no error is claimed.
+    """
+
+    @property
+    def centre(self) -> int: ...  # noqa: D102
+    @property
+    def coverage(self) -> tuple[float, float]: ...  # noqa: D102
+
+    def positions(self, days: FloatArray, /) -> FloatArray:
+        """Geometric positions in metres along the axes of the ICRF, shape (n, 3).
+
+        Parameters
+        ----------
+        days : ndarray, shape (n,)
+            Days from J2000.0 TDB.
+        """
+
+
+#: Where a body is found: by a NAIF code in the source, or along a trajectory.
+Place: TypeAlias = "int | Trajectory"
+
+
+class Source(Protocol):
+    """Positions of many bodies.
+
+    Attributes
+    ----------
+    name : str
+        What it is called in messages and results.
+    """
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """What tells it from any other: names, hashes, versions, for the attributes of answers."""
+
+    def code(self, codes: Iterable[int], name: str, /) -> int:
+        """First of a body's NAIF codes that it can place; KernelError if there is none."""
+
+    def coverage(self, places: Iterable[Place], /) -> tuple[float, float]:
+        """First and last day (TDB, from J2000.0) on which all of these can be placed."""
+
+    def check_times(self, days: FloatArray, places: Iterable[Place], /) -> None:
+        """Refuse, with a CoverageError, times at which not all of these can be placed."""
+
+    def positions(
+        self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /
+    ) -> dict[str, FloatArray]:
+        """Geometric positions as seen from a body, m along the ICRF, shape (n, 3) each."""
+
+    def error(self, target: Place, centre: Place, /) -> tuple[float, float]:
+        """How far a body may be from where it is put: angle (rad), distance (m).
+
+        NaN where no error was ever measured.
+        """
+
+
+@runtime_checkable
+class OfDate(Protocol):
+    """A source that has an equator and equinox of date of its own, the Earth's by IAU 2006."""
+
+    def equator(self, days: FloatArray, /, *, true: bool) -> FloatArray:
+        """Matrices from the ICRF to the mean or true equator of date, shape (n, 3, 3)."""
+
+    def radec(
+        self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /, *, true: bool
+    ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
+        """Right ascension, declination (rad) and distance (m) at that equator, shape (n,) each."""
+
+
+def measured_code(place: Place) -> int | None:
+    """NAIF code under which the error of a place was measured; None if it never was."""
+    return place if isinstance(place, int) else getattr(place, "code", None)
+
+
+def words(place: object) -> str:
+    """A place for people, on one line; the same in every run."""
+    text = f"NAIF {place}" if isinstance(place, int) else " ".join(str(place).split())
+    return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
+
+
+def checked(found: FloatArray, place: Place, days: FloatArray) -> FloatArray:
+    """Positions of a place, if they are one finite vector for each time.
+
+    Raises
+    ------
+    UndefinedError
+        Naming the first day on which they are not.
+    """
+    import numpy as np
+
+    from earthspin.dates import datetime64
+
+    values = np.asarray(found, dtype=np.float64)
+    if values.shape != (days.size, 3):
+        raise UndefinedError(
+            f"{words(place)} gives positions of shape {values.shape} at {days.size} times; one "
+            f"body has shape ({days.size}, 3)"
+        )
+    lost = ~np.isfinite(values).all(axis=1)
+    if lost.any():
+        date = str(datetime64(days[lost][:1])[0])[:19]
+        raise UndefinedError(
+            f"{words(place)} gives no finite position on {date} TDB; choose times at which it does"
+        )
+    return values

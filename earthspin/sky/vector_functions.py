@@ -1,0 +1,219 @@
+"""Vector functions of Skyfield's: as trajectories, from trajectories, and written into scenes.
+
+A segment, a sum of vectors, a comet from its elements, a satellite, a function of one's own: all
+of them give a place at a time, and any of them can be the place of a body. Those that stand on
+kernels alone have a measured error and can be written down, segment by segment.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from skyfield.api import load
+from skyfield.constants import AU_M
+from skyfield.jpllib import SpiceKernel, SPICESegment, Stack
+from skyfield.positionlib import ICRF
+from skyfield.timelib import Time, Timescale
+from skyfield.vectorlib import ReversedVector, VectorFunction, VectorSum
+
+from earthspin.constants import J2000_JD
+from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, nearest
+from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
+from earthspin.sky.protocol import Trajectory, words
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+_BLOCK = 1 << 12  # times evaluated at once: 1365 terms of nutation for each fill 45 MB
+
+
+@lru_cache
+def timescale() -> Timescale:
+    """Skyfield's timescale from the tables that it carries; nothing is fetched."""
+    return load.timescale(builtin=True)
+
+
+def blocks_of_times(days: FloatArray) -> Iterator[tuple[slice, Time]]:
+    """Times of Skyfield's from days of TDB (from J2000.0), block by block."""
+    for first in range(0, days.size, _BLOCK):
+        block = slice(first, first + _BLOCK)
+        yield block, timescale().tdb_jd(J2000_JD, days[block])
+
+
+def at(function: VectorFunction, t: Time) -> ICRF:
+    """Position of a vector function at some times.
+
+    Raises
+    ------
+    UndefinedError
+        If it cannot be placed, with Skyfield's reason.
+    """
+    try:
+        return function.at(t)
+    except EarthspinError:
+        raise
+    except Exception as error:  # each kind of vector function has kinds of its own
+        raise UndefinedError(f"{words(function)} cannot be placed: {error}") from error
+
+
+@dataclass(frozen=True)
+class VectorTrajectory:
+    """A vector function as a trajectory.
+
+    Attributes
+    ----------
+    function : VectorFunction
+    """
+
+    function: VectorFunction
+
+    @property
+    def centre(self) -> int:
+        """NAIF code of its center."""
+        return int(self.function.center)
+
+    @cached_property
+    def code(self) -> int | None:
+        """NAIF code of its target, if it stands on segments of kernels alone."""
+        target = self.function.target
+        known = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
+        return target if known else None
+
+    @cached_property
+    def coverage(self) -> tuple[float, float]:
+        """First and last day of its segments of kernels; other functions are not asked."""
+        several = [found for found in map(_segments, _leaves(self.function)) if found]
+        first = [min(s.spk_segment.start_jd for s in stack) - J2000_JD for stack in several]
+        last = [max(s.spk_segment.end_jd for s in stack) - J2000_JD for stack in several]
+        return max(first, default=-math.inf), min(last, default=math.inf)
+
+    def positions(self, days: FloatArray) -> FloatArray:
+        """Positions in metres along the ICRF, shape (n, 3)."""
+        found = [at(self.function, t).position.m.T for _, t in blocks_of_times(days)]
+        return np.concatenate(found) if found else np.empty((0, 3))
+
+    def __str__(self) -> str:
+        return words(repr(self.function))
+
+
+class _Along(VectorFunction):  # type: ignore[misc]
+    """A trajectory as a vector function; of its velocity nothing is known."""
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        self.trajectory, self.center, self.target = trajectory, trajectory.centre, self
+
+    def _at(self, t: Time) -> tuple[FloatArray, FloatArray, None, None]:
+        days = np.atleast_1d((t.whole - J2000_JD) + t.tdb_fraction)
+        found = np.asarray(self.trajectory.positions(days)).T / AU_M
+        return found, np.full_like(found, np.nan), None, None
+
+    def __str__(self) -> str:
+        return words(self.trajectory)
+
+
+def function_of(trajectory: Trajectory) -> VectorFunction:
+    """Vector function of a trajectory: its own, or one that asks it."""
+    if isinstance(trajectory, VectorTrajectory):
+        return trajectory.function
+    return _Along(trajectory)
+
+
+# --- what a vector function stands on ------------------------------------------------------------
+
+
+def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
+    """Vector functions that are no sum and no reversal."""
+    if isinstance(function, VectorSum):
+        for one in function.vector_functions:
+            yield from _leaves(one)
+    elif isinstance(function, ReversedVector):
+        yield from _leaves(function.vector_function)
+    else:
+        yield function
+
+
+def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
+    """Segments of a kernel that a vector function is; none if it is something else."""
+    if isinstance(function, Stack):
+        return list(function.segments)
+    return [function] if isinstance(function, SPICESegment) else []
+
+
+def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
+    """Tables that name the segments of a vector function; None if it is more than segments."""
+    tables = []
+    for one in getattr(function, "vector_functions", (function,)):
+        inner = one.vector_function if isinstance(one, ReversedVector) else one
+        if not _segments(inner):
+            return None
+        path = os.path.abspath(inner.ephemeris.path)
+        tables.append(
+            {
+                "kernel": path,
+                "centre": int(one.center),
+                "target": int(one.target),
+                "sha256": Ephemeris(path).sha256,
+            }
+        )
+    return tables
+
+
+def read_segments(tables: Sequence[Mapping[str, Any]], where: Where) -> VectorFunction:
+    """Vector function of the segments that tables name, each from where the last one ended.
+
+    Raises
+    ------
+    SceneError
+        If a table names no segment of its kernel, or they do not follow one another.
+    KernelError
+        If a kernel cannot be used, or is not the one that was written down.
+    """
+    chain = tuple(_read_segment(table, where) for table in tables)
+    for before, after in pairwise(chain):
+        if before.target != after.center:
+            raise where.error(
+                f"{before.target}, then {after.center}", "each segment starts where one ended"
+            )
+    return chain[0] if len(chain) == 1 else VectorSum(chain[0].center, chain[-1].target, chain)
+
+
+_NAMES = ("kernel", "centre", "target", "sha256")
+
+
+def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
+    for name in table:
+        if name not in _NAMES:
+            raise where.at(name).error(table[name], nearest(name, _NAMES))
+    codes = table.get("centre"), table.get("target")
+    if not isinstance(table.get("kernel"), str) or not all(type(code) is int for code in codes):
+        raise where.error(
+            dict(table), "name a segment like {kernel = 'de421', centre = 0, target = 5}"
+        )
+    file = open_ephemeris(table["kernel"])
+    if table.get("sha256", file.sha256) != file.sha256:
+        raise KernelError(
+            file.path,
+            "it is not the file that this position was read from: its SHA-256 is another",
+            "give back that file, or leave sha256 out",
+        )
+    segments = _spice_kernel(os.fspath(file.path), file.sha256).segments
+    for (centre, target), turn in ((codes, False), (codes[::-1], True)):
+        found = [s for s in segments if (s.center, s.target) == (centre, target)]
+        if found:
+            one = found[0] if len(found) == 1 else Stack(found)
+            return -one if turn else one
+    there = ", ".join(f"{s.center} to {s.target}" for s in segments)
+    raise where.error(f"{codes[0]} to {codes[1]}", f"the kernel has {there}")
+
+
+@lru_cache
+def _spice_kernel(path: str, sha256: str) -> SpiceKernel:
+    """A kernel opened by Skyfield, once for each file and content."""
+    return SpiceKernel(path)
