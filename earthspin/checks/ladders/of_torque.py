@@ -18,6 +18,7 @@ from earthspin.checks.work_precision import Ladder, Method, Setting, settings
 from earthspin.constants import J2000_JD, MAS
 from earthspin.sky import iau
 from earthspin.sky.equator import rotate
+from earthspin.sky.skyfield import Skyfield
 
 FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
@@ -164,6 +165,7 @@ def _methods(days: FloatArray, quick: bool) -> list[Method]:
             at_each(lambda: iau.Nutation(start, end, 1).true_equator(days)),
             bound=2e-15,
         ),
+        Method('source = "skyfield"', True, [Setting("", _skyfield_source(days))], bound=5e-12),
         Method("IAU 2000B at each epoch", False, at_each(lambda: erfa.pnm00b(J2000_JD, days))),
         Method("mean equator alone", False, at_each(lambda: iau.mean_equator(days))),
         Method("Skyfield, radec of date", False, [Setting("", _skyfield(days))]),
@@ -175,6 +177,17 @@ def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
     found = positions(days)
     seen = np.stack([rotate(turn, found[name]) for name in CODES])
     return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
+
+
+def _skyfield_source(days: FloatArray) -> Callable[[], tuple[Any, int]]:
+    """Skyfield as the package reads it."""
+    source = Skyfield(kernel())
+
+    def run() -> tuple[Any, int]:
+        seen = source.radec(CODES, CENTRE, days, true=True).values()
+        return np.stack([unit_vectors(ra, dec) for ra, dec, _ in seen]), days.size
+
+    return run
 
 
 @cache
