@@ -1,12 +1,14 @@
-"""The examples of docs/architecture.md are built and run as they stand there."""
+"""The examples of the pages are built and run as they stand there."""
 
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+from skyfield.api import load
 
 import earthspin
 from earthspin import cli, scenes
@@ -14,16 +16,20 @@ from earthspin import cli, scenes
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 
 
-@pytest.fixture
-def example(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(
-        "surface_gravity", EXAMPLES / "surface_gravity.py"
-    )
+def built(name: str, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """An example, imported from where it stands."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    monkeypatch.setitem(sys.modules, "surface_gravity", module)
+    monkeypatch.setitem(sys.modules, name, module)
     spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def example(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    module = built("surface_gravity", monkeypatch)
     question = module.SurfaceGravity
     monkeypatch.setitem(scenes.QUESTIONS, question.word, question)
     return module
@@ -60,3 +66,48 @@ def test_it_is_a_scene_like_any_other(
     assert cli.main(["keys", "surface-gravity"]) == 0
     assert "from equator to pole" in capsys.readouterr().out
     assert "latitudes" in example.surface_gravity.__doc__
+
+
+def test_the_method_in_plain_skyfield(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same declinations and torques, up to what IAU 2006 changed in the nutation."""
+    module = built("method_in_skyfield", monkeypatch)
+    t = load.timescale(builtin=True).tdb(2026, range(1, 13), 1)
+    declination, torque = module.plain_skyfield(t)
+    ours = module.with_earthspin(t).sel(perturber="sun")
+    fast = earthspin.torque_series(times=t, perturbers="sun", equator="true").sel(perturber="sun")
+    for found in (ours, fast):
+        off = np.radians(np.abs(found.declination.values - declination)).max()
+        assert off < 5e-11  # measured: 2.7e-11
+        off = np.abs(found.torque.values - torque).max() / np.abs(torque).max()
+        assert off < 1e-10  # measured: 5.2e-11
+
+
+def test_a_comet_and_vectors_of_skyfield(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = built("skyfield_bodies", monkeypatch)
+    found = module.series()
+    assert found.perturber.values.tolist() == ["sun", "moon", "comet"]
+    t = module.ts.utc(2026, 1, 1)
+    away = (module.comet.position - module.kernel["earth"]).at(t).distance().m
+    assert np.isclose(found.distance.sel(perturber="comet")[0], away, rtol=1e-12, atol=0)
+    assert np.isnan(found.torque_magnitude_error.sel(perturber="comet")).all()
+    module.kernel.close()
+
+
+def test_a_source_of_positions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A Sun on a circle: at the equinox on J2000.0, and 23.4 degrees north a quarter later."""
+    found = built("circular_orbit", monkeypatch).mean_sun().sel(perturber="sun")
+    assert np.allclose(found.distance, 149_597_870_700.0, rtol=1e-12, atol=0)
+    assert abs(float(found.declination[0])) < 2e-5  # deg; 41 mas of frame bias
+    north = found.declination.sel(time="2000-04-01T12:00", method="nearest")
+    assert abs(float(north) - 23.4393) < 1e-3  # the obliquity, 8 hours from the quarter
+
+
+def test_the_scenes_of_the_page_on_skyfield(tmp_path: Path) -> None:
+    page = (EXAMPLES.parent / "skyfield.md").read_text(encoding="utf-8")
+    scenes_there = re.findall(r"```toml\n(.*?)```", page, flags=re.DOTALL)
+    assert len(scenes_there) == 2
+    for text in scenes_there:
+        scene = tmp_path / "scene.toml"
+        scene.write_text(text)
+        found = earthspin.run(earthspin.load_scene(scene, {"step": "30 d"}))
+        assert "position" in found.attrs["scene"] or "skyfield" in found.attrs["scene"]
