@@ -1,4 +1,4 @@
-"""How far DE421 is from another kernel: the numbers of `sky.kernel_differences`."""
+"""How far DE421 is from another kernel, in places and in axes: `sky.kernel_differences`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import argparse
 import numpy as np
 
 from earthspin.constants import ARCSEC
+from earthspin.questions.pole import pole
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.kernel_differences import DIFFERENCES
 
+SPAN = ("1901-01-01", "2050-01-01")
 STEP = 1.7  # days: no body comes back to the same place
 
 
@@ -42,6 +44,28 @@ def largest_differences(
     return found
 
 
+def drifts(kernel: str, step: str = "20 d") -> dict[str, tuple[float, float]]:
+    """How far two kernels let axes part, at most, uas, and over the bound that is stated.
+
+    Parameters
+    ----------
+    kernel : str
+        Name or path.
+    step : str
+    """
+    found = {}
+    for body, perturbers in (("earth", ("sun", "moon")), ("earth", ("sun",)), ("mars", ("sun",))):
+        one, other = (
+            pole(*SPAN, step, body=body, perturbers=perturbers, ephemeris=name)
+            for name in ("de421", kernel)
+        )
+        apart = np.sqrt((one.X - other.X) ** 2 + (one.Y - other.Y) ** 2 + (one.Z - other.Z) ** 2)
+        apart = apart.max("axis") * 1e6 / ARCSEC
+        over = float((apart / one.direction_error_kernel).max())
+        found[f"{body} under {' and '.join(perturbers)}"] = float(apart.max()), over
+    return found
+
+
 def main(given: argparse.Namespace) -> int:
     """Print measured and stated differences side by side, pair by pair."""
     kernels = open_ephemeris("de421"), open_ephemeris(given.kernel)
@@ -57,4 +81,8 @@ def main(given: argparse.Namespace) -> int:
                 f"{centre:>4} {code:>5} {found[0]:>16.4g} {found[1]:>10.4g}"
                 f" {stated[0]:>14.4g} {stated[1]:>10.4g}"
             )
+    print("\naxes, 1901 to 2050            apart: uas    over the stated bound")
+    for words, (apart, over) in drifts(given.kernel).items():
+        worse += over > 1
+        print(f"{words:<28} {apart:>11.3f} {over:>24.3f}")
     return int(worse > 0)

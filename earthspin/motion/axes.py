@@ -225,9 +225,35 @@ def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray
     u_h : float
         Relative standard uncertainty of H.
     """
+    return np.asarray(NORMAL_95 * u_h * _swept(path, figure))
+
+
+def error_of_sky(
+    path: AxisPath, figure: FloatArray, drift: float, speed: float, begin: float
+) -> FloatArray:
+    """95 % half-width of a direction from where the sky may be off, rad, shape (t,).
+
+    It grows with what the axis has swept, from what short periods add at once.
+
+    Parameters
+    ----------
+    path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axis.
+    drift : float
+        By what the pull may turn the axis aside, over the angle that it sweeps.
+    speed : float
+        At which the axis sweeps, rad/s.
+    begin : float
+        Time in which it sweeps as much as short periods add, s.
+    """
+    return np.asarray(drift * (_swept(path, figure) + speed * begin))
+
+
+def _swept(path: AxisPath, figure: FloatArray) -> FloatArray:
+    """Angle between a figure axis and that of the epoch, rad, shape (t,)."""
     epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
-    moved = np.linalg.norm(figure - path.at(epoch)["figure"], axis=1)
-    return np.asarray(NORMAL_95 * u_h * moved)
+    return np.asarray(np.linalg.norm(figure - path.at(epoch)["figure"], axis=1))
 
 
 @dataclass(frozen=True)

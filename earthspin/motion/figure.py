@@ -13,6 +13,8 @@ of the body): it is asymptotic, and for a body that spins too slowly its terms s
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -56,3 +58,20 @@ def tilt_of_figure(
         tilt = next_tilt
         sizes.append(size)
     return tilt, sizes
+
+
+def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
+    """Speed at which the axis sweeps where the obliquity is 45 degrees, where it is fastest, rad/s.
+
+    (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
+    cos(eps), times sin(eps) (I.8.23).
+
+    Parameters
+    ----------
+    h : float
+    spin_rate : float
+        rad/s.
+    pulls : iterable of (gm, distance)
+        m3 s-2 and m.
+    """
+    return abs(0.75 * h / spin_rate) * sum(gm / distance**3 for gm, distance in pulls)

@@ -145,7 +145,7 @@ def chosen_nutation(
     from earthspin.choosing.choice import cheapest
     from earthspin.choosing.nutation import nutation_choices
 
-    kernel = max(sky.error(code)[0] for code in sky.targets.values())
+    kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     left = (accuracy or math.inf) - kernel
     first, last = epochs.span()
     return cheapest(nutation_choices(first, last, epochs.size), MARGIN * left)

@@ -18,6 +18,7 @@ from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import refuse_what_does_not_fit
 from earthspin.progress import progress
+from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     from earthspin.choosing.choice import Choice
@@ -57,23 +58,45 @@ def axis_path(
                 raise
             continue  # windows that are too wide for the slow manifold of this spin
         tried.append(path)
-        if choice is None or _worst_error(body, path, epochs) <= (accuracy or 0.0):
+        if choice is None or _worst_error(body, pulls, path, epochs) <= (accuracy or 0.0):
             break
     if not tried[1:]:
         return tried[0]
-    return min(tried, key=lambda path: _worst_error(body, path, epochs))
+    return min(tried, key=lambda path: _worst_error(body, pulls, path, epochs))
 
 
-def _worst_error(body: Body, path: AxisPath, epochs: TimeGrid | TimeList) -> float:
-    """Largest error of a direction at the times wanted, H included, rad."""
+def _worst_error(body: Body, pulls: Pulls, path: AxisPath, epochs: TimeGrid | TimeList) -> float:
+    """Largest error of a direction at the times wanted, H and the sky included, rad."""
     from earthspin.motion.axes import error_of_input
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    if u_h == 0:
-        return path.error
     now = epochs.days(0, epochs.size)
-    from_input = error_of_input(path, path.at(now * DAY)["figure"], u_h)
-    return float(np.hypot(path.error, from_input.max()))
+    figure = path.at(now * DAY)["figure"]
+    given = np.hypot(
+        error_of_input(path, figure, u_h), error_of_sky(path, figure, now, body, pulls)
+    )
+    return float(np.hypot(path.error, given.max()))
+
+
+def error_of_sky(
+    path: AxisPath, figure: FloatArray, days: FloatArray, body: Body, pulls: Pulls
+) -> FloatArray:
+    """95 % half-width of a direction from where the bodies may be off, rad, shape (t,)."""
+    from earthspin.motion import axes
+    from earthspin.motion.figure import fastest_sweep
+    from earthspin.sky.kernel_differences import DRIFT_FROM, growth
+
+    _, epoch = start_of(body, pulls)
+    found = pulls.sky.positions(np.array([epoch / DAY]))
+    distance = {name: float(np.linalg.norm(place)) for name, place in found.items()}
+    drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
+    speed = fastest_sweep(
+        body.number("dynamical_flattening"),
+        float(body.spin_rate),
+        [(pulls.gm[name], far) for name, far in distance.items()],
+    )
+    grown = max(growth(float(days.min())), growth(float(days.max())))
+    return grown * axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
 
 
 def _follow(

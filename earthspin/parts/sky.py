@@ -171,9 +171,16 @@ class Sky:
         told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
         return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
 
-    def error(self, target: Place) -> tuple[float, float]:
-        """How far a body may be from where it is seen: angle (rad), distance (m)."""
-        return self.source.error(target, self.centre)
+    def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
+        """How far a body may be from where it is seen, at the worst of some days: rad and m."""
+        angles, distances = zip(
+            *(self.source.error(target, self.centre, day) for day in days), strict=True
+        )
+        return max(angles), max(distances)
+
+    def drift(self, name: str, distance: float) -> float:
+        """By what the pull of a perturber may turn an axis aside, over what the axis sweeps."""
+        return self.source.drift(self.targets[name], self.centre, distance)
 
     @property
     def unmeasured(self) -> tuple[str, ...]:

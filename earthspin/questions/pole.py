@@ -21,6 +21,7 @@ from earthspin.parts.path import (
     Shift,
     axis_path,
     core_response,
+    error_of_sky,
     nonrigid_shift,
     pole_analysis,
 )
@@ -104,6 +105,7 @@ DIRECTIONS = {
     ),
     "direction_error_method": Variable(("time",), "uas", "share of the integration"),
     "direction_error_input": Variable(("time",), "uas", "share of the uncertainty of H"),
+    "direction_error_kernel": Variable(("time",), "uas", "share of where the bodies may be off"),
 }
 
 
@@ -124,13 +126,14 @@ def axes(
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     method = np.full(now.size, np.nan if pulls.sky.unmeasured else axis_path.error)
     from_input = error_of_input(axis_path, found["figure"], u_h)
-    error = np.hypot(method, from_input)
-    refuse_unkept(
-        accuracy,
-        float(error.max()),
-        "mas",
-        "stay nearer to J2000.0 or give the body a better known H",
-    )
+    from_kernel = error_of_sky(axis_path, found["figure"], now, body, pulls)
+    error = np.sqrt(method**2 + from_input**2 + from_kernel**2)
+    shares = {
+        "the sky is no better known that far from J2000.0": from_kernel.max(),
+        "stay nearer to J2000.0 or give the body a better known H": from_input.max(),
+        "the integration takes the finest windows": method.max(),
+    }
+    refuse_unkept(accuracy, float(error.max()), "mas", max(shares, key=lambda why: shares[why]))
     if response is not None:
         response.apply(found, now)
     vectors = np.stack([found[axis] for axis in AXES], axis=1)
@@ -143,6 +146,7 @@ def axes(
             "direction_error": error,
             "direction_error_method": method,
             "direction_error_input": from_input,
+            "direction_error_kernel": from_kernel,
         },
         coords={"time": ("time", datetime64(now), dict(DATES)), "axis": list(AXES)},
         no_error=pulls.sky.no_error,

@@ -590,14 +590,15 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
         return sky.radec(body, days, moon)["moon"][1]
 
-    kernel_error, _ = sky.error(sky.targets["moon"])
     found = find_standstills(declination, stretch.first, stretch.last)
     return build(
         STANDSTILLS,
         {
             "standstill_kind": np.array([s.kind for s in found], dtype=str),
             "standstill_declination": np.array([s.declination for s in found], dtype=float),
-            "standstill_declination_error": np.full(len(found), kernel_error),
+            "standstill_declination_error": np.array(
+                [sky.error(sky.targets["moon"], (s.day,))[0] for s in found], dtype=float
+            ),
         },
         coords={
             "standstill": (

@@ -129,7 +129,7 @@ def torques(
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     turned = 0.0 if chosen_nutation is None else chosen_nutation.error
-    bounds = {name: sky.error(sky.targets[name]) for name in names}
+    bounds = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
     kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
     worst = max(angle for angle, _ in kernel_error.values())
     refuse_unkept(accuracy, worst, "mas", "that is what the kernel is known to; ask for less")

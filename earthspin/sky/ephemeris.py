@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
 from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
-from earthspin.sky.kernel_differences import largest_difference
+from earthspin.sky.kernel_differences import DRIFT, drift_is_measured, growth, largest_difference
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
 FloatArray = NDArray[np.float64]
@@ -211,7 +211,7 @@ class Ephemeris:
             place = step[0]
         return path
 
-    def error(self, target: Place, centre: Place) -> tuple[float, float]:
+    def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
         """How far a body may be from where the kernel puts it: angle (rad), distance (m).
 
         Parameters
@@ -219,12 +219,27 @@ class Ephemeris:
         target, centre : int or Trajectory
             The body, and the one that it is seen from. NaN for a trajectory that stands on
             something else than a kernel: its error was never measured.
+        day : float
+            From J2000.0 TDB: outside what was measured the error grows.
         """
         codes = measured_code(centre), measured_code(target)
         if codes[0] is None or codes[1] is None:
             return math.nan, math.nan
         mas, metres = largest_difference(codes[0], codes[1])
-        return mas * MAS, metres
+        return growth(day) * mas * MAS, growth(day) * metres
+
+    def drift(self, target: Place, centre: Place, distance: float) -> float:
+        """By what the pull of a body may turn an axis aside, over the angle that the axis sweeps.
+
+        Measured for Sun and Moon on the Earth and for the Sun on Mars; for others the bound that
+        follows from direction and distance: the pull goes with the inverse cube of the distance,
+        and with the sine of twice the declination.
+        """
+        codes = measured_code(centre), measured_code(target)
+        if codes[0] is not None and codes[1] is not None and drift_is_measured(codes[0], codes[1]):
+            return DRIFT
+        angle, metres = self.error(target, centre)
+        return 2 * angle + 3 * metres / distance
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
         """Refuse times at which not all of these bodies can be placed.

@@ -1,10 +1,24 @@
 """How far a kernel may be off: the largest differences between DE421 and DE440, pair by pair.
 
 Measured by `python -m data_tools kernels` at steps of 1.7 d over all that DE421 covers, 1899 to
-2053; nothing was measured outside it. A pair is as far off from one end as from the other.
+2053. Nothing was measured outside it: there the bound grows with the square of the time from
+J2000.0, as the longitudes of two Moons do whose tidal acceleration differs (DE421 and DE440 part by
+7.3 mas a century squared along the track). A pair is as far off from one end as from the other.
 """
 
 from __future__ import annotations
+
+#: Days from J2000.0 TDB beyond which a difference grows. Both kernels cover -36,684 to 19,639; a
+#: little inside, so that the Moon of 1560 comes to the 141 mas of the two accelerations.
+GROWS_FROM = (-35700.0, 19600.0)
+
+#: By what two kernels let an axis part, over the angle that it sweeps: the largest of the Earth's
+#: under Sun and Moon (3.4e-9), under the Sun (3.2e-9), and of that of Mars (2.7e-9), 1901 to 2050.
+DRIFT = 3.6e-9
+#: What their short periods add: as much as the axis sweeps in this time, s.
+DRIFT_FROM = 4 * 365.25 * 86400.0
+#: Pairs whose pull was compared so, by their codes.
+DRIFT_MEASURED = ((10, 399), (301, 399), (4, 10))
 
 #: Direction (mas) and distance (m) by the two NAIF codes, the smaller first; a planet's barycentre
 #: stands for the planet.
@@ -73,6 +87,24 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
     near = [size for codes, size in DIFFERENCES.items() if _barycentre(centre) in codes]
     mas, metres = zip(*(near or DIFFERENCES.values()), strict=True)
     return max(mas), max(metres)
+
+
+def growth(day: float) -> float:
+    """By how much a difference may be larger at a day from J2000.0 TDB than where it was measured.
+
+    Parameters
+    ----------
+    day : float
+        Inside `GROWS_FROM` it is 1.
+    """
+    edge = GROWS_FROM[0] if day < 0 else GROWS_FROM[1]
+    return max(1.0, (day / edge) ** 2)
+
+
+def drift_is_measured(centre: int, target: int) -> bool:
+    """Whether `DRIFT` was measured for the pull of one body on another."""
+    pair = sorted((_barycentre(centre), _barycentre(target)))
+    return (pair[0], pair[1]) in DRIFT_MEASURED
 
 
 def _barycentre(code: int) -> int:

@@ -86,10 +86,20 @@ class Source(Protocol):
     ) -> dict[str, FloatArray]:
         """Geometric positions as seen from a body, m along the ICRF, shape (n, 3) each."""
 
-    def error(self, target: Place, centre: Place, /) -> tuple[float, float]:
-        """How far a body may be from where it is put: angle (rad), distance (m).
+    def error(self, target: Place, centre: Place, day: float, /) -> tuple[float, float]:
+        """How far a body may be on a day from where it is put: angle (rad), distance (m).
 
-        NaN where no error was ever measured.
+        It grows with the distance of the day from J2000.0; NaN where no error was ever measured.
+        """
+
+    def drift(self, target: Place, centre: Place, distance: float, /) -> float:
+        """By what the pull of a body may turn an axis aside, over the angle that the axis sweeps.
+
+        Parameters
+        ----------
+        target, centre : Place
+        distance : float
+            Between them, m.
         """
 
 

@@ -69,9 +69,13 @@ class Skyfield:
         """Refuse, with a CoverageError, times at which not all of these can be placed."""
         self.file.check_times(days, places)
 
-    def error(self, target: Place, centre: Place) -> tuple[float, float]:
+    def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
         """How far a body may be from where it is put: angle (rad), distance (m); the kernel's."""
-        return self.file.error(target, centre)
+        return self.file.error(target, centre, day)
+
+    def drift(self, target: Place, centre: Place, distance: float) -> float:
+        """By what the pull of a body may turn an axis aside; the kernel's."""
+        return self.file.drift(target, centre, distance)
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray

@@ -122,7 +122,7 @@ def test_more_times_than_a_block(skyfield: Skyfield) -> None:
     whole = skyfield.radec({"moon": 301}, 399, days, true=False)["moon"]
     for index in (0, 4095, 4096, 5000):
         one = skyfield.radec({"moon": 301}, 399, days[index : index + 1], true=False)["moon"]
-        assert [of[0] for of in one] == pytest.approx([of[index] for of in whole], rel=1e-15)
+        assert [of[0] for of in one] == pytest.approx([of[index] for of in whole], rel=1e-15, abs=0)
 
 
 def test_a_body_with_a_pole_of_its_own() -> None:
