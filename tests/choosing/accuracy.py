@@ -227,7 +227,7 @@ def series_outcome(rng: Generator) -> Outcome:
     now = days.days(0, days.size)
     first, last = days.span()
     exact = Nutation(first, last, 0)
-    place = above.source.positions(above.targets, above.centre, now)
+    place = above.positions(now)
     directions = {n: p / np.linalg.norm(p, axis=1, keepdims=True) for n, p in place.items()}
     kernel = max(above.error(code)[0] for code in above.targets.values()) / ARCSEC * 1e3
 
