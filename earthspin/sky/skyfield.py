@@ -164,5 +164,5 @@ def _with_equator(t: Time, *, true: bool) -> Time:
         angles = longitude * (1 + SCALE_2006 + of_j2), obliquity * (1 + of_j2)
     else:
         angles = np.zeros_like(t.tt), np.zeros_like(t.tt)
-    t._nutation_angles_radians = angles  # as Skyfield's page on accuracy and speed sets them
+    t._nutation_angles_radians = angles  # what Skyfield computes when it is first asked
     return t
