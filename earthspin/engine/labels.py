@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
@@ -159,7 +159,7 @@ def build(
                 raise UndefinedError(
                     f"{declared.long_name} has no value here; check the body's numbers"
                 )
-            attributes["comment"] = no_error
+            attributes["no_error"] = no_error
         if frame and "component" in laid.dims:
             attributes["frame"] = frame
         arrays[name] = xr.Variable(laid.dims, data, attributes)
@@ -199,6 +199,43 @@ def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]
     if variable.no_error:
         attributes["no_error"] = variable.no_error
     return attributes | dict(variable.attrs)
+
+
+def covered_by(error: str, schema: Schema) -> dict[str, Variable]:
+    """Say that one variable holds the error of all that have none of their own.
+
+    Parameters
+    ----------
+    error : str
+        Its name.
+    schema : Schema
+    """
+    bare = _without_error(schema)
+    return {n: replace(of, error=error) if n in bare else of for n, of in schema.items()}
+
+
+def without_error(why: str, schema: Schema) -> dict[str, Variable]:
+    """Say why what has no error carries none.
+
+    Parameters
+    ----------
+    why : str
+    schema : Schema
+    """
+    bare = _without_error(schema)
+    return {n: replace(of, no_error=why) if n in bare else of for n, of in schema.items()}
+
+
+def _without_error(schema: Schema) -> set[str]:
+    """Numbers of a schema of whose error nothing is said yet."""
+    return {
+        name
+        for name, of in schema.items()
+        if of.units
+        and "_error" not in name
+        and f"{name}_error" not in schema
+        and not (of.error or of.no_error)
+    }
 
 
 def with_error(

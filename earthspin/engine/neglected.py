@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+BOUND = "a bound, or a published size, of what is left out"
+
+
 @dataclass(frozen=True)
 class Neglected:
     """Sizes of what is left out.
@@ -55,7 +58,9 @@ class Neglected:
         import numpy as np
 
         source = (("references", self.source),) if self.source else ()
-        schema = {"neglected_effect": Variable(("effect",), self.unit, self.what, source)}
+        schema = {
+            "neglected_effect": Variable(("effect",), self.unit, self.what, source, no_error=BOUND)
+        }
         sizes = [float(self.sizes.get(name, 0.0)) for name in names]
         return build(
             schema,

@@ -10,7 +10,7 @@ import numpy as np
 
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
+from earthspin.engine.labels import Variable, build, covered_by, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
@@ -120,17 +120,25 @@ class FreeRotor(
 
 
 _SERIES = ("time", "component")
-ROTATION = {
-    "omega_body": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
-    "angular_momentum_body": Variable(
-        _SERIES, "kg m2 / s", "angular momentum along the principal axes"
-    ),
-    "omega_inertial": Variable(
-        _SERIES, "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
-    ),
-    "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
-    "energy": Variable(("time",), "J", "kinetic energy of rotation"),
-}
+ROTATION = covered_by(
+    "relative_error",
+    {
+        "omega_body": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
+        "angular_momentum_body": Variable(
+            _SERIES, "kg m2 / s", "angular momentum along the principal axes"
+        ),
+        "omega_inertial": Variable(
+            _SERIES, "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
+        ),
+        "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
+        "energy": Variable(("time",), "J", "kinetic energy of rotation"),
+        "relative_error": Variable(
+            (),
+            "1",
+            "95 % half-width of each quantity over its largest value, inputs taken as exact",
+        ),
+    },
+)
 
 
 @part(gives=ROTATION)
@@ -138,6 +146,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
     """Angular velocity, attitude and energy of a free rotor, in closed form."""
     import xarray as xr
 
+    from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
     from earthspin.rotor.triaxial import free_rotation as rotate
 
     motion = rotate(moments.given, omega, instants)
@@ -154,6 +163,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
             "omega_inertial": laid(motion.omega_inertial, "component"),
             "attitude": laid(motion.attitude, "quaternion"),
             "energy": laid(motion.energy),
+            "relative_error": CLOSED_FORM_ERROR,
         },
         coords={
             "time": ("time", motion.times, FROM_START),
@@ -168,28 +178,40 @@ def several_starts(omega: FloatArray) -> str | None:
     return None if omega.ndim == 1 else "there are several starts"
 
 
-POINSOT = {
-    "inertia_ellipsoid": Variable(("component",), "rad/s", "semi-axes of the inertia ellipsoid"),
-    "momentum_ellipsoid": Variable(
-        ("component",), "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
-    ),
-    "polhode": Variable(
-        ("polhode_point", "component"), "rad/s", "path of the angular velocity in the body"
-    ),
-    "polhode_period": Variable((), "s", "time of one round of the polhode"),
-    "invariable_plane_distance": Variable(
-        (), "rad/s", "distance of the invariable plane from the centre, 2T/L"
-    ),
-    "herpolhode": Variable(
-        ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
-    ),
-    "herpolhode_radius": Variable(("bound",), "rad/s", "bounds of the herpolhode"),
-    "growth_rate": Variable(
-        ("component",), "1/s", "rate at which a small tilt off each axis grows; 0 if stable"
-    ),
-}
+POINSOT = without_error(
+    "from the same closed form as the rotation, whose relative_error holds",
+    {
+        "inertia_ellipsoid": Variable(
+            ("component",), "rad/s", "semi-axes of the inertia ellipsoid"
+        ),
+        "momentum_ellipsoid": Variable(
+            ("component",), "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
+        ),
+        "polhode": Variable(
+            ("polhode_point", "component"), "rad/s", "path of the angular velocity in the body"
+        ),
+        "polhode_period": Variable((), "s", "time of one round of the polhode"),
+        "invariable_plane_distance": Variable(
+            (), "rad/s", "distance of the invariable plane from the centre, 2T/L"
+        ),
+        "herpolhode": Variable(
+            ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
+        ),
+        "herpolhode_radius": Variable(("bound",), "rad/s", "bounds of the herpolhode"),
+        "growth_rate": Variable(
+            ("component",), "1/s", "rate at which a small tilt off each axis grows; 0 if stable"
+        ),
+    },
+)
 #: Given where the polhode has a period: not on the separatrix, nor where omega stands still.
-ADVANCE = {"herpolhode_advance": Variable((), "rad", "turn of the herpolhode per round")}
+ADVANCE = {
+    "herpolhode_advance": Variable(
+        (),
+        "rad",
+        "turn of the herpolhode per round",
+        no_error="from the same closed form as the rotation, whose relative_error holds",
+    )
+}
 
 
 @part(gives=POINSOT, unless=several_starts)
@@ -232,10 +254,8 @@ PROMISE = promise("1", "relative, of angular velocity and attitude")
 @part(gives=PROMISE, unless=no_accuracy)
 def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the rotation: asked, estimated, and the method."""
-    from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
-
-    size = free_rotation.attitude.size // 4
-    return closed_form(PROMISE, accuracy, CLOSED_FORM_ERROR, "Jacobi's closed form", size)
+    size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
+    return closed_form(PROMISE, accuracy, bound, "Jacobi's closed form", size)
 
 
 @part

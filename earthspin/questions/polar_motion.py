@@ -15,7 +15,7 @@ from earthspin.bodies import EARTH, Body
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, si, with_error
+from earthspin.engine.labels import Variable, build, si, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
@@ -105,7 +105,7 @@ _TIME = ("time",)
 OBSERVED = {
     **with_error("x", Variable(_TIME, "arcsec", "pole, towards the prime meridian")),
     **with_error("y", Variable(_TIME, "arcsec", "pole, towards 90 degrees west")),
-    "polar_radius": Variable((), "m", "polar radius of the body"),
+    "polar_radius": Variable((), "m", "polar radius of the body", no_error="a number of the body"),
 }
 
 
@@ -142,33 +142,52 @@ def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) ->
 
 
 _MIDDLE = ("middle",)
-CHANDLER = {
-    **with_error("chandler_period", Variable((), "d", "period of the free wobble")),
-    **with_error(
-        "chandler_amplitude",
-        Variable(
+CHANDLER = without_error(
+    "a mean over a beat; its scatter was not propagated",
+    {
+        **with_error("chandler_period", Variable((), "d", "period of the free wobble")),
+        **with_error(
+            "chandler_amplitude",
+            Variable(
+                _MIDDLE,
+                "mas",
+                "amplitude of the free wobble",
+                (("cell_methods", "middle: mean (one beat of the wobbles)"),),
+            ),
+        ),
+        "chandler_phase": Variable(
+            _MIDDLE, "deg", "phase of the free wobble against a steady one of its period"
+        ),
+        "annual_amplitude": Variable(
             _MIDDLE,
             "mas",
-            "amplitude of the free wobble",
-            (("cell_methods", "middle: mean (one beat of the wobbles)"),),
+            "amplitude of the annual wobble, prograde",
+            error="chandler_amplitude_error",
         ),
-    ),
-    "chandler_phase": Variable(
-        _MIDDLE, "deg", "phase of the free wobble against a steady one of its period"
-    ),
-    "annual_amplitude": Variable(_MIDDLE, "mas", "amplitude of the annual wobble, prograde"),
-    "annual_retrograde_amplitude": Variable(
-        _MIDDLE, "mas", "amplitude of the annual wobble, retrograde"
-    ),
-    "mean_pole": Variable((*_MIDDLE, "axis"), "mas", "mean position of the pole"),
-}
-QUALITY = {
-    "chandler_quality_factor": Variable((), "1", "quality factor of the free wobble"),
-    "chandler_quality_factor_low": Variable((), "1", "lower end of its 95 % interval"),
-    "chandler_quality_factor_high": Variable(
-        (), "1", "upper end of its 95 % interval", (("comment", "infinite if open"),)
-    ),
-}
+        "annual_retrograde_amplitude": Variable(
+            _MIDDLE,
+            "mas",
+            "amplitude of the annual wobble, retrograde",
+            error="chandler_amplitude_error",
+        ),
+        "mean_pole": Variable((*_MIDDLE, "axis"), "mas", "mean position of the pole"),
+    },
+)
+QUALITY = without_error(
+    "an end of an interval of 95 %",
+    {
+        "chandler_quality_factor": Variable(
+            (),
+            "1",
+            "quality factor of the free wobble",
+            error="chandler_quality_factor_low chandler_quality_factor_high",
+        ),
+        "chandler_quality_factor_low": Variable((), "1", "lower end of its 95 % interval"),
+        "chandler_quality_factor_high": Variable(
+            (), "1", "upper end of its 95 % interval", (("comment", "infinite if open"),)
+        ),
+    },
+)
 
 
 @part(gives=CHANDLER)
@@ -221,11 +240,14 @@ def _quality(found: WobbleFit) -> dict[str, float]:
     }
 
 
-SPECTRUM = {
-    "spectral_amplitude": Variable(
-        ("frequency",), "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
-    )
-}
+SPECTRUM = without_error(
+    "an amplitude at one frequency scatters by as much as itself",
+    {
+        "spectral_amplitude": Variable(
+            ("frequency",), "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
+        )
+    },
+)
 
 
 @part(gives=SPECTRUM)
@@ -437,14 +459,20 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, excitation_of(si(chi.chi1).values, si(chi.chi2).values) / MAS
 
 
-CHI = {
-    "chi1": Variable(_TIME, "mas", "excitation, towards the prime meridian"),
-    "chi2": Variable(_TIME, "mas", "excitation, towards 90 degrees east"),
-}
-POLE = {
-    "x": Variable(_TIME, "arcsec", "pole, towards the prime meridian"),
-    "y": Variable(_TIME, "arcsec", "pole, towards 90 degrees west"),
-}
+CHI = without_error(
+    "the table that it is read from gives none",
+    {
+        "chi1": Variable(_TIME, "mas", "excitation, towards the prime meridian"),
+        "chi2": Variable(_TIME, "mas", "excitation, towards 90 degrees east"),
+    },
+)
+POLE = without_error(
+    "what excitation and oscillator are given without",
+    {
+        "x": Variable(_TIME, "arcsec", "pole, towards the prime meridian"),
+        "y": Variable(_TIME, "arcsec", "pole, towards 90 degrees west"),
+    },
+)
 
 
 def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100.0) -> xr.Dataset:

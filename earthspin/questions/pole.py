@@ -11,7 +11,7 @@ from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, si
+from earthspin.engine.labels import Variable, build, covered_by, si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
@@ -96,17 +96,22 @@ def response(nonrigid_shift: Shift) -> Shift:
 
 
 _AXES = ("time", "axis")
-DIRECTIONS = {
-    "X": Variable(_AXES, "1", "first component of the unit vector of the axis"),
-    "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
-    "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
-    "direction_error": Variable(
-        ("time",), "uas", "95 % half-width of the directions, figure of the body included"
-    ),
-    "direction_error_method": Variable(("time",), "uas", "share of the integration"),
-    "direction_error_input": Variable(("time",), "uas", "share of the uncertainty of H"),
-    "direction_error_kernel": Variable(("time",), "uas", "share of where the bodies may be off"),
-}
+DIRECTIONS = covered_by(
+    "direction_error",
+    {
+        "X": Variable(_AXES, "1", "first component of the unit vector of the axis"),
+        "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
+        "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
+        "direction_error": Variable(
+            ("time",), "uas", "95 % half-width of the directions, figure of the body included"
+        ),
+        "direction_error_method": Variable(("time",), "uas", "share of the integration"),
+        "direction_error_input": Variable(("time",), "uas", "share of the uncertainty of H"),
+        "direction_error_kernel": Variable(
+            ("time",), "uas", "share of where the bodies may be off"
+        ),
+    },
+)
 
 
 @part(gives=DIRECTIONS)
@@ -171,12 +176,15 @@ def no_longitude(body: Body) -> str | None:
     return None
 
 
-ANGLES = {
-    "psi": Variable(
-        _AXES, "arcsec", "precession and nutation in longitude along the orbit of J2000.0"
-    ),
-    "eps": Variable(_AXES, "arcsec", "angle of the axis from the normal of that orbit"),
-}
+ANGLES = covered_by(
+    "direction_error",
+    {
+        "psi": Variable(
+            _AXES, "arcsec", "precession and nutation in longitude along the orbit of J2000.0"
+        ),
+        "eps": Variable(_AXES, "arcsec", "angle of the axis from the normal of that orbit"),
+    },
+)
 
 
 @part(gives=ANGLES, unless=no_longitude)

@@ -13,7 +13,7 @@ from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error
+from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
@@ -317,12 +317,22 @@ RATES = {
     **with_error(
         "precession_period", Variable(_PERTURBER, "yr", "time for one turn of precession")
     ),
-    "rate_ratio": Variable(_PERTURBER, "1", "rate over that of the first perturber"),
+    "rate_ratio": Variable(
+        _PERTURBER,
+        "1",
+        "rate over that of the first perturber",
+        no_error="of two rates that each carry their own",
+    ),
     **with_error(
         "mean_torque",
         Variable(_PERTURBER, "N m", "magnitude of the mean torque vector", _OVER_WINDOW),
     ),
-    "obliquity": Variable((), "deg", "angle between spin axis and orbit normal at the epoch"),
+    "obliquity": Variable(
+        (),
+        "deg",
+        "angle between spin axis and orbit normal at the epoch",
+        no_error="between a pole and a plane that are given",
+    ),
     "reference_epoch": Variable((), "", "epoch that the averages refer to (TDB)"),
 }
 
@@ -371,12 +381,15 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> xr.Dataset:
 
 # --- sections ------------------------------------------------------------------------------------
 
-CONVERGENCE = {
-    "rate_by_window": Variable(
-        ("window", "window_cycles"), "arcsec/yr", "rate of precession of all perturbers"
-    ),
-    "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
-}
+CONVERGENCE = without_error(
+    "the curve itself shows how far a window is off",
+    {
+        "rate_by_window": Variable(
+            ("window", "window_cycles"), "arcsec/yr", "rate of precession of all perturbers"
+        ),
+        "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
+    },
+)
 
 
 @part(gives=CONVERGENCE)
@@ -416,14 +429,17 @@ def no_figure(body: Body) -> str | None:
 
 
 _MODEL = ("earth_model",)
-FIGURE_MODELS = {
-    "h_by_model": Variable(_MODEL, "1", "dynamical flattening (C - A)/C"),
-    "period_by_model": Variable(_MODEL, "yr", "time for one turn of precession"),
-    "wobble_by_model": Variable(_MODEL, "d", "period of the rigid free wobble"),
-    "moment_difference": Variable((), "kg m2", "C - A from J2"),
-    "polar_moment_factor": Variable((), "1", "C/(M a2) from J2 and H"),
-    "j2_from_moment_difference": Variable((), "1", "J2 from C - A, and back"),
-}
+FIGURE_MODELS = without_error(
+    "a model of the figure, to be held against the others",
+    {
+        "h_by_model": Variable(_MODEL, "1", "dynamical flattening (C - A)/C"),
+        "period_by_model": Variable(_MODEL, "yr", "time for one turn of precession"),
+        "wobble_by_model": Variable(_MODEL, "d", "period of the rigid free wobble"),
+        "moment_difference": Variable((), "kg m2", "C - A from J2"),
+        "polar_moment_factor": Variable((), "1", "C/(M a2) from J2 and H"),
+        "j2_from_moment_difference": Variable((), "1", "J2 from C - A, and back"),
+    },
+)
 
 
 @part(gives=FIGURE_MODELS, unless=no_figure)
@@ -469,14 +485,17 @@ def is_sphere(body: Body) -> str | None:
     return "a sphere does not wobble" if round_ else None
 
 
-FREE_WOBBLE = {
-    **with_error(
-        "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
-    ),
-    "free_wobble_period_sidereal": Variable(
-        (), "1", "period of the rigid free wobble in turns of the body, its sidereal days"
-    ),
-}
+FREE_WOBBLE = without_error(
+    "relative to itself, that of free_wobble_period",
+    {
+        **with_error(
+            "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
+        ),
+        "free_wobble_period_sidereal": Variable(
+            (), "1", "period of the rigid free wobble in turns of the body, its sidereal days"
+        ),
+    },
+)
 
 
 @part(gives=FREE_WOBBLE, unless=is_sphere)
@@ -498,20 +517,23 @@ def free_wobble(body: Body) -> xr.Dataset:
     )
 
 
-SEASONS = {
-    **with_error(
-        "general_precession",
-        Variable((), "arcsec/yr", "slide of the equinox along the moving ecliptic"),
-    ),
-    **with_error(
-        "general_precession_period", Variable((), "yr", "time for one turn of the equinox")
-    ),
-    "time_per_degree": Variable((), "yr", "time in which the equinox slides by one degree"),
-    "tropical_year": Variable((), "d", "time from season to season"),
-    "time_per_day_of_drift": Variable(
-        (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
-    ),
-}
+SEASONS = without_error(
+    "relative to itself, that of general_precession",
+    {
+        **with_error(
+            "general_precession",
+            Variable((), "arcsec/yr", "slide of the equinox along the moving ecliptic"),
+        ),
+        **with_error(
+            "general_precession_period", Variable((), "yr", "time for one turn of the equinox")
+        ),
+        "time_per_degree": Variable((), "yr", "time in which the equinox slides by one degree"),
+        "tropical_year": Variable((), "d", "time from season to season"),
+        "time_per_day_of_drift": Variable(
+            (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
+        ),
+    },
+)
 
 
 @part(gives=SEASONS, unless=not_sun_and_moon)
@@ -541,7 +563,12 @@ def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Da
 
 
 IAU_2006 = {
-    "iau_rate": Variable((), "arcsec/yr", "rate of psi_A in IAU 2006 at the same epoch"),
+    "iau_rate": Variable(
+        (),
+        "arcsec/yr",
+        "rate of psi_A in IAU 2006 at the same epoch",
+        no_error="a model that was adopted, exact by definition",
+    ),
     **with_error("difference_from_iau", Variable((), "arcsec/yr", "our rate minus the IAU's")),
     **with_error(
         "closure",

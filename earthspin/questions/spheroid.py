@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, all_of
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
+from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
@@ -63,15 +63,20 @@ class Spheroid(
 
 
 _VECTOR = ("point", "component")
-FIELD = {
-    "position": Variable(_VECTOR, "m", "place of the point from the centre"),
-    "potential": Variable(("point",), "J/kg", "gravitational potential"),
-    "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
-    "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
-    "relative_error": Variable(
-        ("point",), "1", "95 % half-width of potential, attraction and torque over their sizes"
-    ),
-}
+FIELD = covered_by(
+    "relative_error",
+    {
+        "position": Variable(
+            _VECTOR, "m", "place of the point from the centre", no_error="as it was given"
+        ),
+        "potential": Variable(("point",), "J/kg", "gravitational potential"),
+        "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
+        "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
+        "relative_error": Variable(
+            ("point",), "1", "95 % half-width of potential, attraction and torque over their sizes"
+        ),
+    },
+)
 
 
 @part(gives=FIELD)

@@ -8,7 +8,7 @@ import numpy as np
 
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
+from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
@@ -117,24 +117,42 @@ def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
     return heavy_top_motion(heavy_top_start, instants)
 
 
+#: Instants at which the error is found where no accuracy is asked for.
+TOLD_BY = 64
+
 _TIME = ("time",)
-MOTION = {
-    "theta": Variable(_TIME, "rad", "angle from the vertical to the axis"),
-    "phi": Variable(_TIME, "rad", "turn of the axis about the vertical"),
-    "psi": Variable(_TIME, "rad", "turn of the body about its axis"),
-    "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
-    "omega_body": Variable(
-        ("time", "component"), "rad/s", "angular velocity along the principal axes"
-    ),
-    "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
-    "nutation_period": Variable((), "s", "time in which theta goes once to and fro"),
-    "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
-}
+MOTION = covered_by(
+    "relative_error",
+    {
+        "theta": Variable(_TIME, "rad", "angle from the vertical to the axis"),
+        "phi": Variable(_TIME, "rad", "turn of the axis about the vertical"),
+        "psi": Variable(_TIME, "rad", "turn of the body about its axis"),
+        "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
+        "omega_body": Variable(
+            ("time", "component"), "rad/s", "angular velocity along the principal axes"
+        ),
+        "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
+        "nutation_period": Variable((), "s", "time in which theta goes once to and fro"),
+        "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
+        "relative_error": Variable(
+            (),
+            "1",
+            "95 % half-width of theta over itself, of each other quantity over its largest value: "
+            "what a unit in the last place of the start does, and the closed form",
+        ),
+    },
+)
 
 
 @part(gives=MOTION)
-def euler_angles(motion: HeavyTopMotion, instants: FloatArray) -> xr.Dataset:
+def euler_angles(
+    motion: HeavyTopMotion, heavy_top_start: HeavyTop, instants: FloatArray
+) -> xr.Dataset:
     """The motion of the top in time."""
+    from earthspin.top.rounding import error_bound
+
+    # the error grows with time: the last instants and some before tell it
+    told = instants[np.unique(np.linspace(0, instants.size - 1, TOLD_BY).astype(int))]
     return build(
         MOTION,
         {
@@ -146,6 +164,7 @@ def euler_angles(motion: HeavyTopMotion, instants: FloatArray) -> xr.Dataset:
             "pattern": motion.pattern,
             "nutation_period": motion.nutation_period,
             "mean_precession_rate": motion.precession_rate,
+            "relative_error": error_bound(heavy_top_start, told),
         },
         coords={
             "time": ("time", instants, FROM_START),
@@ -155,7 +174,12 @@ def euler_angles(motion: HeavyTopMotion, instants: FloatArray) -> xr.Dataset:
     )
 
 
-TURNING = {"turning_angle": Variable(("turning",), "rad", "least and greatest theta")}
+_AS_THE_MOTION = "from the same closed form as the motion, whose relative_error holds"
+TURNING = {
+    "turning_angle": Variable(
+        ("turning",), "rad", "least and greatest theta", no_error=_AS_THE_MOTION
+    )
+}
 
 
 @part(gives=TURNING)
@@ -167,7 +191,10 @@ def turning(motion: HeavyTopMotion) -> xr.Dataset:
 
 POTENTIAL = {
     "effective_potential": Variable(
-        ("inclination",), "rad2 / s2", "effective potential V of alpha = theta'^2 + V"
+        ("inclination",),
+        "rad2 / s2",
+        "effective potential V of alpha = theta'^2 + V",
+        no_error="two terms of one formula: rounding alone",
     )
 }
 

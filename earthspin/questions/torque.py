@@ -92,10 +92,14 @@ def nutation(
 
 _SERIES = ("time", "perturber")
 TORQUES = {
-    "right_ascension": Variable(_SERIES, "deg", "right ascension, geometric"),
-    "declination": Variable(_SERIES, "deg", "declination, geometric"),
+    "right_ascension": Variable(
+        _SERIES, "deg", "right ascension, geometric", error="direction_error"
+    ),
+    "declination": Variable(_SERIES, "deg", "declination, geometric", error="direction_error"),
     "distance": Variable(_SERIES, "m", "distance between the centres"),
-    "torque": Variable((*_SERIES, "component"), "N m", "torque on the bulge"),
+    "torque": Variable(
+        (*_SERIES, "component"), "N m", "torque on the bulge", error="torque_magnitude_error"
+    ),
     **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
     "direction_error": Variable(("perturber",), "deg", "bound on right ascension and declination"),
     "distance_error": Variable(("perturber",), "m", "bound on the distance from the kernel"),

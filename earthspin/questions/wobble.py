@@ -11,7 +11,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.constants import DAY
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error
+from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
@@ -160,29 +160,32 @@ def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
 # --- the answer ------------------------------------------------------------------------------
 
 _RUNG = ("rung",)
-LADDER = {
-    **with_error(
-        "period_solar",
-        Variable(_RUNG, "d", "period of the free wobble in days of 86400 s"),
-    ),
-    "period_sidereal": Variable(
-        _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
-    ),
-    "factor": Variable(_RUNG, "1", "period over that of the rung before"),
-    "quality_factor": Variable(
-        _RUNG,
-        "1",
-        "quality factor of the free wobble",
-        (
+LADDER = without_error(
+    "relative to itself, that of period_solar; the quality factor follows from published ones",
+    {
+        **with_error(
+            "period_solar",
+            Variable(_RUNG, "d", "period of the free wobble in days of 86400 s"),
+        ),
+        "period_sidereal": Variable(
+            _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
+        ),
+        "factor": Variable(_RUNG, "1", "period over that of the rung before"),
+        "quality_factor": Variable(
+            _RUNG,
+            "1",
+            "quality factor of the free wobble",
             (
-                "comment",
-                "infinite where nothing is lost; the exponent of the loss is a free choice, "
-                "so the anelastic rung is a check of consistency, not a prediction",
+                (
+                    "comment",
+                    "infinite where nothing is lost; the exponent of the loss is a free choice, "
+                    "so the anelastic rung is a check of consistency, not a prediction",
+                ),
             ),
         ),
-    ),
-    "rung_formula": Variable(_RUNG, "", "turns per wobble, and where the formula stands"),
-}
+        "rung_formula": Variable(_RUNG, "", "turns per wobble, and where the formula stands"),
+    },
+)
 
 
 @part(gives=LADDER)
@@ -261,15 +264,18 @@ def _along(
 
 # --- sections --------------------------------------------------------------------------------
 
-INTERIOR = {
-    "love_number": Variable(("love",), "1", "Love number of degree two, elastic, at 1 s"),
-    "moment_factor": Variable((), "1", "moment of inertia of the model over M R2"),
-    "core_fraction": Variable((), "1", "moment of the core over that of the body"),
-    "fluid_love_number": Variable((), "1", "k2 if the body were liquid throughout"),
-    "global_ocean_love_number": Variable(
-        (), "1", "what an ocean all over would add to k2, in closed form"
-    ),
-}
+INTERIOR = without_error(
+    "the section sensitivity says what its uncertainty does to the period",
+    {
+        "love_number": Variable(("love",), "1", "Love number of degree two, elastic, at 1 s"),
+        "moment_factor": Variable((), "1", "moment of inertia of the model over M R2"),
+        "core_fraction": Variable((), "1", "moment of the core over that of the body"),
+        "fluid_love_number": Variable((), "1", "k2 if the body were liquid throughout"),
+        "global_ocean_love_number": Variable(
+            (), "1", "what an ocean all over would add to k2, in closed form"
+        ),
+    },
+)
 
 
 @part(gives=INTERIOR, unless=not_layered)
@@ -298,12 +304,17 @@ def interior_response(body: Body) -> xr.Dataset:
     return result
 
 
-SENSITIVITY = {
-    "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
-    "input_value": Variable(("input",), "1", "value of the input"),
-    "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
-    "days_from_input": Variable(("input",), "d", "95 % half-width of the last rung from the input"),
-}
+SENSITIVITY = without_error(
+    "a share of an error, or what it is made of",
+    {
+        "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
+        "input_value": Variable(("input",), "1", "value of the input"),
+        "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
+        "days_from_input": Variable(
+            ("input",), "d", "95 % half-width of the last rung from the input"
+        ),
+    },
+)
 
 
 @part(gives=SENSITIVITY)
@@ -330,14 +341,17 @@ def sensitivity(inside: Inside) -> xr.Dataset:
     )
 
 
-CORE_NUTATION = {
-    "free_core_nutation": Variable(
-        ("core_shape",), "d", "period of the free core nutation among the stars"
-    ),
-    "free_core_nutation_sidereal": Variable(
-        ("core_shape",), "1", "period of the free core nutation in turns of the body"
-    ),
-}
+CORE_NUTATION = without_error(
+    "the uncertainty of the core was not propagated to it",
+    {
+        "free_core_nutation": Variable(
+            ("core_shape",), "d", "period of the free core nutation among the stars"
+        ),
+        "free_core_nutation_sidereal": Variable(
+            ("core_shape",), "1", "period of the free core nutation in turns of the body"
+        ),
+    },
+)
 
 
 @part(gives=CORE_NUTATION)

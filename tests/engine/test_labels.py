@@ -135,3 +135,15 @@ def test_a_unit_that_is_not_known_is_not_taken_for_si() -> None:
     with pytest.raises(earthspin.SceneError, match="units = 'km'"):
         build({"x": Variable((), "km", "a length")}, {"x": 7e6})
     assert float(si(xr.DataArray(2.0, attrs={"units": "d"}))) == 172800.0
+
+
+def test_every_number_has_an_error_or_says_why_not(nodes: dict[str, xr.Dataset]) -> None:
+    root = set(nodes[next(iter(nodes))].data_vars)
+    for path, result in nodes.items():
+        for name, of in result.data_vars.items():
+            an_error = "_error" in str(name) or str(name).startswith("error_")
+            if path == "plan" or of.dtype.kind != "f" or an_error:
+                continue
+            named = of.attrs.get("ancillary_variables", "").split()
+            assert bool(named) != bool(of.attrs.get("no_error")), (path, name)
+            assert set(named) <= set(result.data_vars) | root, (path, name)

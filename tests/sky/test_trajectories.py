@@ -138,7 +138,7 @@ def test_no_error_is_claimed_where_none_was_measured(orbit: VectorFunction) -> N
     for name in ("direction_error", "distance_error", "torque_magnitude_error"):
         assert np.isnan(found[name].sel(perturber="comet")).all()
         assert np.isfinite(found[name].sel(perturber="sun")).all()
-        assert "never measured" in found[name].attrs["comment"]
+        assert "never measured" in found[name].attrs["no_error"]
     rates = earthspin.precession(perturbers=[SUN, comet], span=("1950-01-01", "2050-01-01"))
     for name in ("precession_rate_error", "precession_period_error", "mean_torque_error"):
         assert np.isfinite(rates[name]).values.tolist() == [True, False, False]
@@ -163,7 +163,7 @@ def test_a_moon_of_ones_own_leaves_the_sections_without_errors(kernel: SpiceKern
     assert np.allclose(tree.precession_rate, plain.precession_rate, rtol=1e-12, atol=0)
     for path in ("standstills/standstill_declination_error", "iau_2006/closure_error"):
         assert np.isnan(tree[path]).all()
-        assert "for moon" in tree[path].attrs["comment"]
+        assert "for moon" in tree[path].attrs["no_error"]
 
 
 def test_with_an_accuracy_a_kernel_is_enough(kernel: SpiceKernel) -> None:
