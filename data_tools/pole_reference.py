@@ -1,6 +1,6 @@
 """The figure axis in long double: angular momentum l and tilt d = l - F by extrapolation.
 
-    l' = 3 H/Omega (Q F) x F,     d' = l' + l x d/kappa
+    l' = 3 H/Omega (Q F) x F,     d' = l' + l x d/tau
 
 (exact for an axisymmetric body), by the modified midpoint rule and Richardson's extrapolation
 (Gragg 1965; Hairer, Norsett & Wanner 1993, sect. II.9), in steps that end where records
@@ -47,7 +47,7 @@ def figure_axis() -> tuple[LongArray, LongArray]:
 
 def slow_start(axis: LongArray, step: float) -> LongArray:
     """Angular momentum that belongs to a figure axis without free motion."""
-    kappa = _kappa()
+    tau = _tau()
     first = np.cross(axis, np.array([1, 0, 0], dtype=LONG))
     first /= np.sqrt(first @ first)
     second = np.cross(axis, first)
@@ -59,7 +59,7 @@ def slow_start(axis: LongArray, step: float) -> LongArray:
         time = step * DAY * np.arange(len(path)).astype(LONG)
         x = time / time[-1] - LONG(0.5)
         weight = np.cos(np.pi * x) ** TAPER_POWER
-        free = np.sum(weight * turning * np.exp(-1j * time / kappa)) / np.sum(weight)
+        free = np.sum(weight * turning * np.exp(-1j * time / tau)) / np.sum(weight)
         momentum = momentum - free.real * first - free.imag * second
         print(f"pole: free motion of {float(abs(free)):.1g} rad taken from the start")
         if abs(free) < 1e-19:
@@ -118,10 +118,10 @@ def _slope(tide: LongArray, state: LongArray) -> LongArray:
     qx, qy, qz = tide @ (state[:3] - state[3:])
     torque = _torque_scale() * np.array([qy * fz - qz * fy, qz * fx - qx * fz, qx * fy - qy * fx])
     turn = np.array([ly * dz - lz * dy, lz * dx - lx * dz, lx * dy - ly * dx])
-    return np.concatenate([torque, torque + turn / _kappa()])
+    return np.concatenate([torque, torque + turn / _tau()])
 
 
-def _kappa() -> Any:
+def _tau() -> Any:
     return (1 - LONG(H)) / LONG(SPIN)
 
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from earthspin.motion.exact import Tide, integrate
 
@@ -64,7 +65,7 @@ def attitude_motion(
 
     def slope(t: float, state: FloatArray) -> FloatArray:
         w, x, y, z = q = state[3:]
-        turn = rotation_matrix(q)
+        turn = Rotation.from_quat(q, scalar_first=True).as_matrix()
         spin = spin_per_momentum * (state[:3] @ turn)
         seen = turn.T @ tide(t) @ turn
         torque = torque_scale * np.array([seen[1, 2], seen[0, 2], seen[0, 1]])
@@ -85,43 +86,3 @@ def attitude_motion(
         slope, np.concatenate([momentum, quaternion]), times, rtol, 1 / abs(spin_rate)
     )
     return state[:, :3], state[:, 3:]
-
-
-def rotation_matrix(quaternion: FloatArray) -> FloatArray:
-    """Matrix from the axes of the body to those of the sky, shape (..., 3, 3).
-
-    Parameters
-    ----------
-    quaternion : ndarray, shape (..., 4)
-        Scalar first; its length does not matter.
-    """
-    w, x, y, z = np.moveaxis(quaternion, -1, 0)
-    rows = [
-        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-    ]
-    square = w * w + x * x + y * y + z * z
-    turned = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
-    return np.asarray(turned / square[..., np.newaxis, np.newaxis])
-
-
-def quaternion_from_matrix(matrix: FloatArray) -> FloatArray:
-    """Quaternion, scalar first, of a matrix from the body's axes to the sky's.
-
-    Parameters
-    ----------
-    matrix : ndarray, shape (3, 3)
-        A rotation; its columns are the axes of the body.
-    """
-    # The eigenvector of the largest eigenvalue (Bar-Itzhack 2000): well posed for any angle.
-    (a, b, c), (d, e, f), (g, h, i) = matrix
-    symmetric = np.array(
-        [
-            [a + e + i, h - f, c - g, d - b],
-            [h - f, a - e - i, b + d, c + g],
-            [c - g, b + d, e - a - i, f + h],
-            [d - b, c + g, f + h, i - a - e],
-        ]
-    )
-    return np.asarray(np.linalg.eigh(symmetric)[1][:, -1])

@@ -2,7 +2,7 @@ r"""Angular-momentum, rotation and figure axes in time: Picard iteration on Gaus
 
 In units of C Omega, with the figure axis F of an axisymmetric body,
 
-    l' = N(F, t)/(C Omega),     F = l - \kappa F x F',     \omega/\Omega = F + F x F'/\Omega
+    l' = N(F, t)/(C Omega),     F = l - \tau F x F',     \omega/\Omega = F + F x F'/\Omega
 
 The axis moves by arcseconds while the sky goes round, so that the torque hardly depends
 on it: from a guess of F at the nodes of all windows, integrate the torque through each
@@ -328,7 +328,7 @@ def _segment_length(done: list[_Segment], left: int, window: float) -> int:
 def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _Segment:
     """Picard iteration on one segment."""
     law, tensor = forces.over(windows)
-    kappa = forces.figure.kappa
+    tau = forces.figure.tau
     axis = momentum = np.broadcast_to(start.guess[:, None, None], (3, *windows.times.shape))
     tilt = np.zeros_like(axis)
     change, rounds = np.inf, 0
@@ -337,7 +337,7 @@ def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _S
         rate = law(axis, momentum)
         begin = start.momentum_with(_at_edge(windows, tilt, forward))
         starts, momentum = _chain(windows, rate, begin, forward)
-        tilt, terms = tilt_of_figure(windows, axis, rate, kappa, _FEW if rounds < 3 else _ALL)
+        tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds < 3 else _ALL)
         previous, change = change, float(np.max(np.abs(momentum - tilt - axis)))
         axis = momentum - tilt
         if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
@@ -398,7 +398,7 @@ def _fast(
     if figure.triaxiality == 0:
         return None
     amplitudes = semidiurnal_amplitudes(
-        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.kappa
+        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.tau
     )
     return np.asarray(windows.coefficients(amplitudes))
 

@@ -1,6 +1,6 @@
 r"""An independent check: angular momentum and figure axis of an axisymmetric body, integrated.
 
-    l' = N(F, t)/(C Omega),     F' = l x F / \kappa,     \kappa = A/(C Omega)
+    l' = N(F, t)/(C Omega),     F' = l x F / \tau,     \tau = A/(C Omega)
 
 with l in units of C Omega is exact at any spin, the free wobble included, but F turns once
 a day, so that the steps must be short (steps near a day resonate with it). It shares
@@ -54,7 +54,7 @@ def axisymmetric_motion(
     -------
     momentum, figure : ndarray, shape (t, 3)
     """
-    kappa = (1 - h) / spin_rate
+    tau = (1 - h) / spin_rate
     torque_scale = 3 * h / spin_rate
 
     def slope(t: float, state: FloatArray) -> FloatArray:
@@ -65,13 +65,13 @@ def axisymmetric_motion(
                 torque_scale * (qy * fz - qz * fy),
                 torque_scale * (qz * fx - qx * fz),
                 torque_scale * (qx * fy - qy * fx),
-                (ly * fz - lz * fy) / kappa,
-                (lz * fx - lx * fz) / kappa,
-                (lx * fy - ly * fx) / kappa,
+                (ly * fz - lz * fy) / tau,
+                (lz * fx - lx * fz) / tau,
+                (lx * fy - ly * fx) / tau,
             ]
         )
 
-    state = integrate(slope, np.concatenate([momentum, figure]), times, rtol, abs(kappa))
+    state = integrate(slope, np.concatenate([momentum, figure]), times, rtol, abs(tau))
     axis = state[:, 3:]
     return state[:, :3], axis / np.linalg.norm(axis, axis=1, keepdims=True)
 

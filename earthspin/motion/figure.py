@@ -3,10 +3,10 @@ r"""The figure axis that belongs to an angular momentum: the slow manifold.
 For an axisymmetric body whose spin about its figure axis F is Omega, with the angular
 momentum l in units of C Omega,
 
-    l = F + \kappa F x F',     \kappa = A/(C Omega)
+    l = F + \tau F x F',     \tau = A/(C Omega)
 
 is exact. Free motion turns F about l once in C/A ... a day (I.6); what torques alone do
-is slow. Solved for F by iteration, F = l - kappa F x F', the equation gives the one motion
+is slow. Solved for F by iteration, F = l - tau F x F', the equation gives the one motion
 that has no free part. Each round adds a term of a series in (turns of the axis' motion per turn
 of the body): it is asymptotic, and for a body that spins too slowly its terms soon grow.
 """
@@ -25,9 +25,9 @@ FloatArray = NDArray[np.float64]
 
 
 def tilt_of_figure(
-    windows: Windows, figure: FloatArray, rate: FloatArray, kappa: float, rounds: int
+    windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
 ) -> tuple[FloatArray, list[float]]:
-    """Angular momentum minus figure axis, kappa F x F', on the slow manifold.
+    """Angular momentum minus figure axis, tau F x F', on the slow manifold.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def tilt_of_figure(
         A guess of F that is right to the first order.
     rate : ndarray, shape (3, w, n)
         l', s-1.
-    kappa : float
+    tau : float
         A/(C Omega), s; negative for a retrograde spin.
     rounds : int
         How many terms of the series at most.
@@ -48,10 +48,10 @@ def tilt_of_figure(
     sizes : list of float
         Largest change in each round, rad. The series is cut before they begin to grow.
     """
-    tilt = kappa * cross(figure, rate)
+    tilt = tau * cross(figure, rate)
     sizes = [float(np.max(np.abs(tilt)))]
     for _ in range(rounds):
-        next_tilt = kappa * cross(figure, rate - windows.derivative(tilt))
+        next_tilt = tau * cross(figure, rate - windows.derivative(tilt))
         size = float(np.max(np.abs(next_tilt - tilt)))
         if size > 0.7 * sizes[-1]:
             break

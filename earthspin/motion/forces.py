@@ -62,7 +62,7 @@ class Figure:
     meridian: float = 0.0
 
     @property
-    def kappa(self) -> float:
+    def tau(self) -> float:
         """A/(C Omega), s: what joins figure axis and angular momentum."""
         return (1 - self.h) / self.spin_rate
 

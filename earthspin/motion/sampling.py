@@ -5,7 +5,7 @@ dQ the error of Q between and behind the nodes, the torque on a figure axis F is
 3 (H/\Omega) (dQ F) x F, which no F makes larger than 3 (H/\Omega) s(dQ), where s is half the
 difference of the largest and the smallest eigenvalue. For the integral this holds while F stands
 still; an axis that has turned by some radians multiplies the bound by 1 more than these (integrate
-by parts). The figure axis adds the slow manifold, \kappa F x F' and its next term
+by parts). The figure axis adds the slow manifold, \tau F x F' and its next term
 (`earthspin.motion.figure`), twice, because the angular momentum at the start has it, too; and a
 triaxial body its semidiurnal motion in proportion to Q itself.
 """
@@ -43,8 +43,8 @@ def turn_by_sampling(
     -------
     ndarray, shape (...)
     """
-    kappa, spin = abs(figure.kappa), abs(figure.spin_rate)
-    tilt = kappa * value + kappa * kappa * derivative
+    tau, spin = abs(figure.tau), abs(figure.spin_rate)
+    tilt = tau * value + tau * tau * derivative
     slow = 3 * abs(figure.h) / spin * (integral * (1 + turned) + 2 * tilt)
     return np.asarray(slow + 3 * abs(figure.triaxiality) / spin * tilt)
 

@@ -8,7 +8,7 @@ complex number counted from the non-rotating direction e1,
 (from N = 3 GM/r5 r x I r, I.9.34). Its amplitude is slow, so that integral and response are
 series in (days over the months of the sky), closed here by iteration:
 
-    l' = n/(C Omega),   l = f + i kappa f',   w = f + (i/Omega) f'
+    l' = n/(C Omega),   l = f + i tau f',   w = f + (i/Omega) f'
 
 and l has besides what B - A adds to the angular momentum of a spin axis that is tilted by
 l - f already, -(B - A)/(2A) conj(l - f) exp(2 i theta) (0.1 uas). The axes move by 0.03 mas
@@ -53,7 +53,7 @@ def semidiurnal_amplitudes(
     tilt: FloatArray,
     triaxiality: float,
     spin_rate: float,
-    kappa: float,
+    tau: float,
 ) -> ComplexArray:
     """Amplitudes of the motion of angular momentum, rotation and figure axis at the nodes.
 
@@ -70,7 +70,7 @@ def semidiurnal_amplitudes(
         (B - A)/C.
     spin_rate : float
         rad/s.
-    kappa : float
+    tau : float
         A/(C Omega), s.
 
     Returns
@@ -90,7 +90,7 @@ def semidiurnal_amplitudes(
     for _ in range(_ROUNDS):
         momentum = (torque - windows.derivative(momentum)) / (2j * spin_rate)
 
-    turn = kappa * spin_rate  # A/C
+    turn = tau * spin_rate  # A/C
     away = 1 - 2 * turn  # from the free nutation, which a thin disc has at half a day
     if abs(away) < NEAREST_RESONANCE:
         raise UndefinedError(
@@ -101,7 +101,7 @@ def semidiurnal_amplitudes(
     uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, first, second))
     axis = (momentum + uneven) / away
     for _ in range(_ROUNDS):
-        axis = (momentum + uneven - 1j * kappa * windows.derivative(axis)) / away
+        axis = (momentum + uneven - 1j * tau * windows.derivative(axis)) / away
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])
 

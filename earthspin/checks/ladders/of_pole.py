@@ -8,13 +8,14 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 from earthspin.checks.ladders import taylor
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, Setting, settings
 from earthspin.constants import DAY, J2000_JD, UAS
-from earthspin.motion.attitude import attitude_motion, quaternion_from_matrix, rotation_matrix
+from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.axes import axis_path
 from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
@@ -165,9 +166,11 @@ def _exact(motion: Motion) -> Found:
 def _attitude(motion: Motion) -> Found:
     tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
     x = equatorial_basis(motion.start)[0]
-    start = quaternion_from_matrix(np.stack([x, np.cross(motion.start, x), motion.start], axis=1))
+    start = Rotation.from_matrix(
+        np.stack([x, np.cross(motion.start, x), motion.start], axis=1)
+    ).as_quat(scalar_first=True)
     _, turned = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
-    return rotation_matrix(turned[1:])[:, :, 2], tide.calls
+    return Rotation.from_quat(turned[1:], scalar_first=True).as_matrix()[:, :, 2], tide.calls
 
 
 def _peer(motion: Motion, tolerance: float) -> Found:
@@ -182,7 +185,7 @@ def _by_hand(motion: Motion, method: str, rtol: float) -> Found:
     """Integrate the angular momentum, torque taken along it; then tilt it to the first order."""
     start, t = motion.start, motion.times
     scale = 3 * H / SPIN
-    kappa = (1 - H) / SPIN
+    tau = (1 - H) / SPIN
     legs = ((0, CODES["sun"]), (0, 3), (3, CENTRE), (3, CODES["moon"]))
     segments = [kernel()._segments[leg] for leg in legs]
 
@@ -195,8 +198,8 @@ def _by_hand(motion: Motion, method: str, rtol: float) -> Found:
             total += gm * (r @ axis) / (r @ r) ** 2.5 * np.cross(r, axis)
         return scale * total
 
-    momentum = start + kappa * np.cross(start, rate(0.0, start))
+    momentum = start + tau * np.cross(start, rate(0.0, start))
     done = solve_ivp(rate, (0.0, t[-1]), momentum, method, t_eval=t, rtol=rtol, atol=1e-3 * rtol)
     axes = done.y.T
-    tilts = [kappa * np.cross(a, rate(time, a)) for time, a in zip(t, axes, strict=True)]
+    tilts = [tau * np.cross(a, rate(time, a)) for time, a in zip(t, axes, strict=True)]
     return axes - np.stack(tilts), done.nfev

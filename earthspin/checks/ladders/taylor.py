@@ -97,15 +97,15 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
         along = gm * (r[0] * fx + r[1] * fy + r[2] * fz) * square**-2.5
         pull = [total + along * v for total, v in zip(pull, r, strict=True)]
     qx, qy, qz = pull
-    scale, kappa = 3 * h / spin_rate, (1 - h) / spin_rate
+    scale, tau = 3 * h / spin_rate, (1 - h) / spin_rate
     return hy.taylor_adaptive(
         [
             (lx, scale * (qy * fz - qz * fy)),
             (ly, scale * (qz * fx - qx * fz)),
             (lz, scale * (qx * fy - qy * fx)),
-            (fx, (ly * fz - lz * fy) / kappa),
-            (fy, (lz * fx - lx * fz) / kappa),
-            (fz, (lx * fy - ly * fx) / kappa),
+            (fx, (ly * fz - lz * fy) / tau),
+            (fy, (lz * fx - lx * fz) / tau),
+            (fz, (lx * fy - ly * fx) / tau),
         ],
         [0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
         pars=[1.0] * (2 * _OF_BODY) + [0.0],
