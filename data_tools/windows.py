@@ -11,7 +11,7 @@ from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.poles import IAU_2006
-from earthspin.torque.average import Window, precessing_push, window_mean_and_error
+from earthspin.torque.average import Window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import precession_rate
 
@@ -38,11 +38,13 @@ def rates(kernel: Ephemeris, half_span: float) -> tuple[np.ndarray, np.ndarray]:
     axis = IAU_2006.equator(None, days)[:, 2]
     normal = IAU_2006.orbit_normal(None)
     place = kernel.positions({"sun": 10, "moon": 301}, 399, days)
-    pushes = [
-        precessing_push(torque_from_position(b.gm, 1.0, place[b.name], axis), axis, normal)
+    precessing = [
+        precessing_torque(torque_from_position(b.gm, 1.0, place[b.name], axis), axis, normal)
         for b in (SUN, MOON)
     ]
-    rate = precession_rate(np.stack(pushes, axis=1), EARTH.dynamical_flattening, EARTH.spin_rate)
+    rate = precession_rate(
+        np.stack(precessing, axis=1), EARTH.dynamical_flattening, EARTH.spin_rate
+    )
     return np.asarray(rate) * MAS_PER_CENTURY, days * DAY
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from earthspin.choosing.choice import Choice, models
 from earthspin.constants import DAY
-from earthspin.torque.average import push_of_tensor
+from earthspin.torque.average import precessing_of_tensor
 
 FloatArray = NDArray[np.float64]
 
@@ -30,18 +30,19 @@ class Averaging:
         Its length in turns of the slowest cycle.
     step : float
         Between two samples, s.
-    push_errors, torque_errors : mapping of str to float
-        By perturber: of its push, and of its torque along any axis, both per C - A, s-2.
+    precessing_errors, torque_errors : mapping of str to float
+        By perturber: of its precessing torque, and of its torque along any axis, both per
+        C - A, s-2.
     """
 
     cycles: float
     step: float
-    push_errors: Mapping[str, float]
+    precessing_errors: Mapping[str, float]
     torque_errors: Mapping[str, float]
 
 
 @dataclass(frozen=True)
-class Pushed:
+class Turned:
     """What decides how far an error of the mean tensor is one of the rate of precession.
 
     Attributes
@@ -76,12 +77,12 @@ class Pull(NamedTuple):
     slow_swing: float
 
 
-def average_choices(body: Pushed, cycles: float) -> list[Choice[Averaging]]:
+def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
     """Windows of an average with the relative error of the rate.
 
     Parameters
     ----------
-    body : Pushed
+    body : Turned
     cycles : float
         As many as there is room for.
 
@@ -98,12 +99,12 @@ def average_choices(body: Pushed, cycles: float) -> list[Choice[Averaging]]:
         return []
     if np.linalg.norm(body.normal - table["normal"][str(body.code)]) > SAME_ORBIT:
         return []
-    push = {
-        name: pull.gm * push_of_tensor(rows[str(pull.code)]["mean"], 0.0, body.obliquity)
+    precessing = {
+        name: pull.gm * precessing_of_tensor(rows[str(pull.code)]["mean"], 0.0, body.obliquity)
         for name, pull in body.pulls.items()
     }
-    swing = sum(pull.slow_swing * push[name] for name, pull in body.pulls.items())
-    total = sum(push.values())
+    swing = sum(pull.slow_swing * precessing[name] for name, pull in body.pulls.items())
+    total = sum(precessing.values())
     if total == 0:
         return []
     in_plane, out_of_plane = (
@@ -117,17 +118,19 @@ def average_choices(body: Pushed, cycles: float) -> list[Choice[Averaging]]:
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
             off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in body.pulls}
-            pushes = {name: push_of_tensor(*pair, body.obliquity) for name, pair in off.items()}
+            precessing = {
+                name: precessing_of_tensor(*pair, body.obliquity) for name, pair in off.items()
+            }
             found.append(
                 Choice(
                     words=f"sin4 taper over {turns} cycles, a sample each {days} d",
                     settings=Averaging(
                         cycles=turns,
                         step=days * DAY,
-                        push_errors=pushes,
+                        precessing_errors=precessing,
                         torque_errors={name: 3 * sum(pair) for name, pair in off.items()},
                     ),
-                    error=(sum(pushes.values()) + swing) / total,
+                    error=(sum(precessing.values()) + swing) / total,
                     evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
                 )
             )

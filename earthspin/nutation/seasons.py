@@ -17,7 +17,7 @@ Numeric = Any
 
 
 def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Numeric:
-    """General precession in longitude, rad/s: ours less the motion of the ecliptic.
+    """General precession in longitude, rad/s: lunisolar precession less the motion of the ecliptic.
 
     p_A = psi_A - chi_A cos(epsilon), Capitaine et al. 2003, sect. 6.
 

@@ -84,7 +84,7 @@ def averages_on_offer(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
-    from earthspin.choosing.averages import Pull, Pushed, average_choices
+    from earthspin.choosing.averages import Pull, Turned, average_choices
     from earthspin.sky.equator import angle
     from earthspin.torque.average import best_window
 
@@ -93,7 +93,7 @@ def averages_on_offer(
     cycle = max(p.cycle for p in perturbers)
     pole = body.needed("pole")
     normal = pole.orbit_normal(body.orbit_pole)
-    pushed = Pushed(
+    turned = Turned(
         code=body.naif[0],
         obliquity=angle(pole.true(0.0), normal),
         normal=normal,
@@ -102,7 +102,7 @@ def averages_on_offer(
         cycle=cycle,
     )
     widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    return average_choices(pushed, widest.cycles)
+    return average_choices(turned, widest.cycles)
 
 
 @part(unless=no_accuracy, chooses=True)

@@ -88,7 +88,7 @@ class Samples:
         s from J2000.0 TDB.
     labels : list of str
         The perturbers, and their total if there are several.
-    push : ndarray, shape (n, perturber)
+    precessing : ndarray, shape (n, perturber)
         Share of the torque per C - A that makes the axis precess, s-2.
     torque : ndarray, shape (n, perturber, 3)
         Torque per C - A, along equator and equinox of date, s-2.
@@ -104,7 +104,7 @@ class Samples:
 
     times: NDArray[np.float64]
     labels: list[str]
-    push: NDArray[np.float64]
+    precessing: NDArray[np.float64]
     torque: NDArray[np.float64]
     window: Window
     obliquity: float
@@ -122,7 +122,7 @@ def torque_samples(
 ) -> Samples:
     """Torque of each perturber through the window that converges fastest."""
     from earthspin.sky.equator import angle, rotate
-    from earthspin.torque.average import best_window, precessing_push
+    from earthspin.torque.average import best_window, precessing_torque
     from earthspin.torque.gravity import torque_from_position
 
     pole, orbit = body.needed("pole"), body.orbit_pole
@@ -144,7 +144,7 @@ def torque_samples(
     return Samples(
         times=times,
         labels=names + ["total"] * (len(names) > 1),
-        push=np.stack([precessing_push(t, axis, normal) for t in torques], axis=1),
+        precessing=np.stack([precessing_torque(t, axis, normal) for t in torques], axis=1),
         torque=np.stack([rotate(equator, t) for t in torques], axis=1),
         window=window,
         obliquity=angle(axis_at_epoch.reshape(3), normal),
@@ -231,18 +231,20 @@ def mean_rates(
         return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
 
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
-    of_push, of_torque = _measured_errors(perturbers, chosen_average)
-    push, push_error = window_mean_and_error(window, times, samples.push, swing, of_push)
-    if of_push is not None and times[1] - times[0] == SAMPLING:
+    of_precessing, of_torque = _measured_errors(perturbers, chosen_average)
+    precessing, precessing_error = window_mean_and_error(
+        window, times, samples.precessing, swing, of_precessing
+    )
+    if of_precessing is not None and times[1] - times[0] == SAMPLING:
         # daily samples: what the neighbours say counts as well, where it is less
-        _, by_neighbours = window_mean_and_error(window, times, samples.push, swing)
-        push_error = np.minimum(push_error, by_neighbours)
+        _, by_neighbours = window_mean_and_error(window, times, samples.precessing, swing)
+        precessing_error = np.minimum(precessing_error, by_neighbours)
     vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = along(rates.total_uncertainty(push, u_each))
+    u_gm = along(rates.total_uncertainty(precessing, u_each))
     rate = rates.precession_estimate(
-        along(push),
-        along(push_error),
+        along(precessing),
+        along(precessing_error),
         body.needed("dynamical_flattening"),
         body.spin_rate,
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
@@ -260,7 +262,7 @@ def mean_rates(
     return MeanRates(
         rate=rate,
         torque=torque,
-        ratio=rates.rate_ratio(push),
+        ratio=rates.rate_ratio(precessing),
         method=f"{_taken(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
         no_error=samples.no_error,
@@ -275,11 +277,13 @@ def _taken(window: Window) -> str:
 def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, None]:
-    """Errors of push and torque of each perturber as measured for a choice, s-2."""
+    """Errors of the precessing torque and of all torque, as measured for a choice, s-2."""
     if choice is None:
         return None, None
-    of_push = [choice.settings.push_errors[p.name] for p in perturbers]
-    return np.array(of_push), np.array([choice.settings.torque_errors[p.name] for p in perturbers])
+    of_precessing = [choice.settings.precessing_errors[p.name] for p in perturbers]
+    return np.array(of_precessing), np.array(
+        [choice.settings.torque_errors[p.name] for p in perturbers]
+    )
 
 
 def _check_accuracy(asked: float | None, rate: Estimate) -> None:
@@ -402,14 +406,14 @@ def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
 
     window = torque_samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
-    total = torque_samples.push.sum(axis=1)
+    total = torque_samples.precessing.sum(axis=1)
     curves = convergence_curve(window, torque_samples.times, total, cycles)
-    push = xr.DataArray(
+    precessing = xr.DataArray(
         np.stack(list(curves.values())),
         {"window": list(curves), "window_cycles": cycles},
         ("window", "window_cycles"),
     )
-    rate = rates.precession_rate(push, body.needed("dynamical_flattening"), body.spin_rate)
+    rate = rates.precession_rate(precessing, body.needed("dynamical_flattening"), body.spin_rate)
     length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
     result = build(CONVERGENCE, {"rate_by_window": rate, "window_length": length})
     result["window_cycles"].attrs["long_name"] = "length of the averaging window in cycles"
@@ -453,7 +457,7 @@ def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
 
     samples = torque_samples
     j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
-    push = samples.window.mean(samples.times, samples.push.sum(axis=1))
+    precessing = samples.window.mean(samples.times, samples.precessing.sum(axis=1))
     h = xr.concat(
         [
             xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
@@ -468,7 +472,7 @@ def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
         FIGURE_MODELS,
         {
             "h_by_model": h,
-            "period_by_model": rates.period(rates.precession_rate(push, h, body.spin_rate)),
+            "period_by_model": rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
             "wobble_by_model": free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
             "moment_difference": difference,
             "polar_moment_factor": inertia.polar_moment_factor(j2, measured),

@@ -230,7 +230,7 @@ def convergence_curve(
     }
 
 
-def precessing_push(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
+def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
     """Share of a torque that turns an axis along a fixed orbit: N . (k x n)/sin2(obliquity).
 
     Divided by the angular momentum it is the rate at which the axis's longitude falls, counted
@@ -265,8 +265,8 @@ def precessing_push(torque: FloatArray, axis: FloatArray, normal: FloatArray) ->
     return np.asarray(np.sum(torque * across, axis=-1) / sine_squared)
 
 
-def push_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Push of a mean tidal tensor, or what errors of it do to the push, s-2.
+def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
+    """Precessing torque of a mean tidal tensor, or what errors of the tensor do to it, s-2.
 
     With z along the orbit's normal and x below the spin axis,
 

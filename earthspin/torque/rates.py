@@ -4,7 +4,7 @@ With N the torque per unit of C - A, k the axis and n the normal of the orbit,
 
     psi' = (H/Omega) < N . (k x n)/sin2(obliquity) >
 
-where the mean is that of `earthspin.torque.average.precessing_push`,
+where the mean is that of `earthspin.torque.average.precessing_torque`,
 
 so the rate needs H alone, not C and C - A apart, and not G. The torque itself needs C - A,
 hence the mass in kilograms, hence G, which is known to 2e-5 only. The formulas are plain
@@ -46,14 +46,19 @@ class Estimate:
 
 
 def precession_estimate(
-    push: Numeric, push_error: Numeric, h: Numeric, spin_rate: Numeric, u_h: float, u_gm: Numeric
+    precessing: Numeric,
+    precessing_error: Numeric,
+    h: Numeric,
+    spin_rate: Numeric,
+    u_h: float,
+    u_gm: Numeric,
 ) -> Estimate:
     """Rate of precession in longitude with its error, rad/s.
 
     Parameters
     ----------
-    push, push_error : float
-        Mean `precessing_push` of the torque per unit of C - A, and its half-width, s-2.
+    precessing, precessing_error : float
+        Mean `precessing_torque` of the torque per unit of C - A, and its half-width, s-2.
     h : float
         Dynamical flattening (C - A)/C.
     spin_rate : float
@@ -61,8 +66,8 @@ def precession_estimate(
     u_h, u_gm : float
         Relative standard uncertainties of H and of the perturber's GM.
     """
-    rate = precession_rate(push, h, spin_rate)
-    method = np.abs(precession_rate(push_error, h, spin_rate))
+    rate = precession_rate(precessing, h, spin_rate)
+    method = np.abs(precession_rate(precessing_error, h, spin_rate))
     return Estimate(rate, method, half_width(rate, u_h, u_gm))
 
 
@@ -84,19 +89,19 @@ def torque_estimate(
     return Estimate(torque, np.abs(bulge) * vector_error, half_width(torque, u_bulge, u_gm))
 
 
-def precession_rate(push: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
+def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
     """Rate of precession in longitude, rad/s; positive westward, as the Earth's is.
 
     Parameters
     ----------
-    push : float
-        Mean `precessing_push` of the torque per unit of C - A, s-2.
+    precessing : float
+        Mean `precessing_torque` of the torque per unit of C - A, s-2.
     h : float
         Dynamical flattening (C - A)/C.
     spin_rate : float
         rad/s.
     """
-    return h / spin_rate * push
+    return h / spin_rate * precessing
 
 
 def period(rate: Numeric) -> Numeric:
@@ -113,27 +118,27 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
         return period(rate) * np.maximum(relative, np.minimum(rate_error, 0.0))
 
 
-def rate_ratio(push: Numeric) -> Numeric:
+def rate_ratio(precessing: Numeric) -> Numeric:
     """Each rate over that of the first; 1 where they are equal, be they both nothing."""
-    first = push[0]
+    first = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(push == first, 1.0, push / first)
+        return np.where(precessing == first, 1.0, precessing / first)
 
 
-def total_uncertainty(push: Numeric, u_gm: Numeric) -> Numeric:
+def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
     """Relative standard uncertainties of several pulls' GM, and of the pulls' total.
 
     Parameters
     ----------
-    push : ndarray, shape (perturber,) or (perturber + 1,)
+    precessing : ndarray, shape (perturber,) or (perturber + 1,)
         The pulls, and their total where there are several.
     u_gm : sequence of float, shape (perturber,)
     """
     u = np.asarray(u_gm, dtype=float)
-    if len(push) == u.size:
+    if len(precessing) == u.size:
         return u
-    absolute = np.sqrt(np.sum((push[:-1] * u) ** 2))
-    total = absolute / abs(push[-1]) if push[-1] else u.max()
+    absolute = np.sqrt(np.sum((precessing[:-1] * u) ** 2))
+    total = absolute / abs(precessing[-1]) if precessing[-1] else u.max()
     return np.append(u, total)
 
 
@@ -143,8 +148,8 @@ def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
     return NORMAL_95 * np.abs(value) * np.sqrt(variance)
 
 
-def circular_orbit_push(gm: float, distance: float, obliquity: float) -> float:
-    """Closed form of the mean push for a circular orbit in the plane of reference, s-2.
+def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float:
+    """Mean precessing torque for a circular orbit in the plane of reference, closed form, s-2.
 
     Parameters
     ----------

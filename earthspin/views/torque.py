@@ -1,4 +1,4 @@
-"""Torque in time: extremes, declination, and the push that precession comes from."""
+"""Torque in time: extremes, declination, and the precessing torque that precession comes from."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def through(tree: Result, title: str, smooth_days: float | None = None) -> Drawi
     return Drawing(
         title,
         f"Above: declination, {answer_of(tree).torque.attrs['frame']}. Below: the component of the "
-        "torque towards the equinox; it hardly ever changes sign, so the axis is pushed "
+        "torque towards the equinox; it hardly ever changes sign, so the axis is turned "
         f"the same way all the time. {lines}",
         figure,
     )

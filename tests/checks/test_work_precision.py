@@ -424,13 +424,13 @@ def test_torus_mean_has_converged_and_the_sun_is_right() -> None:
     sun *= (1 - model_sky.ECCENTRICITY**2) ** -1.5
     anomaly = 2 * np.pi * np.arange(32) / 32
     place = model_sky.positions(np.stack([0 * anomaly, anomaly, 0 * anomaly, 0 * anomaly]))["sun"]
-    from earthspin.torque.average import precessing_push
+    from earthspin.torque.average import precessing_torque
     from earthspin.torque.gravity import torque_from_position
 
     torque = torque_from_position(gm, 1.0, place, model_sky.AXIS)
-    push = precessing_push(torque, model_sky.AXIS, model_sky.NORMAL)
+    precessing = precessing_torque(torque, model_sky.AXIS, model_sky.NORMAL)
     # the mean of cos(2 true anomaly)/r3 is nought on any ellipse
-    assert abs(np.mean(push) / sun - 1) < 2e-15  # 2.2e-16 measured
+    assert abs(np.mean(precessing) / sun - 1) < 2e-15  # 2.2e-16 measured
 
 
 def test_known_polar_motion_solves_its_equation() -> None:

@@ -174,13 +174,17 @@ def rate_outcome(rng: Generator) -> Outcome:
     above = sky_of(question)
     within = stretch(above, question.span)
     samples = torque_samples(above, within, body, pulling)  # daily, on the widest window
-    push = samples.push.sum(axis=1) if len(pulling) == 1 else samples.push[:, :2].sum(axis=1)
-    truth = samples.window.mean(samples.times, push)
+    precessing = (
+        samples.precessing.sum(axis=1)
+        if len(pulling) == 1
+        else samples.precessing[:, :2].sum(axis=1)
+    )
+    truth = samples.window.mean(samples.times, precessing)
 
     def off(cycles: float, step: float) -> float:
         window = Window(samples.window.centre, cycles, samples.window.cycle, "sin4")
         times = window.sample_times(step)
-        picked = push[np.rint((times - samples.times[0]) / DAY).astype(int)]
+        picked = precessing[np.rint((times - samples.times[0]) / DAY).astype(int)]
         return float(abs(window.mean(times, picked) / truth - 1))
 
     choice = chosen_average(body, pulling, within, asked)

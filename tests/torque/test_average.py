@@ -13,7 +13,7 @@ from earthspin.torque.average import (
     Window,
     best_window,
     convergence_curve,
-    precessing_push,
+    precessing_torque,
     window_mean_and_error,
     with_total,
 )
@@ -160,7 +160,7 @@ def test_the_total_is_the_sum_of_all() -> None:
 
 
 @given(st.floats(0.05, np.pi - 0.05), st.floats(0, 2 * np.pi), st.floats(1e-9, 1e-5))
-def test_precessing_push_against_a_small_turn(tilt: float, node: float, turn: float) -> None:
+def test_precessing_torque_against_a_small_turn(tilt: float, node: float, turn: float) -> None:
     """Turn an axis about the normal by a known angle and ask for it back."""
     normal = np.array([0.0, 0.0, 1.0])
 
@@ -171,7 +171,7 @@ def test_precessing_push_against_a_small_turn(tilt: float, node: float, turn: fl
 
     # westward: longitude falls
     change = axis(node - turn / 2) - axis(node + turn / 2)
-    rate = precessing_push(change[np.newaxis], axis(node), normal)[0]
+    rate = precessing_torque(change[np.newaxis], axis(node), normal)[0]
     assert np.isclose(rate, turn, rtol=1e-6, atol=0)
 
 
@@ -179,4 +179,4 @@ def test_an_upright_axis_has_no_longitude() -> None:
     up = np.array([0.0, 0.0, 1.0])
     for axis in (up, -up):
         with pytest.raises(UndefinedError, match="upright"):
-            precessing_push(np.ones((1, 3)), axis, up)
+            precessing_torque(np.ones((1, 3)), axis, up)

@@ -9,7 +9,7 @@ from earthspin import EARTH, MARS, MOON, SUN, Body, UndefinedError
 from earthspin.bodies import BODIES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.torque.rates import (
-    circular_orbit_push,
+    circular_orbit_torque,
     period,
     period_error,
     precession_rate,
@@ -53,7 +53,7 @@ def test_the_input_error_is_that_of_h(precession_result: xr.Dataset) -> None:
 
 def test_the_closed_form_of_the_sun(precession_result: xr.Dataset) -> None:
     eccentricity, axis = 0.016708634, 149598023e3  # mean orbit at J2000.0, Simon et al. 1994
-    geometry = circular_orbit_push(SUN.gm, axis, EPSILON_0.value * ARCSEC)
+    geometry = circular_orbit_torque(SUN.gm, axis, EPSILON_0.value * ARCSEC)
     geometry *= (1 - eccentricity**2) ** -1.5
     rate = precession_rate(geometry, EARTH.dynamical_flattening, EARTH.spin_rate) / ARCSEC_PER_YEAR
     PINS["sun closed form"].check(rate)
@@ -191,9 +191,9 @@ def test_periods() -> None:
 
 
 def test_uncertainties_of_the_masses_add_up_as_squares() -> None:
-    push = np.array([3.0, -4.0, -1.0])
+    precessing = np.array([3.0, -4.0, -1.0])
     # hypot(3 x 0.1, 4 x 0.2) of a total of 1
-    found = total_uncertainty(push, [0.1, 0.2])
+    found = total_uncertainty(precessing, [0.1, 0.2])
     np.testing.assert_allclose(found, [0.1, 0.2, np.hypot(0.3, 0.8)], rtol=1e-15)
     assert total_uncertainty(np.array([3.0]), [0.1]) == [0.1]
     # pulls that cancel leave nothing to be a part of

@@ -134,7 +134,7 @@ def _attitude(axis: FloatArray, turned: float) -> FloatArray:
 def _average_and_pole() -> Distances:
     samples = _samples()
     window, times = samples.window, samples.times
-    averaged = precession_rate(window.mean(times, samples.push).sum(), H, SPIN)
+    averaged = precession_rate(window.mean(times, samples.precessing).sum(), H, SPIN)
     start = BODY.needed("pole").true(0.0)
     path = axis_path(_forces(), start, 0.0, (times[0] - DAY, times[-1] + DAY))
     before, after = (_psi(path.at(times + s * DAY / 2)["angular_momentum"]) for s in (-1, 1))

@@ -26,11 +26,11 @@ from earthspin.questions.precession import (
 from earthspin.questions.torque import torque_series
 from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
-from earthspin.torque.average import TAPERS, Window, best_window, precessing_push
+from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
 from earthspin.torque.gravity import torque_from_declination, torque_from_position
 from earthspin.torque.harmonics import zonal_torque
 from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
-from earthspin.torque.rates import circular_orbit_push
+from earthspin.torque.rates import circular_orbit_torque
 
 FloatArray = NDArray[np.float64]
 
@@ -123,7 +123,7 @@ def _retrograde() -> Distances:
 
 
 @CASES.case("obliquity of 90 degrees")
-@hard_because("the push is the small difference of what the two halves of a year do")
+@hard_because("the precessing torque is the small difference of what the two halves of a year do")
 @held_against("cos(90 degrees) = 0: the rate over that of an upright axis", bound=2e-6)
 def _lying() -> Distances:
     lying, usual = _rate(_leaning(np.pi / 2)), _usual()
@@ -134,16 +134,17 @@ def _lying() -> Distances:
 @CASES.case("obliquity of 1e-6 rad, and of 1e-6 rad less than 180 degrees")
 @hard_because("the longitude is all but undefined: both torque and sin2 nearly vanish")
 @held_against(
-    "mean push along a circular orbit, (3/2) GM/b3 cos(obliquity), over itself", bound=1e-14
+    "mean precessing torque along a circular orbit, (3/2) GM/b3 cos(obliquity), over itself",
+    bound=1e-14,
 )
 def _nearly_upright() -> Distances:
     phase = 2 * np.pi * np.arange(4000) / 4000
     orbit = 1.5e11 * np.stack([np.cos(phase), np.sin(phase), 0 * phase], axis=1)
     for angle in (1e-6, np.pi - 1e-6):
         axis = np.array([0.0, -math.sin(angle), math.cos(angle)])
-        push = precessing_push(torque_from_position(SUN.gm, 1.0, orbit, axis), axis, NORTH)
-        closed = circular_orbit_push(SUN.gm, 1.5e11, angle)
-        yield np.mean(push) / closed - 1
+        precessing = precessing_torque(torque_from_position(SUN.gm, 1.0, orbit, axis), axis, NORTH)
+        closed = circular_orbit_torque(SUN.gm, 1.5e11, angle)
+        yield np.mean(precessing) / closed - 1
 
 
 @CASES.case("obliquity of 0")

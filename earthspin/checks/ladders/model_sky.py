@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.sky import GM, unit_vectors
 from earthspin.constants import DAY
-from earthspin.torque.average import precessing_push
+from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position
 
 FloatArray = NDArray[np.float64]
@@ -134,15 +134,15 @@ def positions(angles: FloatArray) -> dict[str, FloatArray]:
     return {"sun": of_sun, "moon": distance[:, np.newaxis] * unit_vectors(longitude, latitude)}
 
 
-def push(angles: FloatArray) -> FloatArray:
+def precessing(angles: FloatArray) -> FloatArray:
     """What makes the axis precess, Sun and Moon together, per unit of C - A, s-2, shape (n,)."""
     place = positions(angles)
     torque = sum(torque_from_position(GM[name], 1.0, place[name], AXIS) for name in GM)
-    return precessing_push(np.asarray(torque), AXIS, NORMAL)
+    return precessing_torque(np.asarray(torque), AXIS, NORMAL)
 
 
 def torus_mean(counts: tuple[int, int, int, int]) -> float:
-    """Mean push over the torus of D, l', l, F, by the trapezoid rule.
+    """Mean precessing torque over the torus of D, l', l, F, by the trapezoid rule.
 
     Parameters
     ----------
@@ -154,5 +154,5 @@ def torus_mean(counts: tuple[int, int, int, int]) -> float:
     means = []
     for elongation in turns[0]:  # slice by slice, to spare memory
         angles = np.concatenate([np.full((1, rest.shape[1]), elongation), rest])
-        means.append(float(np.mean(push(angles))))
+        means.append(float(np.mean(precessing(angles))))
     return float(np.mean(means))

@@ -77,19 +77,21 @@ def _methods(epochs: FloatArray, quick: bool) -> list[Method]:
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
     """A window of this length about one epoch, timed, and about all, judged."""
 
-    def mean_about(epoch: float, push: Callable[[FloatArray], FloatArray]) -> tuple[float, int]:
+    def mean_about(
+        epoch: float, precessing: Callable[[FloatArray], FloatArray]
+    ) -> tuple[float, int]:
         window = Window(epoch * DAY, 1.0, length, taper)
         times = window.sample_times(step * DAY)
-        return float(window.mean(times, push(times))), times.size
+        return float(window.mean(times, precessing(times))), times.size
 
     def run() -> tuple[Any, int]:
-        mean, size = mean_about(0.0, lambda times: model_sky.push(model_sky.arguments(times)))
+        mean, size = mean_about(0.0, lambda times: model_sky.precessing(model_sky.arguments(times)))
         return [mean], size
 
-    return Setting(words, run, lambda: [mean_about(epoch, _daily_push)[0] for epoch in epochs])
+    return Setting(words, run, lambda: [mean_about(epoch, _daily_torque)[0] for epoch in epochs])
 
 
-def _daily_push(times: FloatArray) -> FloatArray:
+def _daily_torque(times: FloatArray) -> FloatArray:
     """Push at whole days, from a series that is made once."""
     first, series = _series()
     return np.asarray(series[np.rint(times / DAY).astype(int) - first])
@@ -97,8 +99,8 @@ def _daily_push(times: FloatArray) -> FloatArray:
 
 @cache
 def _series() -> tuple[int, FloatArray]:
-    """First day and daily push of all windows about all epochs."""
+    """First day and daily precessing torque of all windows about all epochs."""
     longest = max(turns for turns, _ in WINDOWS) * model_sky.turn_of_the_node() / DAY
     reach = int(max(longest, max(BY_HAND) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
     times = np.arange(-reach, reach + 1.0) * DAY
-    return -reach, model_sky.push(model_sky.arguments(times))
+    return -reach, model_sky.precessing(model_sky.arguments(times))
