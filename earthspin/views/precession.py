@@ -105,8 +105,8 @@ def sky_and_calendar(tree: Result) -> Table:
             ),
         ],
         "General precession is the precession of the equator found here, less the motion of the "
-        "ecliptic as IAU 2006 gives it. A calendar of 365.25 days drifts against the tropical year, "
-        "which already contains the precession; the source text finds 129.4 years because it "
+        "ecliptic as IAU 2006 gives it. A calendar of 365.25 days drifts against the tropical "
+        "year, which already contains the precession; the source text finds 129.4 years because it "
         "divides the period of precession by the number of days in a year.",
     )
 
