@@ -357,8 +357,8 @@ def _info(given: argparse.Namespace) -> None:
 
 def _stability(given: argparse.Namespace) -> int:
     from earthspin.checks.case import FAILS
-    from earthspin.checks.gauntlet import stability, tally
-    from earthspin.views.gauntlet_views import print_verdicts
+    from earthspin.checks.gauntlet import stability
+    from earthspin.views.gauntlet_views import print_verdicts, tally
 
     result = stability(quick=given.quick, only=given.only, long=given.long)
     print_verdicts(result)

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from earthspin._version import __version__
-from earthspin.checks.case import FAILS, HOLDS, REFUSED, Case, Outcome, judge
+from earthspin.checks.case import Case, Outcome, judge
 from earthspin.engine.labels import CONVENTIONS, Variable, build
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import progress
@@ -30,8 +30,6 @@ PARTS = (
     "units",
     "storage",
 )
-#: How the verdicts are told in a tally.
-VERDICTS = (HOLDS, REFUSED, FAILS)
 
 _CASE = ("case",)
 _MIXED = (("comment", "in the unit that 'unit' names for the case"),)
@@ -146,8 +144,3 @@ def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
         "earthspin_version": __version__,
     }
     return result
-
-
-def tally(result: xr.Dataset) -> dict[str, int]:
-    """How many cases hold, are refused, and fail."""
-    return {verdict: int((result.verdict == verdict).sum()) for verdict in VERDICTS}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import xarray as xr
 
-from earthspin.checks.gauntlet import PARTS, tally
 from earthspin.views.table import Table
 
 HEADERS = ("case", "measured", "bound", "unit", "verdict")
@@ -18,7 +17,17 @@ def verdict_tables(result: xr.Dataset) -> list[Table]:
     result : Dataset
         As `stability` gives it.
     """
-    return [_of_part(result, part) for part in PARTS if (result.case_part == part).any()]
+    return [_of_part(result, part) for part in _parts(result)]
+
+
+def _parts(result: xr.Dataset) -> list[str]:
+    """Parts of the package that have cases, in their order."""
+    return list(dict.fromkeys(result.case_part.values.tolist()))
+
+
+def tally(result: xr.Dataset) -> dict[str, int]:
+    """How many cases hold, are refused, and fail."""
+    return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
 
 
 def tally_line(result: xr.Dataset) -> str:
@@ -59,7 +68,7 @@ def markdown(result: xr.Dataset) -> str:
         As `stability` gives it.
     """
     pieces = []
-    for part in PARTS:
+    for part in _parts(result):
         rows = result.isel(case=result.case_part.values == part)
         held = rows.isel(case=rows.verdict.values != "refused")
         refused = rows.isel(case=rows.verdict.values == "refused")

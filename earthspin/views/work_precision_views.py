@@ -12,8 +12,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.checks.work_precision import duration, plain, shown_unit
 from earthspin.engine import store
+from earthspin.rounded import duration, plain, shown_unit
 from earthspin.views.table import Table
 
 FloatArray = NDArray[np.float64]

@@ -24,11 +24,11 @@ from earthspin.checks.case import (
     judge,
     refused,
 )
-from earthspin.checks.gauntlet import PARTS, all_cases, chosen_cases, labelled, tally
+from earthspin.checks.gauntlet import PARTS, all_cases, chosen_cases, labelled
 from earthspin.cli import main
 from earthspin.engine import store
 from earthspin.errors import SceneError, UndefinedError
-from earthspin.views.gauntlet_views import markdown, tally_line, verdict_tables
+from earthspin.views.gauntlet_views import markdown, tally, tally_line, verdict_tables
 
 #: Bounds that do not come from what was measured.
 BOUND_OTHERWISE = {

@@ -33,7 +33,6 @@ from earthspin.checks.work_precision import (
     Setting,
     accuracy,
     dataset,
-    duration,
     ladder_of,
     measure,
     pareto_front,
@@ -44,6 +43,7 @@ from earthspin.cli import main
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
 from earthspin.engine import store
 from earthspin.engine.labels import FROM_SI
+from earthspin.rounded import duration, plain
 from earthspin.views.work_precision_views import (
     accuracy_table,
     plot_accuracy,
@@ -326,7 +326,7 @@ def test_sentence_names_the_cheapest_that_is_good_enough() -> None:
     [(0.05, "0.05"), (918.0, "920"), (1e-6, "1e-6"), (2.34e5, "2.3e5"), (0.0, "0"), (9.96, "10")],
 )
 def test_numbers_in_words(value: float, words: str) -> None:
-    assert work_precision.plain(value) == words
+    assert plain(value) == words
 
 
 @pytest.mark.parametrize(
