@@ -52,6 +52,7 @@ from earthspin.scenes import run_tree as run_tree
 from earthspin.scenes import write_series as write_series
 from earthspin.engine.store import open as open
 from earthspin.engine.store import read as read
+from earthspin.engine.store import verify as verify
 from earthspin.engine.store import write as write
 from earthspin._version import __version__ as __version__
 
@@ -227,6 +228,7 @@ __all__ = [
     "spheroid_field",
     "stability",
     "torque_series",
+    "verify",
     "wobble_ladder",
     "write",
     "write_series",

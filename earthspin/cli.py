@@ -215,7 +215,7 @@ def _report(given: argparse.Namespace) -> None:
 
 
 def _run(given: argparse.Namespace) -> None:
-    from earthspin.engine import store
+    from earthspin.engine import drafts
     from earthspin.parts import times
     from earthspin.scenes import run_tree, series_length, write_series
 
@@ -224,7 +224,7 @@ def _run(given: argparse.Namespace) -> None:
     name = Path(given.scene).stem
     if target is not None:
         is_file = target.suffix in (".nc", ".zarr")
-        store.check_writable(target.parent if is_file else target)
+        drafts.check_writable(target.parent if is_file else target)
         if series_length(question) > times.LONGEST_IN_MEMORY:
             if given.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
@@ -248,14 +248,14 @@ def _run(given: argparse.Namespace) -> None:
 
 def _write(tree: Any, target: Path, name: str) -> list[Path]:
     """Write one file, or a page and the data into a folder."""
-    from earthspin.engine import store
+    from earthspin.engine import drafts, store
 
     if target.suffix in (".nc", ".zarr"):
         return [store.write(tree, target)]
     from earthspin.views.of_question import scene_page
 
     files = [target / f"{name}.html", target / f"{name}.nc"]
-    with store.replacing(files[0]) as page, store.replacing(files[1]) as data:
+    with drafts.replacing(files[0]) as page, drafts.replacing(files[1]) as data:
         page.write_text(scene_page(tree), encoding="utf-8")
         store.write_netcdf(tree, data)
     return files
@@ -315,11 +315,11 @@ def _keys_of(scene: str) -> str:
 
 def _accuracy(given: argparse.Namespace) -> int:
     from earthspin.checks.work_precision import QUANTITIES, accuracy
-    from earthspin.engine import store
+    from earthspin.engine import drafts
     from earthspin.views.work_precision_views import print_accuracy, write_accuracy
 
     if given.out is not None:
-        store.check_writable(given.out)
+        drafts.check_writable(given.out)
     results = []
     for quantity in QUANTITIES if given.quantity is None else [given.quantity]:
         results.append(accuracy(quantity, quick=given.quick))

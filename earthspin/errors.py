@@ -13,6 +13,8 @@ from typing import Any
 
 #: What was given is repeated in a message up to this many characters.
 LONGEST_ECHO = 100
+#: A path is repeated up to the length of a name on most disks.
+LONGEST_PATH = 255
 LONGEST_MESSAGE = 1000
 
 
@@ -23,7 +25,7 @@ class EarthspinError(Exception):
     """
 
     def __init__(self, message: str = "") -> None:
-        words = " ".join(message.split())
+        words = _printable(" ".join(message.split()))
         cut = len(words) > LONGEST_MESSAGE
         super().__init__(f"{words[:LONGEST_MESSAGE]}..." if cut else words)
 
@@ -50,7 +52,7 @@ class SceneError(EarthspinError, ValueError):
     ) -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
         self.remedy = remedy
-        where = f"{source}: {key}" if source else key
+        where = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
         super().__init__(_sentence(f"{where} = {_shown(given)}", problem, remedy))
 
 
@@ -96,7 +98,9 @@ class BodyError(EarthspinError, ValueError):
 
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
         self.body, self.field, self.given, self.allowed = body, field, given, allowed
-        super().__init__(f"body '{body}': {field} = {_shown(given)} is not possible; {allowed}")
+        super().__init__(
+            f"body '{_brief(body)}': {field} = {_shown(given)} is not possible; {allowed}"
+        )
 
     @classmethod
     def lacking(cls, body: str, examples: Mapping[str, str]) -> BodyError:
@@ -113,7 +117,9 @@ class BodyError(EarthspinError, ValueError):
         names = f"{', '.join(most)} and {last}" if most else last
         given = ", ".join(f"{name} = {example}" for name, example in examples.items())
         error = cls(body, last, None, f"this question needs {names}")
-        error.args = (f"body '{body}' has no {names}, which this question needs; give {given}",)
+        error.args = (
+            f"body '{_brief(body)}' has no {names}, which this question needs; give {given}",
+        )
         return error
 
 
@@ -147,7 +153,7 @@ class KernelError(EarthspinError, OSError):
 
     def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
         self.path = str(path)
-        super().__init__(_sentence(f"kernel '{path}'", problem, remedy))
+        super().__init__(_sentence(f"kernel '{_named(path)}'", problem, remedy))
 
 
 class CoverageError(EarthspinError, ValueError):
@@ -186,7 +192,7 @@ class SeriesError(EarthspinError, ValueError):
 
     def __init__(self, path: Any, problem: str, remedy: str = "", line: int | None = None) -> None:
         self.path, self.line = str(path), line
-        where = f"file '{path}'" + (f", line {line}" if line else "")
+        where = f"file '{_named(path)}'" + (f", line {line}" if line else "")
         super().__init__(_sentence(where, problem, remedy))
 
 
@@ -218,7 +224,7 @@ class OutputError(EarthspinError, OSError):
 
     def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
         self.path = str(path)
-        super().__init__(_sentence(f"output '{path}'", problem, remedy))
+        super().__init__(_sentence(f"output '{_named(path)}'", problem, remedy))
 
 
 class MissingExtraError(EarthspinError, ImportError):
@@ -257,7 +263,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
         ``"did you mean 'torque'? allowed: precession, torque, wobble"``.
     """
     words = sorted(allowed)
-    close = difflib.get_close_matches(str(word), words, n=1, cutoff=0.5)
+    close = difflib.get_close_matches(_brief(word), words, n=1, cutoff=0.5)
     hint = f"did you mean '{close[0]}'? " if close else ""
     return f"{hint}allowed: {', '.join(words)}"
 
@@ -268,10 +274,45 @@ def _rounded_up(value: float) -> str:
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
 
+def one_line(error: BaseException) -> str:
+    """What a library says of an error, on one line: the system's words where it has some."""
+    return " ".join(str(getattr(error, "strerror", None) or error).split())
+
+
 def _shown(given: object) -> str:
-    """What was given, on one line and not too long."""
-    text = " ".join(repr(given).split())
+    """What was given, on one line and not too long; nothing that is given can break it.
+
+    A long list is cut before it is put into words, and what has none is named by its type.
+    """
+    if isinstance(given, (str, bytes, list, tuple)) and type(given).__module__ == "builtins":
+        given = given[: LONGEST_ECHO + 1]
+    try:
+        words = repr(given)
+    except Exception:  # a number of 5000 digits, lists in lists in lists, someone else's class
+        words = f"<{type(given).__name__}>"
+    return _cut(_printable(" ".join(words.split())))
+
+
+def _brief(word: object) -> str:
+    """A word as it was given, without quotes."""
+    return _cut(_printable(word)) if isinstance(word, str) else _shown(word)
+
+
+def _cut(text: str) -> str:
     return text if len(text) <= LONGEST_ECHO else f"{text[:LONGEST_ECHO]}..."
+
+
+def _named(path: object) -> str:
+    """A path as it was given; of a very long one the end."""
+    text = _printable(str(path))
+    return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
+
+
+def _printable(text: str) -> str:
+    """What a terminal would take for an order, and newlines, as escapes."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def _sentence(subject: str, problem: str, remedy: str) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin._version import __version__
-from earthspin.engine import store
+from earthspin.engine import drafts, store
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
@@ -58,7 +58,7 @@ def write_report(
     EarthspinError
         Whatever is wrong; the folder's old files are then as they were.
     """
-    place = store.check_writable(folder)
+    place = drafts.check_writable(folder)
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
         advance(1)
@@ -142,7 +142,7 @@ def write_wobble_report(
     EarthspinError
         Whatever is wrong; the folder's old files are then as they were.
     """
-    place = store.check_writable(folder)
+    place = drafts.check_writable(folder)
     settings = {"polar_motion.file": file, "polar_motion.method": method}
     with progress("wobble report", 3) as advance:
         ladder = run_tree("wobble")
@@ -179,8 +179,8 @@ def _write(place: Path, pages: Mapping[str, str], data: Mapping[str, xr.DataTree
     """Write pages and data, all or none of them."""
     with ExitStack() as together:
         for name, text in pages.items():
-            draft = together.enter_context(store.replacing(place / name))
+            draft = together.enter_context(drafts.replacing(place / name))
             draft.write_text(text, encoding="utf-8")
         for name, tree in data.items():
-            store.write_netcdf(tree, together.enter_context(store.replacing(place / name)))
+            store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))
     return [place / name for name in (*pages, *data)]

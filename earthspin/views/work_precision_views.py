@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine import store
+from earthspin.engine import drafts, store
 from earthspin.rounded import duration, plain, shown_unit
 from earthspin.views.table import Table
 
@@ -250,18 +250,18 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
     OutputError
         If the folder cannot be written to.
     """
-    place = store.check_writable(folder)
+    place = drafts.check_writable(folder)
     drawn = [svg_of(result) for result in results]
     page = accuracy_page(results, drawn)
     names = [f"accuracy-{result.attrs['quantity']}" for result in results]
     written = [place / "accuracy.html"]
     with ExitStack() as together:
-        draft = together.enter_context(store.replacing(written[0]))
+        draft = together.enter_context(drafts.replacing(written[0]))
         draft.write_text(page, encoding="utf-8")
         for name, result, svg in zip(names, results, drawn, strict=True):
             data, picture = place / f"{name}.nc", place / f"{name}.svg"
-            store.write_netcdf(result, together.enter_context(store.replacing(data)))
-            sketch = together.enter_context(store.replacing(picture))
+            store.write_netcdf(result, together.enter_context(drafts.replacing(data)))
+            sketch = together.enter_context(drafts.replacing(picture))
             sketch.write_text(svg, encoding="utf-8")
             written += [data, picture]
     return written

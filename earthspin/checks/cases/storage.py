@@ -18,7 +18,7 @@ from earthspin.checks.case import (
     refused,
     without_folder,
 )
-from earthspin.engine import store
+from earthspin.engine import drafts, store
 from earthspin.engine.labels import Variable, build
 
 CASES = Cases("storage")
@@ -69,7 +69,7 @@ def _odd_numbers() -> Distances:
 def _half_netcdf() -> Distances:
     with _folder() as folder:
         path = store.write(_small(1.0), folder / "r.nc")
-        with suppress(_HalfWayError), store.replacing(path) as draft:
+        with suppress(_HalfWayError), drafts.replacing(path) as draft:
             draft.write_bytes(path.read_bytes()[:100])
             raise _HalfWayError
         yield len({p.name for p in folder.iterdir()} ^ {"r.nc"})
@@ -84,7 +84,7 @@ def _half_zarr() -> Distances:
         old = folder / "r.zarr"
         old.mkdir()
         (old / ".zgroup").write_text("old")
-        with suppress(_HalfWayError), store.replacing(old) as draft:
+        with suppress(_HalfWayError), drafts.replacing(old) as draft:
             draft.mkdir()
             (draft / ".zgroup").write_text("new")
             raise _HalfWayError

@@ -1,0 +1,217 @@
+"""Stored results that were damaged: nothing is read that is not what was written."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+import earthspin
+from earthspin import OutputError
+from earthspin.engine import store
+from tests import shipped
+
+#: Bits that are flipped, one at a time, in files of these answers.
+FLIPS, SEED = 240, 20261121
+#: An answer with sections, words and dates, and a plain series.
+SCENES = ("precession", "torque")
+
+
+def small_series() -> xr.Dataset:
+    scene = earthspin.load_scene("torque")
+    return earthspin.run(scene.replace(span=("2000-01-01", "2000-03-01")))
+
+
+def same(one: xr.Dataset | xr.DataTree, other: xr.Dataset | xr.DataTree) -> bool:
+    return type(one) is type(other) and one.identical(other)
+
+
+def fates(path: Path, original: xr.Dataset | xr.DataTree, flips: int) -> dict[str, int]:
+    """What becomes of a file with one bit flipped: noticed, of no effect, or wrong."""
+    whole = path.read_bytes()
+    rng = np.random.default_rng(SEED)
+    tally = {"noticed": 0, "of no effect": 0, "wrong": 0}
+    damaged = path.with_name("damaged.nc")
+    for place in rng.integers(0, 8 * len(whole), flips).tolist():
+        bits = bytearray(whole)
+        bits[place // 8] ^= 1 << (place % 8)
+        damaged.write_bytes(bits)
+        try:
+            back = store.open(damaged)
+        except OutputError:
+            tally["noticed"] += 1
+        else:
+            tally["of no effect" if same(back, original) else "wrong"] += 1
+    return tally
+
+
+def test_no_flipped_bit_of_a_netcdf_file_changes_what_is_read(tmp_path: Path) -> None:
+    """Of 240, as docs/quickstart.md says; those that are not noticed stand where nothing is."""
+    found = dict.fromkeys(("noticed", "of no effect", "wrong"), 0)
+    for answer in (shipped.tree("precession"), small_series()):
+        path = store.write(answer, tmp_path / "r.nc")
+        for fate, count in fates(path, answer, FLIPS // 2).items():
+            found[fate] += count
+    print(found)
+    assert found["wrong"] == 0
+    assert found["noticed"] >= FLIPS / 4
+
+
+def test_no_flipped_bit_of_a_zarr_store_passes_verify(tmp_path: Path) -> None:
+    answer = small_series()
+    path = store.write(answer, tmp_path / "r.zarr")
+    earthspin.verify(path)
+    files = sorted(p for p in path.rglob("*") if p.is_file())
+    rng = np.random.default_rng(SEED)
+    noticed = 0
+    for file in rng.choice(len(files), 60).tolist():
+        whole = files[file].read_bytes()
+        place = int(rng.integers(0, 8 * len(whole)))
+        bits = bytearray(whole)
+        bits[place // 8] ^= 1 << (place % 8)
+        files[file].write_bytes(bits)
+        try:
+            earthspin.verify(path)
+        except OutputError:
+            noticed += 1
+        else:
+            back = store.open(path)
+            assert isinstance(back, xr.Dataset)
+            assert same(back.load(), answer), files[file]
+        files[file].write_bytes(whole)
+    print(noticed)
+    assert noticed >= 30
+    earthspin.verify(path)
+
+
+def test_a_chunk_that_is_gone_is_missed(tmp_path: Path) -> None:
+    for name in ("torque/0.0.0", "time/0"):
+        path = store.write(small_series(), tmp_path / "r.zarr")
+        (path / name).unlink()
+        with pytest.raises(OutputError, match=f"chunk '{name}' is missing"):
+            earthspin.verify(path)
+        with pytest.raises(OutputError, match=f"chunk '{name}' is missing"):
+            store.open(path).load()
+
+
+def test_other_readers_see_no_number_in_a_missing_chunk(tmp_path: Path) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")
+    (path / "torque" / "0.0.0").unlink()
+    (path / "time" / "0").unlink()
+    with xr.open_dataset(path, engine="zarr", consolidated=False) as raw:
+        assert np.isnan(raw.torque).all()
+        assert np.isnat(raw.time).all()
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_verify_accepts_what_was_written(tmp_path: Path, kind: str) -> None:
+    for scene in ("precession", "polar-motion", "sleeping-top", "torque"):
+        path = store.write(shipped.tree(scene), tmp_path / f"{scene}.{kind}")
+        assert earthspin.verify(path) == path
+
+
+def test_a_series_in_blocks_carries_the_checksum_of_the_whole(tmp_path: Path) -> None:
+    scene = earthspin.load_scene("torque").replace(span=("2000-01-01", "2000-03-01"))
+    answer = earthspin.run(scene)
+    blocks = (answer.isel(time=slice(first, first + 100)) for first in range(0, 241, 100))
+    path = store.write_blocks(blocks, tmp_path / "blocks.zarr")
+    earthspin.verify(path)
+    whole = store.write(answer, tmp_path / "whole.zarr")
+
+    def summed(file: Path) -> str:
+        with xr.open_dataset(file, engine="zarr", consolidated=False) as raw:
+            return str(raw.attrs["data_sha256"])
+
+    assert summed(path) == summed(whole)
+    assert summed(path) == summed_by_netcdf(answer, tmp_path)
+
+
+def summed_by_netcdf(answer: xr.Dataset, folder: Path) -> str:
+    with xr.open_dataset(store.write(answer, folder / "whole.nc")) as raw:
+        return str(raw.attrs["data_sha256"])
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_an_attribute_that_was_changed_is_noticed(tmp_path: Path, kind: str) -> None:
+    path = store.write(small_series(), tmp_path / f"r.{kind}")
+    if kind == "nc":
+        import netCDF4
+
+        with netCDF4.Dataset(path, "a") as raw:
+            raw["torque"].units = "kg"
+    else:
+        import zarr
+
+        zarr.open_group(path, mode="r+")["torque"].attrs["units"] = "kg"
+    for read in (store.open, earthspin.verify):
+        with pytest.raises(OutputError, match=r"attributes are not .*xarray.open_dataset"):
+            read(path)
+
+
+def test_a_file_of_others_is_read_but_not_verified(tmp_path: Path) -> None:
+    answer = small_series()
+    answer.to_netcdf(tmp_path / "plain.nc")
+    assert same(store.open(tmp_path / "plain.nc"), answer)
+    with pytest.raises(OutputError, match="carries no checksum"):
+        earthspin.verify(tmp_path / "plain.nc")
+
+
+def test_what_was_read_carries_no_checksum(tmp_path: Path) -> None:
+    """A part of it, written by other means, would otherwise carry a wrong one."""
+    answer = small_series()
+    back = store.open(store.write(answer, tmp_path / "r.nc"))
+    assert back.attrs == answer.attrs
+
+
+def test_a_store_that_is_replaced_while_it_is_read_says_so(tmp_path: Path) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")
+    lazy = store.open(path)
+    store.write(small_series(), path)
+    with pytest.raises(OutputError, match="was replaced while it was read; open it again"):
+        lazy["torque"].load()
+    shutil.rmtree(path)
+    with pytest.raises(OutputError, match="was replaced while it was read"):
+        lazy["declination"].load()
+
+
+ARRAYS = st.one_of(
+    hnp.arrays(np.float64, 3, elements=st.floats(allow_nan=False)),
+    hnp.arrays(np.int64, 3),
+    hnp.arrays(np.bool_, 3),
+    st.lists(
+        st.text(st.characters(exclude_characters="\0", exclude_categories=["Cs"]), max_size=5),
+        min_size=3,
+        max_size=3,
+    ).map(lambda words: np.array(words, dtype="U5")),
+    hnp.arrays(
+        "M8[us]", 3, elements=st.integers(-(10**16), 10**16).map(lambda n: np.datetime64(n, "us"))
+    ),
+)
+ATTRIBUTES = st.dictionaries(
+    st.sampled_from(["note", "number", "list"]),
+    st.one_of(
+        st.text(st.characters(exclude_characters="\0", exclude_categories=["Cs"]), max_size=9),
+        st.integers(-(2**40), 2**40),
+        st.floats(allow_nan=False, allow_infinity=False),
+        st.lists(st.floats(-1e9, 1e9), min_size=1, max_size=4),
+    ),
+)
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+@given(values=ARRAYS, attrs=ATTRIBUTES)
+def test_nothing_sound_is_refused(
+    tmp_path_factory: pytest.TempPathFactory, kind: str, values: np.ndarray, attrs: dict
+) -> None:
+    """Whatever is written is read back under its checksum, in both formats."""
+    result = xr.Dataset({"x": ("n", values, attrs)}, attrs=attrs)
+    path = store.write(result, tmp_path_factory.mktemp("r") / f"r.{kind}")
+    back = store.open(path)
+    assert earthspin.verify(path) == path
+    assert np.array_equal(back["x"].values, values)
