@@ -1,29 +1,34 @@
-"""The command line: report, run, plan, scenes, keys, accuracy, stability, info, completion."""
+"""The command line: report, run, plan, scenes, keys, accuracy, stability, verify, info."""
 
 from __future__ import annotations
 
 import argparse
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError, SceneError
+from earthspin.errors import EarthspinError, SceneError, printable
+from earthspin.process import CHECK_FAILED, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
-
-CHECK_FAILED, USAGE_ERROR = 1, 2
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose complaints are one line."""
 
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.add_argument(
+            "--traceback", action="store_true", help="show where an error arose, after its line"
+        )
+
     def error(self, message: str) -> NoReturn:
-        self.exit(USAGE_ERROR, f"earthspin: {message}; see {self.prog} --help\n")
+        line = EarthspinError(f"earthspin: {message}; see {self.prog} --help")
+        self.exit(USAGE_ERROR, f"{line}\n")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -38,36 +43,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     int
         Exit status: 0; 1 if a check fails; 2 with one line on stderr if something given is
-        wrong; 130 if interrupted, 141 if whoever read the output has gone.
+        wrong; 70 for a defect of earthspin; others as `earthspin.process.run_command` has them.
     """
     parser = _parser()
     _complete(parser)
-    given = parser.parse_args(arguments)
-    try:
-        with warnings.catch_warnings():
-            warnings.showwarning = _say
-            status: int | None = given.command(given)
-        sys.stdout.flush()
-    except EarthspinError as error:
-        print(f"earthspin: {error}", file=sys.stderr)
-        return USAGE_ERROR
-    except KeyboardInterrupt:
-        print("earthspin: interrupted; nothing was left half-written", file=sys.stderr)
-        return 130
-    except BrokenPipeError:
-        # Whoever read our output has gone; the interpreter must not try to flush it again.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
-    except OSError as error:
-        print(f"earthspin: the output cannot be written: {error.strerror}", file=sys.stderr)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return USAGE_ERROR
-    return status or 0
 
+    def command() -> int | None:
+        given = parser.parse_args(arguments)
+        status: int | None = given.command(given)
+        return status
 
-def _say(message: Warning | str, *_: object, **__: object) -> None:
-    """Show a warning as one line."""
-    print(f"earthspin: {message}", file=sys.stderr)
+    words = sys.argv[1:] if arguments is None else arguments
+    return run_command(command, show_traceback="--traceback" in words)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -120,6 +107,10 @@ def _parser() -> argparse.ArgumentParser:
     keys.set_defaults(command=_keys)
     info = commands.add_parser("info", help="versions, kernels and their coverage")
     info.set_defaults(command=_info)
+
+    verify = commands.add_parser("verify", help="hold a result on disk to its checksums")
+    verify.add_argument("file", metavar="FILE", help="a .nc file or a .zarr folder of ours")
+    verify.set_defaults(command=_verify)
 
     stability = commands.add_parser("stability", help="run the stiff and extreme cases")
     stability.add_argument("--quick", action="store_true", help="only those that take a moment")
@@ -204,14 +195,17 @@ def _report(given: argparse.Namespace) -> None:
     else:
         from earthspin.views.report import write_report
 
+        kernel = "de421" if given.ephemeris is None else given.ephemeris
         result, written = write_report(
-            given.out, ephemeris=given.ephemeris or "de421", figures=not given.no_figures
+            given.out,
+            ephemeris=kernel,
+            figures=not given.no_figures,
         )
         results = [result]
     for each in results:
         print_tables(each)
     for path in written:
-        print(f"wrote {path}")
+        print(f"wrote {printable(str(path))}")
 
 
 def _run(given: argparse.Namespace) -> None:
@@ -229,21 +223,23 @@ def _run(given: argparse.Namespace) -> None:
             if given.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             place = target if target.suffix == ".zarr" else target / f"{name}.zarr"
-            print(f"wrote {write_series(question, place)}")
+            print(f"wrote {printable(str(write_series(question, place)))}")
             return
     wanted = _sections(given)
     everything = target is not None and wanted is None
     tree = run_tree(question, "all" if everything else wanted or ())
     written = [] if target is None else _write(tree, target, name)
     if given.json:
-        print(_json(tree))
+        from earthspin.views.as_json import write_json
+
+        write_json(tree, sys.stdout)
     else:
         from earthspin.views.of_question import print_tables
 
         print_tables(tree)
         _say_what_else(question, tree)
     for path in written:
-        print(f"wrote {path}", file=sys.stderr if given.json else sys.stdout)
+        print(f"wrote {printable(str(path))}", file=sys.stderr if given.json else sys.stdout)
 
 
 def _write(tree: Any, target: Path, name: str) -> list[Path]:
@@ -326,7 +322,7 @@ def _accuracy(given: argparse.Namespace) -> int:
         print_accuracy(results[-1:])
     if given.out is not None:
         for path in write_accuracy(results, given.out):
-            print(f"wrote {path}")
+            print(f"wrote {printable(str(path))}")
     return int(not all(result.holds.all() for result in results))
 
 
@@ -353,6 +349,12 @@ def _info(given: argparse.Namespace) -> None:
 
     for name in NAMED_KERNELS:
         print(f"  {name:<10} {describe_kernel(name)}")
+
+
+def _verify(given: argparse.Namespace) -> None:
+    from earthspin.engine.store import verify
+
+    print(f"{printable(str(verify(given.file)))} is what was written")
 
 
 def _stability(given: argparse.Namespace) -> int:
@@ -386,27 +388,8 @@ def _setting(text: str) -> tuple[str, Any]:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value.strip()
-
-
-def _json(tree: Any) -> str:
-    """A result as JSON: dates as text, and infinity as text, for which JSON has no number."""
-    import json
-    import math
-
-    def plain(value: Any) -> Any:
-        if isinstance(value, dict):
-            return {key: plain(inner) for key, inner in value.items()}
-        if isinstance(value, (list, tuple)):
-            return [plain(inner) for inner in value]
-        if hasattr(value, "isoformat"):
-            return value.isoformat()
-        if isinstance(value, float) and not math.isfinite(value):
-            return str(value)
-        return value
-
-    data = tree.to_dataset().to_dict()
-    sections = {n: of.to_dataset().to_dict() for n, of in tree.children.items() if n != "plan"}
-    return json.dumps(plain(data | ({"sections": sections} if sections else {})), indent=1)
+    except (ValueError, RecursionError) as error:  # a number of 5000 digits, lists in lists
+        raise SceneError(key.strip(), value, f"it cannot be read: {error}") from None
 
 
 # --- completion ----------------------------------------------------------------------------------

@@ -12,8 +12,10 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Any, cast
 
 import numpy as np
@@ -25,6 +27,7 @@ from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
+TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
 LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
 _ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
 
@@ -84,7 +87,7 @@ def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
     """Microseconds from J2000.0 TDB of UTC, one datetime or an array of datetime64."""
     from astropy.time import Time
 
-    with warnings.catch_warnings():
+    with _tables_at_hand(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what is wrong shows when it is brought to TDB
         utc = Time(value, scale="utc")
     found = _days_from_time(utc, where, str(value).splitlines()[0])
@@ -154,7 +157,7 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
     if is_masked(time):
         raise where.error("a masked time", "give times that are all known")
     try:
-        with warnings.catch_warnings():
+        with _tables_at_hand(), warnings.catch_warnings():
             warnings.simplefilter("error")
             tdb = time.tdb
             found = (tdb.jd1 - 2451545.0) + tdb.jd2
@@ -163,9 +166,10 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
     except Exception:  # the library and ERFA have kinds of their own, warnings among them
         known = False
     if not known:
+        newer = f", or install newer tables ({TABLES})" if np.max(time.jd) > FIRST_UTC else ""
         raise where.error(
             shown or f"JD {np.ravel(time.jd)[0]}",
-            f"its scale, {time.scale}, is not known there; give TDB",
+            f"its scale, {time.scale}, is not known there; give TDB{newer}",
         ) from None
     return found
 
@@ -183,6 +187,26 @@ def _days_of(time: Any, where: Where) -> Any:
 def is_skyfield_time(value: object) -> bool:
     """Recognise a Time of Skyfield's without importing Skyfield for those who use none."""
     return type(value).__module__ == "skyfield.timelib" and hasattr(value, "tdb_fraction")
+
+
+@contextmanager
+def _tables_at_hand() -> Iterator[None]:
+    """Leap seconds and UT1 from the tables that are installed, however old; nothing is fetched."""
+    from astropy.utils import iers
+
+    with iers.conf.set_temp("auto_download", False), iers.conf.set_temp("auto_max_age", None):
+        _look_for_leap_seconds()
+        yield
+
+
+@cache
+def _look_for_leap_seconds() -> None:
+    """Have the library take its newest table now, where complaints of its age are no errors."""
+    from astropy.time import Time
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        Time(2451545.0, format="jd", scale="utc").tai  # noqa: B018 - for what it does on the way
 
 
 def is_time(value: object) -> bool:

@@ -25,7 +25,7 @@ class EarthspinError(Exception):
     """
 
     def __init__(self, message: str = "") -> None:
-        words = _printable(" ".join(message.split()))
+        words = printable(" ".join(message.split()))
         cut = len(words) > LONGEST_MESSAGE
         super().__init__(f"{words[:LONGEST_MESSAGE]}..." if cut else words)
 
@@ -290,12 +290,12 @@ def _shown(given: object) -> str:
         words = repr(given)
     except Exception:  # a number of 5000 digits, lists in lists in lists, someone else's class
         words = f"<{type(given).__name__}>"
-    return _cut(_printable(" ".join(words.split())))
+    return _cut(printable(" ".join(words.split())))
 
 
 def _brief(word: object) -> str:
     """A word as it was given, without quotes."""
-    return _cut(_printable(word)) if isinstance(word, str) else _shown(word)
+    return _cut(printable(word)) if isinstance(word, str) else _shown(word)
 
 
 def _cut(text: str) -> str:
@@ -304,11 +304,11 @@ def _cut(text: str) -> str:
 
 def _named(path: object) -> str:
     """A path as it was given; of a very long one the end."""
-    text = _printable(str(path))
+    text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """What a terminal would take for an order, and newlines, as escapes."""
     if text.isprintable():
         return text

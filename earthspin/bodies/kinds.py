@@ -63,7 +63,7 @@ class Line:
 
     def read(self, given: object, where: Where) -> str:
         """Check."""
-        if not isinstance(given, str):
+        if not isinstance(given, str) or not given.isprintable():
             raise where.error(given, f"it is {self.words}")
         return given
 

@@ -7,9 +7,11 @@ drawn, so that tables do not wait for it.
 from __future__ import annotations
 
 import io
+import os
 import re
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -38,13 +40,38 @@ STYLE: Any = {
 }
 
 
+#: Settings of windows and of where things lie, which are none of a picture's.
+_NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "savefig.directory")
+
+
 @contextmanager
 def style() -> Iterator[None]:
-    """Draw in one style; also a decorator."""
-    from matplotlib import rc_context
-
-    with rc_context(STYLE):
+    """Draw in one style, whatever the reader's own is; also a decorator."""
+    matplotlib = _matplotlib()
+    own = {
+        name: value
+        for name, value in matplotlib.rcParamsDefault.items()
+        if not name.startswith(_NO_STYLE)
+    }
+    with matplotlib.rc_context(own | STYLE):
         yield
+
+
+def _matplotlib() -> Any:
+    """The library, also where MPLBACKEND names a kind of window that there is not.
+
+    No window is opened here, and the library could not be imported.
+    """
+    named = None if "matplotlib" in sys.modules else os.environ.pop("MPLBACKEND", None)
+    try:
+        import matplotlib
+    finally:
+        if named is not None:
+            os.environ["MPLBACKEND"] = named
+    if named:
+        with suppress(ValueError):
+            matplotlib.rcParams["backend"] = named  # as the library does when it is imported
+    return matplotlib
 
 
 @dataclass(frozen=True)
@@ -91,6 +118,7 @@ def figure_of(ax: Axes) -> Figure:
 
 def empty(width: float, height: float) -> Figure:
     """Figure with nothing on it, sides in inches."""
+    _matplotlib()
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")

@@ -52,7 +52,10 @@ class Solid:
     tilt: float = 0.35
 
     def json(self) -> str:
-        """The picture as the page's script reads it, numbers to five digits."""
+        """The picture as a page's script reads it, numbers to five digits.
+
+        Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
+        """
         content = {
             "items": list(self.items),
             "radius": self.radius,
@@ -62,7 +65,7 @@ class Solid:
             "turn": self.turn,
             "tilt": self.tilt,
         }
-        return json.dumps(_rounded(content), separators=(",", ":"))
+        return json.dumps(_rounded(content), separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _rounded(value: Any) -> Any:

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 from rich import box
 from rich.console import Console
 from rich.table import Table as RichTable
+from rich.text import Text
+
+from earthspin.errors import printable
 
 if TYPE_CHECKING:
     from earthspin.views.table import Table
@@ -29,12 +32,17 @@ class Terminal(Console):
     def print_table(self, table: Table) -> None:
         """Print a table, its note and its cost."""
         shown = RichTable(
-            title=table.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+            title=_plain(table.title), title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
         )
         for number, header in enumerate(table.headers):
-            shown.add_column(header, justify="left" if number in table.words else "right")
+            shown.add_column(_plain(header), justify="left" if number in table.words else "right")
         for row in table.rows:
-            shown.add_row(*row)
+            shown.add_row(*map(_plain, row))
         self.print(shown)
         for words in filter(None, (table.note, table.cost)):
-            self.print(words, style="dim", markup=False)
+            self.print(_plain(words), style="dim")
+
+
+def _plain(words: str) -> Text:
+    """Words as they are: brackets are no markup, and escapes do nothing to the terminal."""
+    return Text("\n".join(map(printable, words.split("\n"))))

@@ -73,3 +73,15 @@ def test_shapes() -> None:
         np.arctan2(np.hypot(rim[:, 0], rim[:, 1]), rim[:, 2]), 0.3, rtol=0, atol=1e-14
     )
     assert np.all(solids.square(1.5, 0.7)[..., 2] == 0.7)
+
+
+def test_no_label_ends_the_element_that_holds_it() -> None:
+    """As `</script>` would, wherever a name comes from."""
+    from earthspin.views.page import page
+
+    label = "</script><script>alert(1)</script><!--"
+    solid = Solid("t", "c", [arrow(np.ones(3), RED, label)], 1.0)
+    assert json.loads(solid.json())["items"][0]["label"] == label
+    shown = page("t", solids=[solid])
+    assert label not in shown
+    assert shown.count("<script") == shown.count("</script>") == 2

@@ -1,0 +1,183 @@
+"""What a program owes the process around it: its streams, signals, exit status, and a last net.
+
+Everything that can go wrong in a command ends here in one line on stderr and an exit status; a
+warning is told when the command has succeeded, never before a message.
+"""
+
+from __future__ import annotations
+
+import io
+import logging
+import os
+import signal
+import sys
+import threading
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+
+from earthspin.errors import EarthspinError, one_line, printable
+
+CHECK_FAILED, USAGE_ERROR = 1, 2
+#: A defect of the program (EX_SOFTWARE of sysexits), an interrupt, and a reader who has gone.
+DEFECT, INTERRUPTED, READER_GONE = 70, 130, 141
+
+#: Set to anything but nothing or 0, it asks for the traceback of whatever goes wrong.
+TRACEBACK = "EARTHSPIN_TRACEBACK"
+
+#: What ends a program politely; each leaves it time to clear up as an interrupt does.
+_ENDINGS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
+
+
+class _EndedError(BaseException):
+    """The system asked the program to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def run_command(command: Callable[[], int | None], *, show_traceback: bool = False) -> int:
+    """Run a command so that nothing escapes.
+
+    Parameters
+    ----------
+    command : callable
+        Gives an exit status, or None for 0.
+    show_traceback : bool
+        Whether to show where an error arose, after its line.
+
+    Returns
+    -------
+    int
+        The exit status: that of the command; 2 if something given is wrong, or the output cannot
+        be written; 70 for a defect of the program; 130 if interrupted, 143 if terminated, 129 if
+        the terminal is gone; 141 if whoever read the output has gone.
+    """
+    held: list[str] = []
+    try:
+        with _streams(), _endings(), _warnings_into(held):
+            status = command()
+            sys.stdout.flush()
+    except KeyboardInterrupt:
+        _say("interrupted; nothing was left half-written")
+        return INTERRUPTED
+    except _EndedError as ended:
+        name = signal.Signals(ended.number).name
+        _say(f"ended by {name}; nothing was left half-written")
+        return 128 + ended.number
+    except BrokenPipeError:
+        _drop_output()  # the interpreter must not try to flush it again
+        return READER_GONE
+    except Exception as error:
+        status, words = _judged(error)
+        _say(words)
+        if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
+            _tell("".join(traceback.format_exception(error)).rstrip())
+        return status
+    for words in held:
+        _say(words)
+    return status or 0
+
+
+def _judged(error: Exception) -> tuple[int, str]:
+    """Exit status of an error, and its line."""
+    if isinstance(error, EarthspinError):
+        return USAGE_ERROR, str(error)
+    if isinstance(error, MemoryError):
+        return USAGE_ERROR, "there is not enough memory for it; ask for less at once"
+    if isinstance(error, OSError):
+        _drop_output()
+        return USAGE_ERROR, f"the output cannot be written: {one_line(error)}"
+    words = str(EarthspinError(f"{type(error).__name__}: {error}"))
+    return DEFECT, (
+        f"a defect of earthspin, not of what was given: {words}; please report it, with the "
+        f"command, {_to_whom()}; --traceback shows where it arose"
+    )
+
+
+def _to_whom() -> str:
+    """Where defects are reported: the address that the package names, if it names one."""
+    from importlib.metadata import PackageNotFoundError, metadata
+
+    with suppress(PackageNotFoundError):
+        for line in metadata("earthspin").get_all("Project-URL") or ():
+            what, _, address = line.partition(", ")
+            if what.lower() in ("issues", "bug tracker", "repository", "source", "homepage"):
+                return f"at {address}"
+    return "to whoever you have it from"
+
+
+def _say(words: str) -> None:
+    _tell(f"earthspin: {printable(words)}")
+
+
+def _tell(words: str) -> None:
+    """Print on stderr, if there is one that takes it."""
+    with suppress(OSError, ValueError, AttributeError):
+        print(words, file=sys.stderr or None, flush=True)
+
+
+def _drop_output() -> None:
+    """Send what is still in the buffer of stdout nowhere."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextmanager
+def _streams() -> Iterator[None]:
+    """See that there are all three streams, and that no character is too much for them.
+
+    A stream that is closed leaves its number to the next file that is opened, which what is
+    printed would then be written into. In place of stdout stands one that cannot be written to.
+    """
+    ways = (os.O_WRONLY, os.O_RDONLY, os.O_WRONLY)
+    for number, way in enumerate(ways):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, way)  # the lowest number that is free: this one
+    sys.stdout = sys.stdout or os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    sys.stderr = sys.stderr or os.fdopen(2, "w", encoding="utf-8", closefd=False)
+    for stream in (sys.stdout, sys.stderr):
+        if stream in (sys.__stdout__, sys.__stderr__) and isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    yield
+
+
+@contextmanager
+def _endings() -> Iterator[None]:
+    """Turn signals that end the program into exceptions, so that drafts are cleared away."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        signal.signal(number, signal.SIG_DFL)  # the second one ends it at once
+        raise _EndedError(number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {n: signal.getsignal(n) for n in _ENDINGS}
+    for number, handler in before.items():
+        if handler is signal.SIG_DFL:  # not where nohup has asked to go on
+            signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            if handler is not None:
+                signal.signal(number, handler)
+
+
+@contextmanager
+def _warnings_into(held: list[str]) -> Iterator[None]:
+    """Keep warnings for later; what libraries log of their own affairs is nobody's business."""
+
+    def hold(message: Warning | str, *_: object, **__: object) -> None:
+        held.append(" ".join(str(message).split()))
+
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    with warnings.catch_warnings():
+        warnings.showwarning = hold
+        yield

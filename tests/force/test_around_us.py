@@ -1,0 +1,276 @@
+"""What stands around the program: streams, signals, styles, folders that cannot be written."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import earthspin
+from earthspin import OutputError, SceneError
+from earthspin.engine import store
+from earthspin.views.table import Table
+from earthspin.views.terminal import Terminal
+
+ROOT = Path(__file__).parents[2]
+
+
+def earthspin_says(
+    *words: str | bytes, shell: str = "", env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[bytes]:
+    """Run the command as a process; `shell` follows it on a line of sh."""
+    command: list[str | bytes] = [sys.executable, "-m", "earthspin", *words]
+    if shell:
+        command = ["sh", "-c", f'exec "$@" {shell}', "sh", *command]
+    return subprocess.run(
+        command, capture_output=True, cwd=ROOT, env=os.environ | (env or {}), timeout=120
+    )
+
+
+def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
+    """No TeX, no colours, and no default of any kind; the figure is the same to the bit."""
+    (tmp_path / "matplotlibrc").write_text(
+        "text.usetex: True\nfont.size: 30\naxes.facecolor: red\nsvg.fonttype: path\n"
+    )
+    program = (
+        "import earthspin, sys; from earthspin.views.of_question import scene_page\n"
+        "sys.stdout.write(scene_page(earthspin.run_tree('torque')))"
+    )
+    pages = [
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "SOURCE_DATE_EPOCH": "0", **more},
+            capture_output=True,
+            check=True,
+            cwd=ROOT,
+        ).stdout
+        for more in ({}, {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}, {"MPLBACKEND": "none"})
+    ]
+    pictures = [re.findall(rb"<svg.*?</svg>", page, re.DOTALL) for page in pages]
+    assert pictures[0]
+    assert pictures[1] == pictures[0]
+    assert pictures[2] == pictures[0]
+
+
+def test_a_home_that_cannot_be_written_is_not_mentioned(tmp_path: Path) -> None:
+    """Nor a backend that does not exist."""
+    nowhere = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), "/proc/nowhere")
+    env = {**nowhere, "MPLBACKEND": "nonsense"}
+    for words in (["report", "--out", str(tmp_path / "r")], ["run", "wobble"], ["info"]):
+        found = earthspin_says(*words, env=env)
+        assert (found.returncode, found.stderr) == (0, b""), words
+    assert b"<svg" in (tmp_path / "r" / "index.html").read_bytes()
+
+
+def test_a_terminal_that_has_ascii_alone(tmp_path: Path) -> None:
+    env = {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    for words in (["run", "precession"], ["run", "wobble"], ["plan", "iau"], ["keys"]):
+        found = earthspin_says(*words, env=env)
+        assert (found.returncode, found.stderr) == (0, b"")
+        assert found.stdout.isascii()
+
+
+def test_a_closed_stdout_is_told(tmp_path: Path) -> None:
+    found = earthspin_says("run", "top-loop", shell=">&-")
+    assert found.returncode == 2
+    assert found.stderr == b"earthspin: the output cannot be written: Bad file descriptor\n"
+    # What is written to a file must not have the number of stdout.
+    path = tmp_path / "r.nc"
+    found = earthspin_says("run", "top-loop", "--out", str(path), shell=">&-")
+    assert found.returncode == 2
+    assert earthspin.verify(path) == path
+
+
+def test_a_full_disk_behind_stdout_is_told() -> None:
+    found = earthspin_says("run", "top-loop", "--json", shell=">/dev/full")
+    assert found.returncode == 2
+    assert found.stderr == b"earthspin: the output cannot be written: No space left on device\n"
+
+
+def test_a_closed_stderr_leaves_the_status_and_stdout_alone() -> None:
+    found = earthspin_says("run", "no-such-scene", shell="2>&-")
+    assert (found.returncode, found.stdout) == (2, b"")
+    found = earthspin_says("run", "top-loop", shell="2>&- <&-")
+    assert found.returncode == 0
+    assert b"top" in found.stdout
+
+
+def test_a_name_that_is_not_text(tmp_path: Path) -> None:
+    """It can be written to, or is refused in one line."""
+    for kind in (b"nc", b"zarr"):
+        path = os.fsencode(tmp_path) + b"/\xff." + kind
+        found = earthspin_says("run", "top-loop", "--out", path)
+        assert found.returncode in (0, 2)
+        assert len(found.stderr.splitlines()) == (1 if found.returncode else 0)
+        assert found.returncode == 2 or os.path.exists(path)
+        assert len(os.listdir(os.fsencode(tmp_path))) <= 1
+
+
+@pytest.mark.parametrize(
+    ("number", "status", "said"),
+    [
+        (signal.SIGINT, 130, b"interrupted"),
+        (signal.SIGTERM, 143, b"ended by SIGTERM"),
+        (signal.SIGHUP, 129, b"ended by SIGHUP"),
+    ],
+)
+def test_signals_leave_nothing_behind(
+    tmp_path: Path, number: signal.Signals, status: int, said: bytes
+) -> None:
+    program = """if True:
+        import sys, time
+        from earthspin import cli, scenes
+        def slow(scene):
+            yield from real(scene)
+            print("half-way", flush=True)
+            time.sleep(60)
+        real, scenes.run_blocks = scenes.run_blocks, slow
+        from earthspin.parts import times
+        times.LONGEST_IN_MEMORY = 100
+        sys.exit(cli.main(["run", "torque", "--out", sys.argv[1]]))
+    """
+    path = store.write(earthspin.run("top-loop"), tmp_path / "r.zarr")
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, str(path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        cwd=ROOT,
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"half-way\n"
+    assert len(list(tmp_path.iterdir())) == 2
+    process.send_signal(number)
+    out, complaint = process.communicate(timeout=60)
+    assert (out, process.returncode) == (b"", status)
+    assert complaint == b"earthspin: " + said + b"; nothing was left half-written\n"
+    assert list(tmp_path.iterdir()) == [path]
+    assert "top" in store.open(path).attrs["compute"]
+
+
+def test_a_program_under_nohup_goes_on() -> None:
+    program = """if True:
+        import os, signal, sys
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        from earthspin import cli
+        real = cli._scenes
+        cli._scenes = lambda given: (os.kill(os.getpid(), signal.SIGHUP), real(given))[1]
+        sys.exit(cli.main(["scenes"]))
+    """
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, cwd=ROOT)
+    assert (found.returncode, found.stderr) == (0, b"")
+
+
+def test_an_empty_kernel_is_no_kernel(tmp_path: Path) -> None:
+    found = earthspin_says("report", "--ephemeris", "", "--out", str(tmp_path / "r"))
+    assert found.returncode == 2
+    assert b"kernel" in found.stderr
+    assert not (tmp_path / "r").exists()
+
+
+def test_a_long_series_goes_to_zarr_alone(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"does not end in \.zarr"):
+        earthspin.write_series("torque", tmp_path / "a.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_defect_is_told_as_one(tmp_path: Path) -> None:
+    program = """if True:
+        import sys, warnings
+        from earthspin import cli
+        def broken(given):
+            warnings.warn("on the way")
+            raise ZeroDivisionError("of\\nours \\x1b[2J")
+        cli._scenes = broken
+        sys.exit(cli.main(["scenes", *sys.argv[1:]]))
+    """
+
+    def run(*words: str, **env: str) -> tuple[int, list[str]]:
+        found = subprocess.run(
+            [sys.executable, "-c", program, *words],
+            capture_output=True,
+            text=True,
+            cwd=ROOT,
+            env=os.environ | env,
+        )
+        return found.returncode, found.stderr.splitlines()
+
+    status, lines = run()
+    assert (status, len(lines)) == (70, 1)
+    assert lines[0].startswith("earthspin: a defect of earthspin, not of what was given")
+    assert "ZeroDivisionError: of ours \\x1b[2J; please report it" in lines[0]
+    for told in (run("--traceback"), run(EARTHSPIN_TRACEBACK="1")):
+        assert told[0] == 70
+        assert told[1][:2] == [lines[0], "Traceback (most recent call last):"]
+    assert len(run(EARTHSPIN_TRACEBACK="0")[1]) == 1
+
+
+def test_a_warning_comes_after_success_and_never_before_a_message() -> None:
+    program = """if True:
+        import sys, warnings
+        from earthspin import cli, errors
+        real = cli._scenes
+        def warned(given):
+            warnings.warn("on the way")
+            real(given)
+            if len(sys.argv) > 1:
+                raise errors.UndefinedError("no value")
+        cli._scenes = warned
+        sys.exit(cli.main(["scenes"]))
+    """
+    for words, said, status in (([], b"on the way", 0), (["x"], b"no value", 2)):
+        found = subprocess.run(
+            [sys.executable, "-c", program, *words], capture_output=True, cwd=ROOT
+        )
+        assert (found.returncode, found.stderr) == (status, b"earthspin: " + said + b"\n")
+
+
+def test_verify_on_the_command_line(tmp_path: Path) -> None:
+    path = store.write(earthspin.run("top-loop"), tmp_path / "r.zarr")
+    found = earthspin_says("verify", str(path))
+    assert (found.returncode, found.stderr) == (0, b"")
+    assert found.stdout == f"{path} is what was written\n".encode()
+    (path / "psi" / "0").unlink()
+    found = earthspin_says("verify", str(path))
+    assert found.returncode == 2
+    assert b"'psi/0' is missing" in found.stderr
+    assert found.stdout == b""
+
+
+def test_titles_do_nothing_to_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    for title in ("\x1b[2Jgone", "two\nlines", "a\rb", "\u202ereversed"):
+        with pytest.raises(SceneError, match="a line of text"):
+            earthspin.load_scene("torque", {"title": title})
+    odd = "[/red] [bold]b[/bold] \x1b[2J"
+    Terminal().print_table(Table(odd, (odd, "n"), [(odd, "1")], note=f"{odd}\nsecond"))
+    shown = capsys.readouterr().out
+    assert shown.count("[/red] [bold]b[/bold] \\x1b[2J") == 4
+    assert "\x1b" not in shown
+    assert "\nsecond" in shown
+
+
+def test_json_is_what_it_was(tmp_path: Path) -> None:
+    """As xarray has it, dates in ISO 8601, infinity as text."""
+    import datetime as dt
+    import math
+
+    def plain(value: object) -> object:
+        if isinstance(value, dict):
+            return {key: plain(inner) for key, inner in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [plain(inner) for inner in value]
+        if isinstance(value, (dt.datetime, dt.date)):
+            return value.isoformat()
+        return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+    for scene in ("sun-only", "wobble", "poinsot", "iau"):
+        found = earthspin_says("run", scene, "--json", "--sections", "all")
+        tree = earthspin.run_tree(scene)
+        sections = {n: of.to_dataset().to_dict() for n, of in tree.children.items() if n != "plan"}
+        expected = plain(tree.to_dataset().to_dict() | {"sections": sections})
+        assert json.loads(found.stdout) == expected

@@ -1,0 +1,98 @@
+"""Nothing is ever fetched, also when the tables of leap seconds and of UT1 have aged."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+#: A process without a network, whose clock is ten years on for those who look after tables.
+WITHOUT_NETWORK = """
+import datetime, socket, warnings
+
+def refuse(*_, **__):
+    raise AssertionError("somebody asks for the network")
+
+for name in ("socket", "create_connection", "getaddrinfo"):
+    setattr(socket, name, refuse if name != "socket" else type("No", (), {"__init__": refuse}))
+
+warnings.simplefilter("error")
+import numpy as np
+import earthspin
+from astropy.time import Time
+from astropy.utils import iers
+
+iers.LeapSeconds._today = staticmethod(lambda: Time("2036-01-01", scale="tai", format="iso"))
+iers.IERS_Auto.time_now = property(lambda self: Time(64693.0, format="mjd", scale="tai"))
+now = Time.now
+Time.now = classmethod(lambda cls: cls("2036-01-01", scale="utc"))
+
+def ask(*times, scale):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the reader's own dates: that years are dubious
+        dates = Time(list(times), scale=scale)
+    return earthspin.torque_series(times=dates).time.values
+"""
+
+
+def without_network(program: str) -> str:
+    return subprocess.run(
+        [sys.executable, "-c", WITHOUT_NETWORK + program],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=True,
+    ).stdout
+
+
+@pytest.mark.parametrize(
+    ("scale", "tdb"),
+    [
+        # 32.184 s and 32 leap seconds; TDB - TT is -0.1 ms on that day
+        ("utc", "2000-01-01T00:01:04.184"),
+        # UT1 - UTC was 0.355 s (IERS C04)
+        ("ut1", "2000-01-01T00:01:03.829"),
+    ],
+)
+def test_old_tables_do_where_they_reach(scale: str, tdb: str) -> None:
+    program = f"""
+(found,) = ask("2000-01-01", scale={scale!r})
+assert abs(found - np.datetime64({tdb!r})) < np.timedelta64(1, "ms"), found
+"""
+    without_network(program)
+
+
+def test_a_date_beyond_the_tables_is_refused_in_one_line() -> None:
+    program = """
+for scale in ("utc", "ut1"):
+    try:
+        print(ask("2045-01-01", scale=scale))
+    except earthspin.SceneError as error:
+        print(error)
+"""
+    lines = without_network(program).splitlines()
+    assert len(lines) == 2
+    for line, scale in zip(lines, ("utc", "ut1"), strict=True):
+        assert f"its scale, {scale}, is not known there; give TDB, or install newer" in line
+
+
+def test_scenes_ask_for_no_network() -> None:
+    program = """
+for scene in ("precession", "torque", "wobble", "polar-motion", "pole", "iau"):
+    earthspin.run(scene)
+earthspin.torque_series("2000-01-01T00:00Z", "2000-01-02T00:00Z", "6 h")
+"""
+    without_network(program)
+
+
+def test_what_the_reader_has_set_stays_set() -> None:
+    program = """
+iers.conf.auto_max_age = 17
+ask("2000-01-01", scale="ut1")
+assert iers.conf.auto_max_age == 17 and iers.conf.auto_download
+"""
+    without_network(program)
