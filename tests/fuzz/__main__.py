@@ -1,0 +1,18 @@
+"""Try many more inputs than the suite does: ``python -m tests.fuzz [SEED] [COUNT]``."""
+
+import sys
+import time
+
+from tests.fuzz.judge import KINDS, tried
+
+seed = int(sys.argv[1]) if len(sys.argv) > 1 else 1
+count = int(sys.argv[2]) if len(sys.argv) > 2 else 10_000
+escaped = 0
+for kind in KINDS:
+    begun = time.perf_counter()
+    found = tried(kind, seed, count)
+    escaped += len(found)
+    for shown, what in found.items():
+        print(f"{kind} {shown}\n    {what}")
+    print(f"{kind}: {len(found)} of {count} escaped, {time.perf_counter() - begun:.1f} s")
+sys.exit(bool(escaped))

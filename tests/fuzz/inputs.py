@@ -1,0 +1,254 @@
+"""Malformed inputs: nonsense, numbers of every size, odd lists, and what no one would give."""
+
+from __future__ import annotations
+
+import datetime as dt
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from astropy import units as u
+from astropy.time import Time
+
+import earthspin
+from earthspin.engine.asking import arguments_of
+from earthspin.engine.question import Question, keys_of
+from earthspin.scenes import QUESTIONS, shipped_scenes
+
+Random = random.Random
+
+
+def nested(depth: int) -> list[Any]:
+    """Lists in lists."""
+    inner: list[Any] = []
+    for _ in range(depth):
+        inner = [inner]
+    return inner
+
+
+class Odd:
+    """Somebody's class, in which nothing works."""
+
+    def __repr__(self) -> str:
+        raise ValueError("no words")
+
+    __str__ = __repr__
+
+    def __array__(self, *_: object, **__: object) -> None:
+        raise RuntimeError("no array")
+
+    def __len__(self) -> int:
+        raise OverflowError("no length")
+
+    def __eq__(self, other: object) -> bool:
+        raise ZeroDivisionError("no comparison")
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+#: What a file of TOML can hold, as it stands there.
+WORDS: tuple[str, ...] = (
+    '""', '"x"', '"6 h"', '"6 kg"', '"h"', '"1e400 s"', '"nan d"', '"inf"', '"-1 yr"', '"6  h"',
+    '"2000-01-01"', '"2000-13-01"', '"0000-01-01"', '"9999-12-31"', '"2000-01-01T25:00"',
+    '["2000-01-01", "2001-01-01"]', '["2000-01-01"]', '["2001-01-01", "2000-01-01"]', '[[], [1]]',
+    "0", "-1", "1", "3.5", "1e308", "-1e308", "5e-324", "nan", "inf", "-inf", "true", "false",
+    "2000-01-01", "2000-01-01T00:00:00Z", "07:30:00", "[]", "[[]]", "[1]", "[1, 2]", "[1, 2, 3]",
+    "[[1, 2], [3]]", "[1, [2]]", '[1, "2 m"]', '["a", "b"]', "[true]", "[1.0, nan]", "{}",
+    '{a = 1}', '{from = "mars"}', '{from = 3}', '{from = "earth", j2 = "x"}', "{float64 = 1}",
+    '{shape = [1], float64 = "AAAA"}', '{shape = [-1], float64 = "AAAAAAAA8D8="}',
+    '{from = "nothing"}', '"\\u001b[2J"', '"a\\nb"', '"\\u0000"', '"\\u202e"', '"' + "x" * 3000 + '"',
+    "9" * 400, "9" * 5000, "1" + "0" * 400 + ".0", "[" * 100 + "]" * 100, "[" * 3000 + "]" * 3000,
+    '"' + "9" * 5000 + ' s"', '"1e5000 s"', '"/dev/zero"', '"/"', '"sun"', '["sun", "sun"]',
+    '"earth"', '["moon", 3]', '"1 mas"', '"1e-9"', '"1 us"', '"433 d"', "1e-30", "4000000", "1e18",
+)  # fmt: skip
+
+
+def values() -> list[Any]:
+    """What a call may be given, sound and unsound."""
+    times = pd.date_range("2000-01-01", periods=3)
+    labelled = xr.DataArray([1.0, 2.0], dims="member", coords={"member": ["a", "b"]})
+    return [
+        None, True, False, 0, 1, -1, 3, 10**400, 10**5000, -(10**18), 0.0, -0.0, 1e308, -1e308, 5e-324,
+        float("nan"), float("inf"), 1 + 2j, "", " ", "x", "6 h", "6 kg", "1e400 s", "9" * 5000 + " s",
+        "x" * 10_000, "\x1b[2J", "a\nb", "\0", "\ud800", "2000-01-01", "2000-02-30", "NaT", b"x",
+        bytearray(b"6 h"), [], [[]], (), {}, set(), {1, 2}, frozenset(), [1], [1, 2], [1, 2, 3],
+        [[1, 2], [3]], [1, [2]], [None], [True], ["a"], ["a", None], [float("nan")], [1, "2 m"],
+        nested(50), nested(3000), list(range(1000)), "earth", "sun", ["sun", "sun"], ["sun", 3],
+        {"a": 1}, {"from": "mars"}, {"from": 3}, {"from": []}, {"from": "earth", "j2": "x"},
+        {"from": "earth", "name": 3}, {3: 4}, {"float64": 1}, {"shape": [1], "float64": "AAAA"},
+        range(3), iter([1]), (n for n in range(2)), map(str, [1]), object(), object, int, len, ...,
+        NotImplemented, Odd(), Path("/dev/zero"), Path("/"), Path("x.nc"), Exception("x"),
+        dt.date(2000, 1, 1), dt.datetime(1, 1, 1, tzinfo=dt.UTC), dt.timedelta(days=1), dt.time(1),
+        np.float64(3), np.float32("nan"), np.int8(3), np.bool_(True), np.str_("6 h"), np.array([]),
+        np.array(3.0), np.zeros((2, 3)), np.zeros((3, 3)), np.zeros((0, 3)), np.array(["a"]),
+        np.array([1 + 1j]), np.array([None]), np.array([1, "a", None], dtype=object),
+        np.array([[1], [2]], dtype=object), np.ma.masked_array([1.0, 2.0], [0, 1]),
+        np.datetime64("2000-01-01"), np.datetime64("NaT"), np.timedelta64(1, "D"),
+        np.timedelta64("NaT"), np.array(["2000-01-01", "NaT"], "M8[us]"), np.rec.array([(1, 2.0)]),
+        3 * u.h, 3 * u.kg, [1, 2] * u.m, u.h, float("nan") * u.s, [[1, 2, 3]] * u.rad,
+        Time("2000-01-01"), Time(["2000-01-01", "2001-01-01"]), Time("2000-01-01", scale="tdb"),
+        times, times[0], pd.NaT, pd.NA, pd.Series([1, 2]), pd.DataFrame({"x": [1, 2]}),
+        pd.Series(["a", "b"]), pd.Timedelta(1, "D"), times.tz_localize("Europe/Berlin"),
+        labelled, labelled * np.nan, labelled.astype(object), xr.DataArray(3), xr.DataArray("x"),
+        xr.DataArray([1.0, 2.0], attrs={"units": "kg"}), xr.DataArray([1.0], attrs={"units": 3}),
+        xr.DataArray(np.zeros((2, 3)), dims=("member", "component")), xr.Dataset(),
+        xr.Dataset({"x": 3}), xr.Dataset(attrs={"scene": "compute = 3"}), xr.DataTree(),
+        xr.Dataset(attrs={"scene": 3}), xr.Dataset({"x": ("time", [1.0]), "y": ("time", [1.0])}),
+        xr.Dataset({"x": ("time", [1.0]), "y": ("time", [1.0])}, {"time": times[:1]}),
+        earthspin.EARTH, earthspin.SUN, (earthspin.SUN, 3), earthspin.Body, earthspin.load_scene,
+        earthspin.load_scene("torque"), ("2000-01-01", "2000-02-01"), ("2000-01-01", None),
+        ["2000-01-01", 3], ("2000-01-01", "2000-02-01", "2000-03-01"),
+    ]  # fmt: skip
+
+
+VALUES = values()
+
+
+def _letters(rng: Random) -> str:
+    return "".join(
+        chr(rng.choice((rng.randrange(32, 127), rng.randrange(0x3000)))) for _ in range(5)
+    )
+
+
+def any_word(rng: Random) -> str:
+    """A value as a scene has it."""
+    if rng.random() < 0.1:
+        return f"[{any_word(rng)}, {any_word(rng)}]"
+    return rng.choice(WORDS)
+
+
+def any_value(rng: Random) -> Any:
+    """A value as a call has it."""
+    chance = rng.random()
+    if chance < 0.08:
+        return [any_value(rng) for _ in range(rng.randrange(1, 4))]
+    if chance < 0.12:
+        return {rng.choice(("from", "j2", "name", "gm", "x")): any_value(rng)}
+    return rng.choice(VALUES)
+
+
+# --- scenes and commands -------------------------------------------------------------------------
+
+
+def _keys(question: type[Question]) -> list[str]:
+    body = [
+        "body.j2",
+        "body.name",
+        "body.pole",
+        "body.gm",
+        "body.spin_period",
+        "body.from",
+        "body.x",
+    ]
+    return [
+        *(f"{question.table}.{n}" if one.setting else n for n, one in keys_of(question).items()),
+        *body,
+    ]
+
+
+def scene_text(rng: Random) -> str:
+    """Text of a scene: a shipped one with keys changed, or something else altogether."""
+    from importlib import resources
+
+    name = rng.choice(list(shipped_scenes()))
+    file = resources.files("earthspin") / "shipped" / f"{name}.toml"
+    text = file.read_text(encoding="utf-8")
+    chance = rng.random()
+    if chance < 0.15:  # bytes that were changed on the way
+        place = rng.randrange(len(text))
+        return (
+            text[:place] + rng.choice(("", "\0", "=", "[", '"', _letters(rng))) + text[place + 1 :]
+        )
+    word = next(line for line in text.splitlines() if line.startswith("compute")).split('"')[1]
+    changed = rng.sample(_keys(QUESTIONS[word]), rng.choice((1, 1, 2)))
+    lines = [f"{key} = {any_word(rng)}" for key in changed]
+    if chance < 0.4:
+        return "\n".join([f'compute = "{word}"', *lines])
+    return "\n".join([*lines, text])
+
+
+def command(rng: Random, folder: Path) -> list[str]:
+    """Words of a command that computes nothing."""
+    files = [str(p) for p in sorted(folder.iterdir())]
+    names = [*shipped_scenes(), "torqe", "", ".", "/", "x.toml", "x.nc", "/dev/null", *files]
+    verb = rng.choice(("plan", "plan", "plan", "plan", "keys", "verify", "frob", "--version"))
+    words = [verb] if rng.random() < 0.97 else []
+    if verb in ("plan", "verify"):
+        words.append(rng.choice(names))
+    for _ in range(rng.randrange(4)):
+        what = rng.choice(("set", "set", "set", "sections", "ephemeris", "other"))
+        if what == "set":
+            key = rng.choice(_keys(rng.choice(list(QUESTIONS.values()))))
+            words += ["--set", f"{key}={rng.choice((any_word(rng), _letters(rng), ''))}"]
+        elif what == "other":
+            words.append(
+                rng.choice(("--json", "--script", "-x", "--", "", _letters(rng), "torque"))
+            )
+        else:
+            words += [f"--{what}", rng.choice((_letters(rng), "all", "", ",", "de421", *files))]
+    return words
+
+
+# --- calls ---------------------------------------------------------------------------------------
+
+
+def call(rng: Random) -> tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]:
+    """A public call with its arguments; most of them are wrong."""
+    if rng.random() < 0.75:
+        question = rng.choice(list(QUESTIONS.values()))
+        function = getattr(earthspin, question.call)
+        names = list(arguments_of(question))
+        given = _required(question)
+    else:
+        name = rng.choice(list(OTHERS))
+        function = getattr(earthspin, name)
+        names, given = OTHERS[name], {}
+    for name in rng.sample(names, min(len(names), rng.choice((1, 1, 2, 3)))):
+        given[name] = any_value(rng)
+    if rng.random() < 0.02:
+        given[rng.choice(("nonsense", "bdy", "spam"))] = any_value(rng)
+    places = tuple(any_value(rng) for _ in range(rng.choice((0, 0, 0, 0, 0, 1, 2))))
+    if places:
+        given = dict(list(given.items())[len(places) :])
+    return function, places, given
+
+
+def _required(question: type[Question]) -> dict[str, Any]:
+    """What a sound call gives, so that one wrong argument is met by itself."""
+    sound = {
+        "torque": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
+        "pole": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
+        "free-rotor": {"moments": [1, 2, 3], "spin_start": [1, 0, 1], "duration": 3, "points": 3},
+        "top": {"transverse_moment": 1, "axial_moment": 0.5, "gravity_torque": 1, "theta": 0.5,
+                "spin": 5, "duration": 3},
+        "spheroid": {"positions": [2, 0, 0]},
+    }  # fmt: skip
+    table = sound.get(question.word, {})
+    return {name: value for name, value in table.items() if name in arguments_of(question)}
+
+
+#: Other public names, with their arguments.
+OTHERS: dict[str, list[str]] = {
+    "Body": ["name", "gm", "naif", "radius", "j2", "dynamical_flattening", "pole", "orbit_pole",
+             "spin_period", "relative_uncertainty", "interior", "observed_wobble", "cycle"],
+    "Scene": ["compute", "body", "span", "step"],
+    "load_scene": ["scene", "changes"],
+    "plan": ["scene", "sections"],
+    "run": ["scene"],
+    "run_tree": ["scene", "sections"],
+    "open": ["path"],
+    "read": ["path"],
+    "verify": ["path"],
+    "write": ["result", "path"],
+    "write_series": ["scene", "path"],
+    "accuracy": ["quantity"],
+    "stability": ["only"],
+    "fit_chandler": ["ds", "method", "window"],
+    "excitation": ["ds", "period", "quality_factor"],
+    "polar_motion_from": ["chi", "period", "quality_factor", "start"],
+    "read_excitation": ["path"],
+}  # fmt: skip
