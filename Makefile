@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: report test check docs bench mutants clean
+.PHONY: report test check docs bench fuzz mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -21,6 +21,9 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.check
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+
+fuzz: $(VENV)/.test
+	$(BIN)/python -m tests.fuzz $(or $(SEED),1) $(or $(COUNT),20000)
 
 mutants: $(VENV)/.test
 	$(BIN)/python -m tests.mutants --page docs/measured/mutants.md

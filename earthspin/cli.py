@@ -211,7 +211,7 @@ def _report(given: argparse.Namespace) -> None:
 def _run(given: argparse.Namespace) -> None:
     from earthspin.engine import drafts
     from earthspin.parts import times
-    from earthspin.scenes import run_tree, series_length, write_series
+    from earthspin.scenes import members_of, run_tree, series_length, write_series
 
     question = _question(given)
     target = None if given.out is None else Path(given.out)
@@ -219,7 +219,7 @@ def _run(given: argparse.Namespace) -> None:
     if target is not None:
         is_file = target.suffix in (".nc", ".zarr")
         drafts.check_writable(target.parent if is_file else target)
-        if series_length(question) > times.LONGEST_IN_MEMORY:
+        if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
             if given.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             place = target if target.suffix == ".zarr" else target / f"{name}.zarr"

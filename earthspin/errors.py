@@ -7,6 +7,8 @@ keeps the same facts as attributes, so that a program can act on them.
 from __future__ import annotations
 
 import difflib
+import os
+import stat
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -277,6 +279,33 @@ def _rounded_up(value: float) -> str:
 def one_line(error: BaseException) -> str:
     """What a library says of an error, on one line: the system's words where it has some."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
+
+
+def in_bytes(count: float) -> str:
+    """How much memory or disk, in words: ``"1.5 GB"``."""
+    units = ("B", "kB", "MB", "GB", "TB", "PB", "EB")
+    power = 0
+    while count >= 999.5 and power < len(units) - 1:
+        count, power = count / 1000, power + 1
+    return f"{count:.3g} {units[power]}"
+
+
+def no_plain_file(path: object) -> str:
+    """Why a path cannot be read from end to end: a device or a pipe has none. Empty if it can.
+
+    Parameters
+    ----------
+    path : Path or str
+    """
+    try:
+        mode = os.stat(str(path)).st_mode
+    except OSError:
+        return ""  # whoever opens it says what is wrong
+    except ValueError as error:
+        return one_line(error)
+    if stat.S_ISDIR(mode):
+        return "it is a folder, not a file"
+    return "" if stat.S_ISREG(mode) else "it is a device or a pipe, not a file"
 
 
 def _shown(given: object) -> str:

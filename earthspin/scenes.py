@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
@@ -9,11 +10,13 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from earthspin.bodies import Body
+from earthspin.bodies.body import members
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
 from earthspin.engine.part import Block
 from earthspin.engine.question import Question
-from earthspin.errors import SceneError, nearest
+from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.iau import IAU
 from earthspin.questions.polar_motion import PolarMotion
@@ -76,7 +79,7 @@ def question_named(word: object, source: str = "") -> type[Question]:
         If there is none; it names the nearest.
     """
     if not isinstance(word, str) or word not in QUESTIONS:
-        raise SceneError("compute", word, nearest(word or "", QUESTIONS), source=source)
+        raise SceneError("compute", word, nearest(word, QUESTIONS), source=source)
     return QUESTIONS[word]
 
 
@@ -105,13 +108,15 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         return _changed(table, changes, "", "")
     if hasattr(scene, "attrs"):
         text, source, title = _scene_of(scene), "", ""
+    elif not isinstance(scene, (str, os.PathLike)):
+        raise SceneError("scene", scene, "give a name, a path, a question or an answer")
     elif Path(str(scene)).suffix in (".nc", ".zarr"):
         from earthspin.engine.store import open as open_file
 
-        answer = open_file(scene)
+        answer = open_file(Path(scene))
         text, source, title = _scene_of(answer), str(scene), ""
     else:
-        text, source, title = _read(scene)
+        text, source, title = _read(os.fspath(scene))
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -249,21 +254,25 @@ def write_series(scene: Any, path: str | Path) -> Path:
     EarthspinError
         Whatever is wrong, in one line; nothing is left behind then.
     """
-    from earthspin.engine import store
+    from earthspin.engine import drafts, store
     from earthspin.progress import progress
 
-    question = load_scene(scene)
+    question, place = load_scene(scene), drafts.as_path(path)
     size = series_length(question)
     if size == 0:
         raise SceneError("compute", question.word, "only a torque series is written by region")
     with progress("torque series", size) as advance:
 
         def blocks() -> Iterator[xr.Dataset]:
-            for block in run_blocks(question):
+            for number, block in enumerate(run_blocks(question)):
+                if number == 0:
+                    drafts.refuse_what_does_not_fit(
+                        place, block.nbytes / block.sizes["time"] * size, f"{size} times"
+                    )
                 yield block
                 advance(block.sizes["time"])
 
-        return store.write_blocks(blocks(), path)
+        return store.write_blocks(blocks(), place)
 
 
 def series_length(question: Question) -> int:
@@ -273,6 +282,12 @@ def series_length(question: Question) -> int:
     from earthspin.parts.times import epochs
 
     return epochs(question.span, question.step, question.times).size
+
+
+def members_of(question: Question) -> int:
+    """How many bodies a question is about, labelled arrays counted."""
+    told = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
+    return members(one for several in told for one in several if isinstance(one, Body))
 
 
 def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
@@ -290,7 +305,8 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
     """
     question = load_scene(scene)
     size = series_length(question)
-    stretches = (Block(first, min(first + BLOCK, size)) for first in range(0, size, BLOCK))
+    length = max(1, BLOCK // members_of(question))
+    stretches = (Block(first, min(first + length, size)) for first in range(0, size, length))
     return running.run_blocks(question, stretches)
 
 
@@ -325,6 +341,8 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
         file = resources.files("earthspin") / "shipped" / f"{text}.toml"
         return file.read_text(encoding="utf-8"), f"{text}.toml", text
     path = Path(scene)
+    if problem := no_plain_file(path):
+        raise SceneError("scene", text, f"it cannot be read: {problem}")
     try:
         return path.read_text(encoding="utf-8-sig"), text, path.stem
     except FileNotFoundError:

@@ -13,6 +13,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, get_origin
 
@@ -93,7 +94,11 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     SceneError
         If a number is masked, missing or not finite.
     """
-    converted = _convert(value, _Wanted(unit, what, example))
+    wanted = _Wanted(unit, what, example)
+    try:
+        converted = _convert(value, wanted)
+    except RecursionError:  # lists in lists in lists
+        raise wanted.wrong(value) from None
     plain = getattr(converted, "values", converted)
     if not np.all(np.isfinite(plain)):
         raise _where(what).error(value, "give finite numbers")
@@ -137,7 +142,7 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
         raise _where(wanted.what).error("a masked value", "give numbers that are all known")
     if hasattr(value, "to_value"):
         return _by_astropy(value, wanted)
-    if hasattr(value, "dims"):
+    if hasattr(value, "dims") and hasattr(value, "dtype"):
         own = None if value.dtype.kind == "m" else value.attrs.get("units")
         plain = _plain(value.values, wanted)  # one that says its units is converted
         return value.copy(data=plain if own is None else plain * wanted.factor(own, own))
@@ -170,7 +175,7 @@ def _by_astropy(value: Any, wanted: _Wanted) -> Any:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
         converted = read.to_value(u.Unit(wanted.unit))
-    except (TypeError, ValueError, OverflowError, u.UnitConversionError):
+    except (TypeError, ValueError, OverflowError, AttributeError, u.UnitConversionError):
         raise wanted.wrong(value) from None
     return float(converted) if np.ndim(converted) == 0 else np.asarray(converted, dtype=float)
 
@@ -194,7 +199,7 @@ def _plain(value: Any, wanted: _Wanted) -> Any:
         array = np.asarray(value)
         if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits
             array = array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError):
+    except Exception:  # whatever somebody's class says of being no array
         raise wanted.wrong(value) from None
     if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
         return array / np.timedelta64(1, "us") * 1e-6
@@ -454,6 +459,23 @@ class Text:
     def write(self, value: str) -> Plain:
         """Give the text."""
         return value
+
+
+@dataclass(frozen=True)
+class FilePath:
+    """The path of a file or folder."""
+
+    words, hint = "the path of a file", "str | PathLike[str]"
+
+    def read(self, given: object, where: Where) -> Path:
+        """Check that it is a path; whether something is there shows when it is opened."""
+        if not isinstance(given, (str, Path)) or not str(given).strip():
+            raise where.error(given, f"it is {self.words}")
+        return Path(given)
+
+    def write(self, value: Path) -> Plain:
+        """Give the text."""
+        return str(value)
 
 
 @dataclass(frozen=True)

@@ -130,6 +130,12 @@ class Body:
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
 
+    def __new__(cls, *places: object, **_: object) -> Body:
+        """Refuse numbers without names: of thirty fields nobody knows the order."""
+        if places:
+            raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
         for name in UNITS:
             value = getattr(self, name)
@@ -143,6 +149,7 @@ class Body:
                 )
             if not all_of(_is_finite(value)):
                 raise BodyError(self.name, name, value, "it must be a finite number")
+        self._check_words()
         self._check_labels()
         self._check_directions()
         if self.position is not None:
@@ -198,6 +205,20 @@ class Body:
             raise BodyError(self.name, "j2", j2, allowed)
         if not all_of((self.triaxiality * abs(h) <= abs(j2)) | (h == 0)):
             raise BodyError(self.name, "triaxiality", self.triaxiality, "B - A cannot exceed C")
+
+    def _check_words(self) -> None:
+        """Names are words, codes are whole numbers, uncertainties a table of numbers."""
+        for name in ("name", "reference", "interior"):
+            value = getattr(self, name)
+            if not (isinstance(value, str) or (value is None and name == "interior")):
+                raise BodyError(self.name, name, value, "give a line of text")
+        if not isinstance(self.naif, tuple) or not all(type(code) is int for code in self.naif):
+            raise BodyError(self.name, "naif", self.naif, "give a tuple of whole numbers")
+        if not isinstance(self.observed_wobble, c.Constant | None):
+            raise BodyError(self.name, "observed_wobble", self.observed_wobble, "give a Constant")
+        of = self.relative_uncertainty
+        if not isinstance(of, Mapping) or not all(isinstance(u, (int, float)) for u in of.values()):
+            raise BodyError(self.name, "relative_uncertainty", of, "give a table of numbers")
 
     def _check_labels(self) -> None:
         """Labelled arrays that share a dimension have the same length and labels along it."""
@@ -585,6 +606,21 @@ def all_of(condition: Any) -> bool:
 #: Every named body, and the source and uncertainty of its numbers; filled by the files of worlds.
 BODIES: dict[str, Body] = {}
 NUMBERS: dict[str, dict[str, c.Constant]] = {}
+
+
+def members(bodies: Iterable[Body]) -> int:
+    """How many bodies some bodies stand for, labelled arrays of theirs taken together.
+
+    Parameters
+    ----------
+    bodies : iterable of Body
+    """
+    along: dict[Any, int] = {}
+    for one in bodies:
+        for name in UNITS:
+            array = getattr(one, name)
+            along |= {dim: array.sizes[dim] for dim in getattr(array, "dims", ())}
+    return math.prod(along.values())
 
 
 def body(name: object, where: Where | None = None) -> Body:

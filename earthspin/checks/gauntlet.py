@@ -99,7 +99,9 @@ def chosen_cases(
     """
     cases = all_cases()
     if only is not None:
-        word = str(only).lower()
+        if not isinstance(only, str):
+            raise SceneError("only", only, "give a word", source="stability")
+        word = only.lower()
         if word in PARTS:
             cases = tuple(c for c in cases if c.part == word)
         else:

@@ -23,7 +23,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from earthspin.errors import EarthspinError, OutputError, one_line
+from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
 
 if sys.platform != "win32":
     import fcntl
@@ -48,9 +48,12 @@ def as_path(given: object) -> Path:
     if not isinstance(given, (str, os.PathLike)):
         raise TypeError(f"path is of type {type(given).__name__}; give a str or a Path")
     path = Path(given)
-    if "\0" in str(path):
-        raise OutputError(path, "no file can have a name with a zero in it")
-    return path
+    try:
+        if b"\0" not in os.fsencode(path):
+            return path
+    except UnicodeEncodeError:
+        pass
+    raise OutputError(path, "no file can have such a name")
 
 
 def check_writable(folder: str | Path) -> Path:
@@ -73,6 +76,32 @@ def check_writable(folder: str | Path) -> Path:
             "choose another with --out",
         ) from None
     return path
+
+
+def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
+    """Refuse what the disk has no room for, before it is half-written.
+
+    Parameters
+    ----------
+    path : Path
+        Where it should go.
+    size : float
+        Bytes, before they are packed.
+    what : str
+        For the message.
+
+    Raises
+    ------
+    OutputError
+    """
+    there = next(p for p in path.absolute().parents if p.exists())
+    free = shutil.disk_usage(there).free
+    if size > free:
+        raise OutputError(
+            path,
+            f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free",
+            "choose a longer step or a shorter span",
+        )
 
 
 @contextmanager

@@ -158,13 +158,14 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
 def _wanted(question: Question, sections: str | Iterable[str]) -> list[str]:
     """Names of sections, each once, in the order of the question."""
     every = question.graph.sections
-    if sections == ALL:
+    if isinstance(sections, str) and sections == ALL:
         return list(every)
-    if not isinstance(sections, (str, Iterable)):
-        raise SceneError("sections", sections, f"give names, or '{ALL}'")
-    named = {sections} if isinstance(sections, str) else set(sections)
+    try:
+        named = [sections] if isinstance(sections, str) else [*sections]
+    except Exception:  # whatever it is, it is no list
+        raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
     for name in named:
-        if name not in every:
+        if not isinstance(name, str) or name not in every:
             raise SceneError("sections", name, nearest(name, [*every, ALL]))
     return [name for name in every if name in named]
 

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self, get_type_hints
 
 from earthspin.card import card
 from earthspin.engine.part import BLOCK, Part
-from earthspin.errors import SceneError, Where, nearest
+from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
 
 #: Name of the part of every question that says what its model leaves out.
@@ -74,6 +74,19 @@ class Key:
     def default_words(self) -> str:
         """Its default for people; empty where there is none."""
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
+
+
+def _read(kind: Kind[Any], given: object, where: Where) -> Any:
+    """Read a value; whatever is given, what comes out is a value or one clear line.
+
+    Anything at all may be given, and what a library or somebody's class says of it is no help.
+    """
+    try:
+        return kind.read(given, where)
+    except EarthspinError:
+        raise
+    except Exception as error:
+        raise where.error(given, f"it is not {kind.words}") from error
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:
@@ -139,7 +152,7 @@ class Question:
             shown = f"{self.table}.{name}" if one.setting and in_scene else name
             where = Where(shown, source)
             if name in chosen:
-                value = one.kind.read(chosen[name], where)
+                value = _read(one.kind, chosen[name], where)
             elif one.required:
                 raise where.error(None, f"give it: {one.doc} ({one.kind.words})")
             else:

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from earthspin._version import __version__, version
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.part import BLOCK, Block
+from earthspin.engine.part import BLOCK, Block, Part
 from earthspin.engine.plan import Plan, plan
 from earthspin.engine.question import NEGLECTED, Question
+from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -134,9 +135,28 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
         inputs = {name: values[name] for name in one.needs}
         inputs |= {name: values[name] for name in one.uses if name in values}
         begun = time.perf_counter()
-        values[one.name] = one(**inputs)
+        values[one.name] = _in_range(one, inputs)
         seconds[one.name] = time.perf_counter() - begun
     return Ran(replace(planned, seconds=seconds), values)
+
+
+def _in_range(one: Part[..., Any], inputs: Mapping[str, Any]) -> Any:
+    """Run a part; numbers that overflow are an error, never infinity with a warning beside it.
+
+    Raises
+    ------
+    UndefinedError
+        If they do.
+    """
+    import numpy as np
+
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            return one(**inputs)
+    except ArithmeticError as error:
+        raise UndefinedError(
+            f"numbers go beyond what can be computed ({one.name}: {error}); check their sizes"
+        ) from error
 
 
 # --- laying out ----------------------------------------------------------------------------------

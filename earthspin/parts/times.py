@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Annotated
 
 import numpy as np
 
+from earthspin.bodies import Body
+from earthspin.bodies.body import members
 from earthspin.dates import Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.engine.question import key
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, in_bytes
 from earthspin.parts.sky import Pulled
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
 from earthspin.units import FloatArray, Numbers
@@ -44,16 +47,34 @@ def instants(duration: float, points: int, times: FloatArray | None) -> FloatArr
     return np.linspace(0.0, duration, points) if times is None else times
 
 
-def refuse_what_does_not_fit(epochs: TimeGrid | TimeList, remedy: str) -> None:
+#: What a series takes for each of its times, about.
+BYTES_PER_TIME = 128
+
+
+def refuse_what_does_not_fit(
+    epochs: TimeGrid | TimeList, remedy: str, bodies: Iterable[Body] = ()
+) -> None:
     """Refuse to hold a series in memory that is too long for it.
+
+    Parameters
+    ----------
+    epochs : TimeGrid or TimeList
+    remedy : str
+        What to do instead.
+    bodies : iterable of Body
+        Those whose labelled arrays multiply the series.
 
     Raises
     ------
     SceneError
     """
-    if epochs.size > LONGEST_IN_MEMORY:
+    count = members(bodies)
+    size = epochs.size * count
+    if size > LONGEST_IN_MEMORY:
+        times = f"{epochs.size} times" + (f" of {count} members" if count > 1 else "")
         raise SceneError(
             "step",
             None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s",
-            f"{epochs.size} times do not fit into memory (up to {LONGEST_IN_MEMORY}); {remedy}",
+            f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory "
+            f"(up to {LONGEST_IN_MEMORY}); {remedy}",
         )

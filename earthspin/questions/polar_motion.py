@@ -21,7 +21,17 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
-from earthspin.units import Days, FloatArray, Number, Numbers, kind_of
+from earthspin.units import (
+    Days,
+    FilePath,
+    FloatArray,
+    Number,
+    Numbers,
+    Several,
+    Text,
+    Word,
+    kind_of,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -407,9 +417,9 @@ def fit_chandler(
     """
     length = None if window is None else _DAYS.read(window, Where("window"))
     if excitation is None:
-        word = kind_of(Method).read(method or "burg", Where("method"))
+        word = kind_of(Method).read("burg" if method is None else method, Where("method"))
         return _with_source(chandler(ds, word, length).rename(middle="time"), ds)
-    if method not in (None, "likelihood"):
+    if not (method is None or (isinstance(method, str) and method == "likelihood")):
         raise SceneError("method", method, "with an excitation it is 'likelihood'")
     from earthspin.wobble.observed import fit_with_excitation
 
@@ -643,12 +653,13 @@ def read_excitation(
     """
     from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 
-    for word in terms:
-        if word not in TERMS:
-            raise SceneError("terms", word, nearest(word, TERMS))
+    terms = Several(Word(tuple(TERMS))).read(terms, Where("terms"))
+    if components is not None:
+        components = Several(Text()).read(components, Where("components"))
     if not terms:
         raise SceneError("terms", terms, nearest("", TERMS))
-    read = read_angular_momentum(path, components, daily=daily)
+    paths = Several(FilePath()).read(path, Where("path"))
+    read = read_angular_momentum(paths, components, daily=daily)
     chi = sum(getattr(read, word) for word in set(terms))
     result = build(
         CHI,

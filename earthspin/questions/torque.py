@@ -126,7 +126,9 @@ def torques(
 
     if block is None:
         refuse_what_does_not_fit(
-            epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
+            epochs,
+            "write them by region with write_series(scene, 'series.zarr') or run --out",
+            (body, *perturbers),
         )
         block = Block(0, epochs.size)
     now = epochs.days(block.first, block.last)

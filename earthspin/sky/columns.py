@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from pathlib import Path
 
-from earthspin.errors import SeriesError
+from earthspin.errors import SeriesError, no_plain_file
 
 #: Proleptic day number of the modified Julian date 0, 1858 November 17.
 _FIRST_DAY = datetime.date(1858, 11, 17).toordinal()
@@ -21,6 +21,8 @@ def lines_of(file: Path) -> list[str]:
     SeriesError
         If the file cannot be read.
     """
+    if problem := no_plain_file(file):
+        raise SeriesError(file, problem)
     try:
         return file.read_text(encoding="ascii", errors="replace").splitlines()
     except OSError as error:

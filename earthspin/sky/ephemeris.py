@@ -23,7 +23,14 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
-from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
+from earthspin.errors import (
+    CoverageError,
+    KernelError,
+    MissingExtraError,
+    SceneError,
+    nearest,
+    no_plain_file,
+)
 from earthspin.sky.kernel_differences import DRIFT, drift_is_measured, growth, largest_difference
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
@@ -335,8 +342,8 @@ def _open_spk(path: Path) -> Any:
         raise KernelError(
             path, "there is no such file", f"use one of {', '.join(NAMED_KERNELS)} or a path"
         )
-    if path.is_dir():
-        raise KernelError(path, "it is a folder, not a file")
+    if problem := no_plain_file(path):
+        raise KernelError(path, problem)
     size = path.stat().st_size
     if size == 0:
         raise KernelError(path, "the file is empty", "fetch it again")

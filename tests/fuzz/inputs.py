@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import datetime as dt
 import random
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+import tomli_w
 import xarray as xr
 from astropy import units as u
 from astropy.time import Time
@@ -60,7 +62,8 @@ WORDS: tuple[str, ...] = (
     "[[1, 2], [3]]", "[1, [2]]", '[1, "2 m"]', '["a", "b"]', "[true]", "[1.0, nan]", "{}",
     '{a = 1}', '{from = "mars"}', '{from = 3}', '{from = "earth", j2 = "x"}', "{float64 = 1}",
     '{shape = [1], float64 = "AAAA"}', '{shape = [-1], float64 = "AAAAAAAA8D8="}',
-    '{from = "nothing"}', '"\\u001b[2J"', '"a\\nb"', '"\\u0000"', '"\\u202e"', '"' + "x" * 3000 + '"',
+    '{from = "nothing"}', '"\\u001b[2J"', '"a\\nb"', '"\\u0000"', '"\\u202e"',
+    '"' + "x" * 3000 + '"',
     "9" * 400, "9" * 5000, "1" + "0" * 400 + ".0", "[" * 100 + "]" * 100, "[" * 3000 + "]" * 3000,
     '"' + "9" * 5000 + ' s"', '"1e5000 s"', '"/dev/zero"', '"/"', '"sun"', '["sun", "sun"]',
     '"earth"', '["moon", 3]', '"1 mas"', '"1e-9"', '"1 us"', '"433 d"', "1e-30", "4000000", "1e18",
@@ -72,8 +75,9 @@ def values() -> list[Any]:
     times = pd.date_range("2000-01-01", periods=3)
     labelled = xr.DataArray([1.0, 2.0], dims="member", coords={"member": ["a", "b"]})
     return [
-        None, True, False, 0, 1, -1, 3, 10**400, 10**5000, -(10**18), 0.0, -0.0, 1e308, -1e308, 5e-324,
-        float("nan"), float("inf"), 1 + 2j, "", " ", "x", "6 h", "6 kg", "1e400 s", "9" * 5000 + " s",
+        None, True, False, 0, 1, -1, 3, 10**400, 10**5000, -(10**18), 0.0, -0.0, 1e308, -1e308,
+        5e-324, float("nan"), float("inf"), 1 + 2j, "", " ", "x", "6 h", "6 kg", "1e400 s",
+        "9" * 5000 + " s",
         "x" * 10_000, "\x1b[2J", "a\nb", "\0", "\ud800", "2000-01-01", "2000-02-30", "NaT", b"x",
         bytearray(b"6 h"), [], [[]], (), {}, set(), {1, 2}, frozenset(), [1], [1, 2], [1, 2, 3],
         [[1, 2], [3]], [1, [2]], [None], [True], ["a"], ["a", None], [float("nan")], [1, "2 m"],
@@ -135,19 +139,11 @@ def any_value(rng: Random) -> Any:
 
 
 def _keys(question: type[Question]) -> list[str]:
-    body = [
-        "body.j2",
-        "body.name",
-        "body.pole",
-        "body.gm",
-        "body.spin_period",
-        "body.from",
-        "body.x",
-    ]
-    return [
-        *(f"{question.table}.{n}" if one.setting else n for n, one in keys_of(question).items()),
-        *body,
-    ]
+    keys = [f"{question.table}.{n}" if one.setting else n for n, one in keys_of(question).items()]
+    if "body" in keys:
+        numbers = ("j2", "name", "pole", "gm", "spin_period", "from", "moments", "x")
+        keys += [f"body.{name}" for name in numbers]
+    return keys
 
 
 def scene_text(rng: Random) -> str:
@@ -158,17 +154,28 @@ def scene_text(rng: Random) -> str:
     file = resources.files("earthspin") / "shipped" / f"{name}.toml"
     text = file.read_text(encoding="utf-8")
     chance = rng.random()
-    if chance < 0.15:  # bytes that were changed on the way
+    if chance < 0.1:  # bytes that were changed on the way
         place = rng.randrange(len(text))
         return (
             text[:place] + rng.choice(("", "\0", "=", "[", '"', _letters(rng))) + text[place + 1 :]
         )
-    word = next(line for line in text.splitlines() if line.startswith("compute")).split('"')[1]
-    changed = rng.sample(_keys(QUESTIONS[word]), rng.choice((1, 1, 2)))
-    lines = [f"{key} = {any_word(rng)}" for key in changed]
-    if chance < 0.4:
-        return "\n".join([f'compute = "{word}"', *lines])
-    return "\n".join([*lines, text])
+    table = {} if chance < 0.2 else _flat(tomllib.loads(text))
+    word = tomllib.loads(text)["compute"]
+    table["compute"] = f'"{word}"'
+    for key in rng.sample(_keys(QUESTIONS[word]), rng.choice((1, 1, 1, 2, 3))):
+        table[key] = any_word(rng)
+    return "\n".join(f"{key} = {value}" for key, value in table.items())
+
+
+def _flat(table: dict[str, Any], above: str = "") -> dict[str, str]:
+    """Values as they stand in a scene, by dotted keys."""
+    found = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            found |= _flat(value, f"{above}{key}.")
+        else:
+            found[f"{above}{key}"] = tomli_w.dumps({"x": value}).removeprefix("x = ").strip()
+    return found
 
 
 def command(rng: Random, folder: Path) -> list[str]:
@@ -206,12 +213,12 @@ def call(rng: Random) -> tuple[Callable[..., Any], tuple[Any, ...], dict[str, An
     else:
         name = rng.choice(list(OTHERS))
         function = getattr(earthspin, name)
-        names, given = OTHERS[name], {}
+        names, given = OTHERS[name], dict(SOUND.get(name, {}))
     for name in rng.sample(names, min(len(names), rng.choice((1, 1, 2, 3)))):
         given[name] = any_value(rng)
     if rng.random() < 0.02:
         given[rng.choice(("nonsense", "bdy", "spam"))] = any_value(rng)
-    places = tuple(any_value(rng) for _ in range(rng.choice((0, 0, 0, 0, 0, 1, 2))))
+    places = tuple(any_value(rng) for _ in range(rng.choice((0,) * 20 + (1, 2))))
     if places:
         given = dict(list(given.items())[len(places) :])
     return function, places, given
@@ -222,14 +229,34 @@ def _required(question: type[Question]) -> dict[str, Any]:
     sound = {
         "torque": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
         "pole": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
-        "free-rotor": {"moments": [1, 2, 3], "spin_start": [1, 0, 1], "duration": 3, "points": 3},
-        "top": {"transverse_moment": 1, "axial_moment": 0.5, "gravity_torque": 1, "theta": 0.5,
+        "free-rotor": {"moments": [1, 2, 3], "omega": [1, 0, 1], "duration": 3, "points": 3},
+        "top": {"transverse_moment": 1, "axial_moment": 0.5, "weight_moment": 1, "theta": 0.5,
                 "spin": 5, "duration": 3},
-        "spheroid": {"positions": [2, 0, 0]},
+        "spheroid": {"position": "7000 km"},
     }  # fmt: skip
     table = sound.get(question.word, {})
     return {name: value for name, value in table.items() if name in arguments_of(question)}
 
+
+_TIMES = pd.date_range("2000-01-01", periods=200)
+_SERIES = ("time", np.sin(np.arange(200.0)), {"units": "mas"})
+#: What a sound call of them gives, where it computes little.
+SOUND: dict[str, dict[str, Any]] = {
+    "Body": {"name": "x", "gm": 1e14},
+    "Scene": {"compute": "precession"},
+    "load_scene": {"scene": "torque"},
+    "plan": {"scene": "torque"},
+    "run_tree": {"scene": "torque"},
+    "write_series": {"scene": "torque"},
+    "write": {"result": xr.Dataset({"x": 3.0}), "path": "x.nc"},
+    "fit_chandler": {"ds": xr.Dataset({"x": _SERIES, "y": _SERIES}, {"time": _TIMES})},
+    "excitation": {"ds": xr.Dataset({"x": _SERIES, "y": _SERIES}, {"time": _TIMES})},
+    "polar_motion_from": {
+        "chi": xr.Dataset({"chi1": _SERIES, "chi2": _SERIES}, {"time": _TIMES}),
+        "period": 433.0,
+        "quality_factor": 100.0,
+    },
+}
 
 #: Other public names, with their arguments.
 OTHERS: dict[str, list[str]] = {
@@ -247,8 +274,51 @@ OTHERS: dict[str, list[str]] = {
     "write_series": ["scene", "path"],
     "accuracy": ["quantity"],
     "stability": ["only"],
-    "fit_chandler": ["ds", "method", "window"],
+    "fit_chandler": ["ds", "method", "window", "chi"],
     "excitation": ["ds", "period", "quality_factor"],
     "polar_motion_from": ["chi", "period", "quality_factor", "start"],
-    "read_excitation": ["path"],
+    "read_excitation": ["path", "components", "terms", "daily"],
 }  # fmt: skip
+
+
+# --- answers -------------------------------------------------------------------------------------
+
+#: Calls that cost little, and the numbers of theirs that may be anything.
+CHEAP: dict[str, tuple[dict[str, Any], list[str]]] = {
+    "free_rotor": (
+        {"moments": [1.0, 2.0, 2.5], "omega": [1.0, 0.1, 1.0], "duration": 3.0, "points": 3},
+        ["moments", "omega", "duration", "points"],
+    ),
+    "heavy_top": (
+        {"transverse_moment": 1.0, "axial_moment": 0.5, "weight_moment": 1.0, "theta": 0.5,
+         "spin": 5.0, "duration": 3.0, "points": 3},
+        ["transverse_moment", "axial_moment", "weight_moment", "theta", "spin", "duration"],
+    ),
+    "spheroid_field": ({"position": [7e6, 0.0, 1e6]}, ["position", "body"]),
+    "wobble_ladder": ({}, ["body"]),
+}  # fmt: skip
+
+
+def extreme_number(rng: Random) -> float:
+    """A number of any size: zero, an end of what floats hold, or anything between."""
+    ends = (0.0, -0.0, 1.0, -1.0, 5e-324, 2.2e-308, 1e-160, 1e160, 1.7e308, 1e-16, 1 + 2.3e-16, 3.2)
+    size = rng.choice((rng.choice(ends), 10 ** rng.uniform(-20, 20), 10 ** rng.uniform(-300, 300)))
+    return -size if rng.random() < 0.2 else size
+
+
+def extreme(rng: Random) -> tuple[str, dict[str, Any]]:
+    """A cheap call with some of its numbers extreme."""
+    question = rng.choice(list(CHEAP))
+    sound, names = CHEAP[question]
+    given = dict(sound)
+    for name in rng.sample(names, min(len(names), rng.choice((1, 1, 2, 3)))):
+        if name == "body":
+            fields = ("gm", "radius", "j2", "dynamical_flattening", "spin_period", "flattening")
+            given[name] = {"from": "earth", rng.choice(fields): extreme_number(rng)}
+        elif name == "points":
+            given[name] = rng.choice((1, 2, 3, 100))
+        elif isinstance(sound[name], list):
+            given[name] = [rng.choice((one, extreme_number(rng))) for one in sound[name]]
+        else:
+            given[name] = extreme_number(rng)
+    return question, given

@@ -1,0 +1,233 @@
+"""Sizes that no machine has, files without an end, and what is repeated in a message."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import (
+    EarthspinError,
+    KernelError,
+    OutputError,
+    SceneError,
+    SeriesError,
+    UndefinedError,
+    UnitsError,
+)
+from earthspin.errors import in_bytes
+
+ROOT = Path(__file__).parents[2]
+
+
+def one_line(error: BaseException) -> str:
+    line = str(error)
+    assert line.isprintable()
+    assert len(line) <= 1100
+    return line
+
+
+# --- sizes ---------------------------------------------------------------------------------------
+
+
+def members(count: int) -> earthspin.Body:
+    radius = xr.DataArray(np.linspace(6.3e6, 6.4e6, count), dims="member")
+    return earthspin.EARTH.replace(radius=radius)
+
+
+def test_members_count_as_well_as_times() -> None:
+    """Forty thousand times of a thousand bodies are as many numbers as forty million times."""
+    scene = {"start": "2000-01-01", "stop": "2027-01-01", "step": "6 h"}
+    with pytest.raises(SceneError, match=r"39449 times of 1000 members take 5\.05 GB"):
+        earthspin.torque_series(**scene, body=members(1000))
+
+
+def test_blocks_of_many_members_are_shorter(tmp_path: Path) -> None:
+    scene = earthspin.Scene(
+        compute="torque", span=("2000-01-01", "2000-01-03"), step="1 h", body=members(20_000)
+    )
+    lengths = [block.sizes["time"] for block in earthspin.scenes.run_blocks(scene)]
+    assert lengths == [6] * 8 + [1]
+
+
+def test_a_microsecond_through_a_century_is_refused_with_its_size(tmp_path: Path) -> None:
+    scene = earthspin.load_scene("torque", {"span": ["1900-01-01", "2050-01-01"], "step": "1 us"})
+    begun = time.perf_counter()
+    with pytest.raises(SceneError, match=r"4733596800000001 times take 606 PB and do not fit"):
+        earthspin.run(scene)
+    with pytest.raises(OutputError, match=r"4733596800000001 times take .* [PE]B, and .* free"):
+        earthspin.write_series(scene, tmp_path / "r.zarr")
+    assert list(tmp_path.iterdir()) == []
+    assert time.perf_counter() - begun < 10
+
+
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [(0, "0 B"), (999, "999 B"), (1500, "1.5 kB"), (999_600, "1 MB"), (6e17, "600 PB")],
+)
+def test_sizes_in_words(count: float, words: str) -> None:
+    assert in_bytes(count) == words
+
+
+#: Peak of memory (MB) and seconds of `--json` for so many times.
+JSON = """
+import sys, time
+from earthspin import cli
+begun = time.perf_counter()
+span = f'span=["2000-01-01", "{sys.argv[1]}"]'
+assert cli.main(["run", "torque", "--json", "--set", span, "--set", "step=10 min"]) == 0
+with open("/proc/self/status") as status:
+    peak = next(int(line.split()[1]) / 1024 for line in status if "VmHWM" in line)
+print(peak, time.perf_counter() - begun, file=sys.stderr)
+"""
+
+
+def test_json_of_a_long_series_is_written_as_it_is_made(tmp_path: Path) -> None:
+    """Text and lists of it would take 5 kB for each time; measured: 0.3 kB, the answer itself."""
+
+    def run(end: str) -> tuple[float, int]:
+        with (tmp_path / "out.json").open("w") as out:
+            done = subprocess.run(
+                [sys.executable, "-c", JSON, end], stdout=out, stderr=subprocess.PIPE, cwd=ROOT
+            )
+        assert done.returncode == 0
+        data = json.loads((tmp_path / "out.json").read_text())
+        return float(done.stderr.split()[0]), len(data["coords"]["time"]["data"])
+
+    (small, few), (large, many) = run("2000-01-02"), run("2002-01-01")
+    assert many - few > 100_000
+    assert (large - small) * 1024 / (many - few) < 1.0
+
+
+# --- files without an end ------------------------------------------------------------------------
+
+
+@pytest.fixture
+def pipe(tmp_path: Path) -> Path:
+    os.mkfifo(tmp_path / "pipe")
+    return tmp_path / "pipe"
+
+
+def test_devices_and_pipes_are_no_files(pipe: Path, tmp_path: Path) -> None:
+    """They have no end, and a pipe would be waited for."""
+    for path in (Path("/dev/zero"), pipe):
+        for call, kind in (
+            (lambda p: earthspin.load_scene(p), SceneError),
+            (lambda p: earthspin.polar_motion(file=p), SeriesError),
+            (lambda p: earthspin.read_excitation(p), SeriesError),
+            (lambda p: earthspin.precession(ephemeris=p), KernelError),
+        ):
+            with pytest.raises(kind, match="a device or a pipe, not a file") as error:
+                call(path)
+            one_line(error.value)
+    for path in (tmp_path, Path("/")):
+        with pytest.raises(SceneError, match="a folder, not a file"):
+            earthspin.load_scene(path)
+
+
+# --- nonsense ------------------------------------------------------------------------------------
+
+
+def nested(depth: int) -> list[object]:
+    inner: list[object] = []
+    for _ in range(depth):
+        inner = [inner]
+    return inner
+
+
+DEEP = [nested(3000), 10**400, 10**5000, "9" * 5000, [[1, 2], [3]], [], [[]], {1, 2}, object()]
+
+
+@pytest.mark.parametrize("given", DEEP, ids=range(len(DEEP)))
+def test_no_value_breaks_a_message(given: object) -> None:
+    for call in (
+        lambda: earthspin.torque_series(times=given),
+        lambda: earthspin.torque_series("2000-01-01", "2001-01-01", given),
+        lambda: earthspin.free_rotor(moments=given, omega=[1, 0, 1], duration="1 s"),
+        lambda: earthspin.precession(body=given),
+        lambda: earthspin.precession(perturbers=given),
+        lambda: earthspin.precession(span=given),
+        lambda: earthspin.polar_motion(file=given),
+        lambda: earthspin.load_scene("torque", {"step": given}),
+        lambda: earthspin.load_scene(given),
+        lambda: earthspin.plan("torque", given if not isinstance(given, list) or given else 3),
+        lambda: earthspin.fit_chandler(given),
+        lambda: earthspin.excitation(given),
+        lambda: earthspin.polar_motion_from(given),
+    ):
+        with pytest.raises((SceneError, UnitsError, SeriesError)) as error:
+            call()  # type: ignore[no-untyped-call]
+        one_line(error.value)
+
+
+def test_a_file_that_is_a_number() -> None:
+    with pytest.raises(SceneError, match=r"polar_motion.file = 1: it is"):
+        earthspin.load_scene("polar-motion", {"polar_motion.file": 1})
+
+
+def test_a_body_by_position() -> None:
+    with pytest.raises(TypeError, match="Body\\(\\) takes its arguments by name"):
+        earthspin.Body("earth", 4e14)  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("name", 3),
+        ("naif", [399]),
+        ("naif", ("399",)),
+        ("interior", 3),
+        ("reference", None),
+        ("observed_wobble", 433.0),
+        ("relative_uncertainty", [1.0]),
+        ("relative_uncertainty", {"gm": "small"}),
+    ],
+)
+def test_a_body_whose_words_are_none(field: str, value: object) -> None:
+    with pytest.raises(earthspin.BodyError, match=field) as error:
+        earthspin.Body(**({"name": "x", "gm": 1e14} | {field: value}))
+    one_line(error.value)
+
+
+def test_numbers_that_overflow_are_an_error_and_no_warning() -> None:
+    with pytest.raises(UndefinedError, match="beyond what can be computed") as error:
+        earthspin.wobble_ladder(body={"from": "earth", "spin_period": 1e-300})
+    one_line(error.value)
+
+
+# --- what is repeated ----------------------------------------------------------------------------
+
+
+def test_what_is_given_is_cut_and_does_nothing_to_the_terminal() -> None:
+    evil = "\x1b[2J\x07\u202e\n" + "x" * 5000
+    for call in (
+        lambda: earthspin.torque_series(times=evil),
+        lambda: earthspin.load_scene(evil),
+        lambda: earthspin.load_scene("torque", {evil: 1}),
+        lambda: earthspin.load_scene("torque", {"body": {"name": evil}}),
+        lambda: earthspin.precession(ephemeris=evil + ".bsp"),
+        lambda: earthspin.polar_motion(file=evil + "/"),
+        lambda: earthspin.open(evil),
+        lambda: earthspin.accuracy(evil),
+        lambda: earthspin.stability(only=evil),
+        lambda: earthspin.Scene(compute=evil),
+    ):
+        with pytest.raises(EarthspinError) as error:
+            call()
+        line = one_line(error.value)
+        assert "\\x1b[2J" in line or "..." in line
+        assert max(map(len, re.findall("x+", line))) <= 260
+
+
+def test_a_message_is_the_same_for_what_is_short() -> None:
+    with pytest.raises(SceneError, match=r"^perturbers = 'mooon': did you mean 'moon'\?"):
+        earthspin.precession(perturbers="mooon")
