@@ -503,7 +503,7 @@ class Several:
         """Check each."""
         if isinstance(given, (set, frozenset)):
             raise where.error(given, "a set has no order; give a list")
-        if isinstance(given, np.ndarray):
+        if isinstance(given, np.ndarray) and given.ndim:
             given = list(given)
         if not isinstance(given, (list, tuple)):
             given = (given,)

@@ -32,6 +32,7 @@ NO_KERNEL = {"__init__", "_checks"}
 BORDER = (
     *("units", "dates", "bodies/body", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
+    *("engine/drafts", "engine/checksums", "engine/zarr_folder", "errors", "process"),
 )
 
 

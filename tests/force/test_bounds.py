@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from astropy import units as u
 
 import earthspin
 from earthspin import (
@@ -145,6 +146,12 @@ def nested(depth: int) -> list[object]:
 
 
 DEEP = [nested(3000), 10**400, 10**5000, "9" * 5000, [[1, 2], [3]], [], [[]], {1, 2}, object()]
+
+
+def test_one_path_with_a_unit_is_no_list_of_paths() -> None:
+    for given in (3 * u.kg, np.array(3.0)):
+        with pytest.raises(SceneError, match="it is the path of a file"):
+            earthspin.read_excitation(given)
 
 
 @pytest.mark.parametrize("given", DEEP, ids=range(len(DEEP)))

@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 import numpy as np
+import xarray as xr
 
-from earthspin.bodies import MOON
+from earthspin.bodies import EARTH, MOON
 from earthspin.checks.case import Cases, Distances, hard_because, held_against, refused
 from earthspin.checks.sky import BODY
 from earthspin.errors import UndefinedError
@@ -130,6 +131,53 @@ def _still_top() -> Distances:
 @refused("beyond what can be computed")
 def _too_far() -> None:
     spheroid_field([[1e300, 0.0, 1e300]])
+
+
+@CASES.case("39449 epochs of a thousand members held at once")
+@hard_because("each alone fits: the guard must count both")
+@refused("do not fit into memory")
+def _times_of_members() -> None:
+    radius = xr.DataArray(np.linspace(6.3e6, 6.4e6, 1000), dims="member")
+    body = EARTH.replace(radius=radius)
+    torque_series("2000-01-01", "2027-01-01", "6 h", body=body)
+
+
+@CASES.case("a microsecond through 150 years")
+@hard_because("counted, not made: a list of the times would end the process")
+@refused("606 PB")
+def _microseconds() -> None:
+    torque_series("1900-01-01", "2050-01-01", "1 us")
+
+
+@CASES.case("a number of five thousand digits")
+@hard_because("Python refuses to write it, and so does every message that repeats it")
+@refused("step = <int>")
+def _many_digits() -> None:
+    torque_series("2000-01-01", "2001-01-01", 10**5000)
+
+
+@CASES.case("lists in lists, three thousand deep")
+@hard_because("whatever walks through them runs out of its stack")
+@refused("moments = <list>")
+def _deep_lists() -> None:
+    inner: list[object] = []
+    for _ in range(3000):
+        inner = [inner]
+    free_rotor(moments=inner, omega=[1, 0, 1], duration="1 s")
+
+
+@CASES.case("a scene that is a device without an end")
+@hard_because("/dev/zero is read until the memory is full")
+@refused("a device or a pipe")
+def _endless() -> None:
+    run("/dev/zero")
+
+
+@CASES.case("a name that would clear the terminal")
+@hard_because("what is given is repeated in the message, its escapes with it")
+@refused("\\x1b[2J")
+def _escapes() -> None:
+    run("\x1b[2J\x07")
 
 
 @CASES.case("a question that does not exist")

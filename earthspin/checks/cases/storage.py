@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from earthspin.checks.case import (
 )
 from earthspin.engine import drafts, store
 from earthspin.engine.labels import Variable, build
+from earthspin.errors import OutputError
 
 CASES = Cases("storage")
 
@@ -126,3 +128,107 @@ def _blocked() -> None:
 def _other_ending() -> None:
     with _folder() as folder, without_folder(folder / "r.txt"):
         store.write(_small(), folder / "r.txt")
+
+
+def _answer() -> xr.DataTree:
+    """A small answer with a section."""
+    n = np.arange(500)
+    root = _small().assign_attrs(title="t", note="µ")
+    return xr.DataTree.from_dict({"/": root, "more": xr.Dataset({"y": ("n", n * 1.5)}, {"n": n})})
+
+
+def _same(found: xr.Dataset | xr.DataTree, wanted: xr.Dataset | xr.DataTree) -> bool:
+    return type(found) is type(wanted) and found.identical(wanted)  # type: ignore[arg-type]
+
+
+def _flipped(path: Path, place: int) -> None:
+    """Flip one bit of a file."""
+    bits = bytearray(path.read_bytes())
+    place %= 8 * len(bits)
+    bits[place // 8] ^= 1 << (place % 8)
+    path.write_bytes(bits)
+
+
+@CASES.case("120 flipped bits in a netCDF file, one at a time")
+@hard_because("the format guards its numbers alone: names, attributes and words go unguarded")
+@held_against("the answer as it was written, or a refusal: of other answers", bound=0.0)
+def _flipped_netcdf() -> Distances:
+    rng = np.random.default_rng(1)
+    with _folder() as folder:
+        answer = _answer()
+        whole = store.write(answer, folder / "r.nc").read_bytes()
+        for place in rng.integers(0, 8 * len(whole), 120).tolist():
+            (folder / "r.nc").write_bytes(whole)
+            _flipped(folder / "r.nc", place)
+            with suppress(OutputError):
+                yield not _same(store.open(folder / "r.nc"), answer)
+        (folder / "r.nc").write_bytes(whole)
+        yield not _same(store.open(folder / "r.nc"), answer)
+
+
+@CASES.case("threads that write and read netCDF")
+@hard_because("the library underneath is not made for more than one, and ends the process")
+@held_against("what each of four threads has written, ten times", bound=0.0)
+def _threads() -> Distances:
+    def work(number: int) -> list[bool]:
+        turns = [float(number * 10 + turn) for turn in range(10)]
+        path = folder / f"{number}.nc"
+        return [not _same(store.open(store.write(_small(n), path)), _small(n)) for n in turns]
+
+    with _folder() as folder, ThreadPoolExecutor(4) as pool:
+        yield from pool.map(work, range(4))
+
+
+@CASES.case("a writer of another container at work on the same file")
+@hard_because("process ids say nothing there: the other would pass for dead, and lose its draft")
+@held_against("the last to finish, whole, and nothing beside it", bound=0.0)
+def _two_writers() -> Distances:
+    with _folder() as folder:
+        path = folder / "r.zarr"
+        with drafts.replacing(path) as draft:
+            store.write(_small(1.0), path)
+            store.write(_small(2.0), draft)
+        yield not _same(store.open(path), _small(2.0))
+        yield len({p.name for p in folder.iterdir()} ^ {"r.zarr"})
+
+
+@CASES.case("a Zarr store that has lost a chunk")
+@hard_because("the format reads what is not there as zeros, and dates as of the year 2000")
+@refused("is missing")
+def _lost_chunk() -> None:
+    with _folder() as folder, without_folder(folder / "r.zarr"):
+        path = store.write(_answer(), folder / "r.zarr")
+        (path / "more" / "y" / "0").unlink()
+        store.verify(path)
+
+
+@CASES.case("a Zarr store with a bit flipped in a chunk")
+@hard_because("most bits of a number change nothing that one would see")
+@refused("cannot be read")
+def _flipped_chunk() -> None:
+    with _folder() as folder, without_folder(folder / "r.zarr"):
+        path = store.write(_answer(), folder / "r.zarr")
+        _flipped(path / "more" / "y" / "0", 4001)
+        store.verify(path)
+
+
+@CASES.case("a unit that was changed in a stored result")
+@hard_because("it is an attribute, which no format guards")
+@refused("not what was written")
+def _changed_unit() -> None:
+    with _folder() as folder, without_folder(folder / "r.zarr"):
+        path = store.write(_small(), folder / "r.zarr")
+        attributes = path / "x" / ".zattrs"
+        attributes.write_text(attributes.read_text().replace('"m"', '"km"'))
+        store.open(path)
+
+
+@CASES.case("a Zarr store that is replaced while it is read")
+@hard_because("half of the numbers would be of the one, half of the other")
+@refused("open it again")
+def _replaced_store() -> None:
+    with _folder() as folder, without_folder(folder / "r.zarr"):
+        path = store.write(_small(1.0), folder / "r.zarr")
+        before = store.open(path)
+        store.write(_small(2.0), path)
+        before["x"].load()
