@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin._version import __version__, version
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.part import BLOCK, Block, Part
+from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.plan import Plan, plan
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import UndefinedError
@@ -135,13 +136,20 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
         inputs = {name: values[name] for name in one.needs}
         inputs |= {name: values[name] for name in one.uses if name in values}
         begun = time.perf_counter()
-        values[one.name] = _in_range(one, inputs)
+        with in_range(one.name):
+            values[one.name] = one(**inputs)
         seconds[one.name] = time.perf_counter() - begun
     return Ran(replace(planned, seconds=seconds), values)
 
 
-def _in_range(one: Part[..., Any], inputs: Mapping[str, Any]) -> Any:
-    """Run a part; numbers that overflow are an error, never infinity with a warning beside it.
+@contextmanager
+def in_range(what: str) -> Iterator[None]:
+    """Make numbers that overflow an error, never infinity with a warning; also a decorator.
+
+    Parameters
+    ----------
+    what : str
+        What is computed, for the message.
 
     Raises
     ------
@@ -152,10 +160,10 @@ def _in_range(one: Part[..., Any], inputs: Mapping[str, Any]) -> Any:
 
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
-            return one(**inputs)
+            yield
     except ArithmeticError as error:
         raise UndefinedError(
-            f"numbers go beyond what can be computed ({one.name}: {error}); check their sizes"
+            f"numbers go beyond what can be computed ({what}: {error}); check their sizes"
         ) from error
 
 

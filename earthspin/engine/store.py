@@ -385,7 +385,7 @@ def _zarr_encoding(node: xr.Dataset, *, chunked: bool = False) -> dict[str, dict
         if variable.dtype.kind == "f":
             entry["_FillValue"] = np.nan
         if variable.dtype.kind in "fiubM":
-            # Bytes of equal weight side by side pack well; the packer sees no numbers behind CRC-32.
+            # Bytes of equal weight side by side pack well; behind CRC-32 are no numbers to see.
             entry["filters"] = [Shuffle(variable.dtype.itemsize), CRC32()]
         encoding[str(name)] = entry
     return encoding

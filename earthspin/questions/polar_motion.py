@@ -19,6 +19,7 @@ from earthspin.engine.labels import Variable, build, si, with_error, without_err
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.run import in_range
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
 from earthspin.units import (
@@ -378,6 +379,7 @@ _DAYS = Number("d", "433 d", above=0.0)
 _PURE = Number("", "100", above=0.0)
 
 
+@in_range("fit_chandler")
 def fit_chandler(
     ds: xr.Dataset,
     *,
@@ -485,6 +487,7 @@ POLE = without_error(
 )
 
 
+@in_range("excitation")
 def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100.0) -> xr.Dataset:
     """Excitation that polar motion asks for: exact means over each step.
 
@@ -534,6 +537,7 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
 _Q = Where("quality_factor")
 
 
+@in_range("polar_motion_from")
 def polar_motion_from(
     chi: xr.Dataset,
     *,
