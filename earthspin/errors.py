@@ -9,6 +9,7 @@ from __future__ import annotations
 import difflib
 import os
 import stat
+import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -335,6 +336,17 @@ def _named(path: object) -> str:
     """A path as it was given; of a very long one the end."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
+
+
+def is_one_line(text: str) -> bool:
+    """Whether a text is one line in which nothing is an order to a terminal.
+
+    Parameters
+    ----------
+    text : str
+    """
+    orders = ("Cc", "Cf", "Cs", "Zl", "Zp")
+    return text.isprintable() or not any(unicodedata.category(c) in orders for c in text)
 
 
 def printable(text: str) -> str:

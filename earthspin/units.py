@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import EarthspinError, UnitsError, Where, nearest
+from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest
 
 FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -452,7 +452,7 @@ class Text:
 
     def read(self, given: object, where: Where) -> str:
         """Check."""
-        if not isinstance(given, str) or not given.isprintable():
+        if not isinstance(given, str) or not is_one_line(given):
             raise where.error(given, f"it is {self.words}")
         return given
 

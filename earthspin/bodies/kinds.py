@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from earthspin.constants import Constant
-from earthspin.errors import EarthspinError, Where
+from earthspin.errors import EarthspinError, Where, is_one_line
 
 #: What a scene file can hold. The border itself is loaded when there is something to read.
 Plain = Any
@@ -63,7 +63,7 @@ class Line:
 
     def read(self, given: object, where: Where) -> str:
         """Check."""
-        if not isinstance(given, str) or not given.isprintable():
+        if not isinstance(given, str) or not is_one_line(given):
             raise where.error(given, f"it is {self.words}")
         return given
 
