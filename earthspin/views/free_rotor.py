@@ -1,4 +1,4 @@
-"""A body without torque: constants of its motion, the herpolhode, Poinsot's solids."""
+"""A body without torque: constants of its motion, the herpolhode, Poinsot's pictures."""
 
 from __future__ import annotations
 
@@ -49,21 +49,24 @@ def tables(tree: Result) -> list[Table]:
         advance = (
             f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
             if "herpolhode_advance" in poinsot
-            else "none (no round ends)"
+            else "none (the polhode has no period)"
         )
         rows += [
             ("period of the polhode, s", f"{float(poinsot.polhode_period):.10g}"),
-            ("invariable plane, rad/s", f"{float(poinsot.invariable_plane_distance):.10g}"),
-            ("herpolhode between, rad/s", f"{inner:.8g} and {outer:.8g}"),
-            ("turn of the herpolhode per round, deg", advance),
+            (
+                "distance of the invariable plane, rad/s",
+                f"{float(poinsot.invariable_plane_distance):.10g}",
+            ),
+            ("radii of the herpolhode, rad/s", f"{inner:.8g} and {outer:.8g}"),
+            ("advance of the herpolhode per period, deg", advance),
             ("growth rate about x, y, z, 1/s", listed(poinsot.growth_rate.values)),
         ]
     table = Table(
         "Free rotor",
-        ("", "value"),
+        ("quantity", "value"),
         rows,
-        "Constants of the motion; the growth rate is that of a small tilt off each axis, 0 where "
-        "the axis is stable.",
+        "All values are constants of the motion. The growth rate is that of a small tilt away from "
+        "each axis; it is 0 if rotation about the axis is stable.",
     )
     return [table]
 
@@ -74,21 +77,22 @@ def tables(tree: Result) -> list[Table]:
 @style()
 def drawings(tree: Result) -> list[Drawing]:
     """Angular velocity in the body in time, and the herpolhode."""
-    caption = "Components along the principal axes."
+    caption = "Components of the angular velocity along the principal axes."
     shown = drawn("Angular velocity in the body", caption, plot_components(tree))
     return [shown, *of_sections(tree, {"poinsot": _herpolhode})]
 
 
 def _herpolhode(tree: Result) -> Drawing:
     poinsot = needed(tree, "poinsot")
-    returns = "It does not come back to where it was."
+    returns = "The curve does not come back to its start."
     if "herpolhode_advance" in poinsot:
         turned = float(np.degrees(poinsot.herpolhode_advance))
         period = float(poinsot.polhode_period)
-        returns = f"A round of the polhode, {period:.4g} s, turns it by {turned:.4f} deg."
+        returns = f"In one period of the polhode, {period:.4g} s, it advances by {turned:.4f} deg."
     return drawn(
         "Herpolhode",
-        "The tip of the angular velocity in the invariable plane, between its bounds (dashed). "
+        "Path of the tip of the angular velocity in the invariable plane, between its two bounding "
+        "circles (dashed). "
         f"{returns}",
         plot_herpolhode(tree),
         square=True,
@@ -153,9 +157,10 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
     polhode = poinsot.polhode.values
     return Solid(
         title="Two ellipsoids and a polhode",
-        caption="In the body: the angular velocity stays on the inertia ellipsoid (blue, constant "
-        "energy) and on the momentum ellipsoid (red), so it runs along the curve in which they "
-        "meet, and along its mirror image for the opposite start.",
+        caption="Seen in the body, the angular velocity stays on the inertia ellipsoid (blue, "
+        "constant energy) and on the momentum ellipsoid (red, constant angular momentum). So it "
+        "moves along their intersection, the polhode (black). The grey curve is the polhode of the "
+        "opposite start.",
         items=[
             mesh(ellipsoid(inertia), BLUE),
             mesh(ellipsoid(momentum), RED, opacity=0.12),
@@ -181,9 +186,10 @@ def rolling_ellipsoid(tree: Result) -> Solid:
     half = 1.15 * max(outer, float(semi_axes.max()))
     return Solid(
         title="The ellipsoid rolls on the invariable plane",
-        caption="In space, with the angular momentum upright: the inertia ellipsoid touches a "
-        "fixed plane at the tip of the angular velocity and rolls on it without slipping. It is "
-        "marked along the polhode (black), the plane along the herpolhode (red).",
+        caption="Seen in space, with the angular momentum vertical, the inertia ellipsoid touches "
+        "a fixed plane at the tip of the angular velocity and rolls on it without slipping. The "
+        "point of contact draws the polhode on the ellipsoid (black) and the herpolhode on the "
+        "plane (red).",
         items=[
             mesh(ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
             line(poinsot.polhode.values, BLACK, width=2.5, frame="body"),
@@ -207,17 +213,18 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
     speed = float(np.linalg.norm(omega[0]))
     axis = rotor.figure_axis(times)
     inside = float(rotor.theta) < float(rotor.alpha)
-    roll = "inside out around" if inside else "around the outside of"
+    roll = "with its inner side on" if inside else "on the outside of"
     between = (
-        "Oblate: the angular momentum lies between the axis and the angular velocity."
+        "The body is oblate: the angular momentum lies between the axis and the angular velocity."
         if inside
-        else "Prolate: the angular velocity lies between the angular momentum and the axis."
+        else "The body is prolate: the angular velocity lies between the angular momentum and the "
+        "axis."
     )
     return Solid(
         title=title,
-        caption="The body cone (red), fixed in the body about its axis, rolls "
-        f"{roll} the space cone (blue) about the angular momentum. They touch along the angular "
-        f"velocity (green). {between}",
+        caption="The body cone (red) is fixed in the body, about its axis; the space cone (blue) "
+        f"is fixed in space, about the angular momentum. The body cone rolls {roll} the space cone "
+        f"without slipping, and they touch along the angular velocity (green). {between}",
         items=[
             mesh(cone(abs(float(rotor.space_cone)), speed), BLUE, opacity=0.2),
             mesh(cone(float(rotor.alpha), speed), RED, frame="body", opacity=0.2),

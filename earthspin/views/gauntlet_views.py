@@ -31,7 +31,7 @@ def tally(result: xr.Dataset) -> dict[str, int]:
 
 
 def tally_line(result: xr.Dataset) -> str:
-    """How many hold, are refused and fail, in one line."""
+    """Number of cases that hold, are refused and fail, in one line."""
     count = tally(result)
     must = int(result.must_hold.sum())
     return (
@@ -42,7 +42,7 @@ def tally_line(result: xr.Dataset) -> str:
 
 
 def print_verdicts(result: xr.Dataset) -> None:
-    """Print the tables, why a case fails, and the tally.
+    """Print the tables, the reasons of failures, and the tally.
 
     Parameters
     ----------

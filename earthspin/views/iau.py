@@ -1,4 +1,4 @@
-"""Our pole beside the IAU's: the budget, the residuals, the nutations, the angles."""
+"""The computed pole compared with the IAU's: budget, residuals, nutations, angles."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DRAWN = ("residuals_by_model", "residual_sizes", "nutation", "core")
 
 MODELS = {
     "first-order": "first order, angular-momentum axis",
-    "rigid": "all effects switched on, figure axis",
+    "rigid": "all effects that are switched on, figure axis",
     "nonrigid": "the same with the non-rigid response",
 }
 
@@ -51,7 +51,7 @@ def tables(tree: Result) -> list[Table]:
 
 
 def budget(tree: Result) -> Table:
-    """Rates by effect, the sum, and what is left."""
+    """Rates by effect, their sum, and the difference from the IAU."""
     rates = answer_of(tree).map(lambda rate: rate * MAS_PER_CENTURY)
     rows = []
     for effect, of in along(rates, "effect"):
@@ -66,7 +66,7 @@ def budget(tree: Result) -> Table:
             f"{float(rates.omega_rate_total):+.3f}",
         ),
         (
-            "closure, after the published non-linear term",
+            "closure (sum + non-linear term - IAU)",
             f"{float(rates.closure):+.3f}",
             "",
             f"{float(rates.omega_closure):+.3f}",
@@ -76,45 +76,48 @@ def budget(tree: Result) -> Table:
         "Rates at J2000.0, effect by effect",
         ("effect", "psi_A, mas/cy", "published", "omega_A, mas/cy"),
         rows,
-        "Each share is measured by switching the effect off; the first order is what remains. "
-        "Published: Capitaine, Wallace & Chapront 2003, table 3; in the row of the sum, IAU 2006. "
-        "H is fixed, not fitted. H itself comes from observed precession, so that closure tests "
-        "consistency, not the theory. The same analysis of the IAU's own pole misses its published "
-        f"rate by {float(rates.psi_rate_analysis_error):.2f} mas/cy.",
+        "The contribution of each effect is measured by switching it off; the first order is what "
+        "remains with all of them off. Published values are from Capitaine, Wallace & Chapront "
+        "2003, table 3; in the row of the sum, from IAU 2006. The closure is the computed sum plus "
+        "the published non-linear term minus the IAU rate. H is fixed, not fitted; it comes from "
+        "observed precession, so the closure tests consistency, not the theory. The same analysis "
+        "of the IAU's own pole differs from its published rate by "
+        f"{float(rates.psi_rate_analysis_error):.2f} mas/cy.",
     )
 
 
 def residuals(tree: Result) -> Table:
-    """What is left in time, model by model."""
+    """Size of the residuals in time, model by model."""
     sizes, series = needed(tree, "residual_sizes"), section(tree, "residuals_by_model")
     names = ("residual_rms", "residual_maximum", "residual_rms_unfitted")
     dates = "" if series is None else f", {date(series.time[0])} to {date(series.time[-1])}"
     return Table(
-        "Our pole less that of IAU 2006/2000A",
-        ("model", "rms, mas", "largest, mas", "rms, nothing fitted"),
+        "Computed pole minus that of IAU 2006/2000A",
+        ("model", "rms, mas", "largest, mas", "rms without a fit, mas"),
         [
             (MODELS[model], *(" / ".join(f"{v:.3f}" for v in of[name].values) for name in names))
             for model, of in along(sizes, "model")
         ],
-        f"dpsi sin(eps) / deps{dates}. Fitted and taken away: a constant and a rate in "
-        "each. What no integrator can remove is that the body is not rigid.",
+        f"Each cell gives dpsi sin(eps) / deps{dates}. A constant and a rate were fitted to each "
+        "and removed, except in the last column. The residuals of the first two models are large "
+        "because the Earth is not rigid; no better integration can remove them.",
     )
 
 
 def nutation(tree: Result) -> Table:
-    """Circular terms of both poles."""
+    """Largest circular terms of both poles."""
     return Table(
         "The largest nutations",
         (
             "l l' F D node",
             "period, d",
-            "ours",
+            "rigid",
             "IAU",
-            "out",
+            "IAU, out",
             "neighbour",
             "ratio",
-            "out",
-            "left, uas",
+            "ratio, out",
+            "residual, uas",
         ),
         [
             (
@@ -130,22 +133,23 @@ def nutation(tree: Result) -> Table:
             )
             for term, of in along(needed(tree, "nutation"), "term")
         ],
-        "Circular amplitudes in mas, in phase unless marked 'out'; a negative period is "
-        "retrograde. Our amplitudes are those of a rigid body; the ratio is that of IAU 2000A to "
-        "ours, and 'left' is what the fitted resonance form does not explain. Where 150 years do "
-        "not part a term from a neighbour, both amplitudes hold that of the neighbour as well; the "
-        "column 'neighbour' gives its share in the amplitude of IAU 2000A: "
-        f"{_neighbours(tree)}. The prograde year is not fitted, because IAU 2000A "
-        "holds an atmospheric tide of 0.11 mas there.",
+        "Circular amplitudes are in mas, and in phase unless marked 'out' (out of phase); a "
+        "negative period is retrograde. 'rigid' is the amplitude computed here for a rigid body, "
+        "'IAU' that of IAU 2000A, 'ratio' the second divided by the first, and 'residual' the "
+        "part that the fitted resonance formula does not explain. Where 150 years are too short to "
+        "separate a term from a neighbour, both amplitudes include the neighbour; the column "
+        "'neighbour' gives its share in the amplitude of IAU 2000A: "
+        f"{_neighbours(tree)}. The prograde annual term is not fitted, because IAU 2000A "
+        "includes an atmospheric tide of 0.11 mas there.",
     )
 
 
 def _neighbours(tree: Result) -> str:
-    """Which term stands beside which."""
+    """Terms that have a neighbour, each with it."""
     pairs = [
         (term, str(of.neighbour.values)) for term, of in along(needed(tree, "nutation"), "term")
     ]
-    return "; ".join(f"{beside} beside {term}" for term, beside in pairs if beside)
+    return "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
 
 
 def core(tree: Result) -> Table:
@@ -153,30 +157,31 @@ def core(tree: Result) -> Table:
     of = needed(tree, "core")
     return Table(
         "Free core nutation in IAU 2000A",
-        ("", "recovered", "built in"),
+        ("quantity", "recovered", "built into IAU 2000A"),
         [
             ("period in space, d", f"{float(of.core_nutation_period):.2f}", "-430.21"),
             ("quality factor", f"{float(of.core_nutation_quality):.0f}", "20,000"),
         ],
-        "IAU 2000A is a response times a rigid series: the fit recovers what was built into it and "
-        f"measures nothing anew. All terms: {float(of.response_rms):.1f} uas rms left, at most "
-        f"{float(of.response_maximum):.0f}.",
+        "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
+        "was built into it; it is no new measurement. The residuals of the fit over all terms are "
+        f"{float(of.response_rms):.1f} uas rms, and {float(of.response_maximum):.0f} uas at most.",
     )
 
 
 def angles(tree: Result) -> Table:
-    """Polynomials of the angles."""
+    """Polynomials of the angles of precession."""
     return Table(
         "Angles of precession",
-        ("angle", "arcsec", "t", "t2", "t3"),
+        ("angle", "constant", "t", "t2", "t3"),
         [
             (f"{angle}, {whose}", *(f"{of[name].values[degree]:.6f}" for degree in range(4)))
             for angle, of in along(needed(tree, "angles"), "angle")
-            for whose, name in (("ours", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
+            for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
         ],
-        "Coefficients in arcsec, t in Julian centuries from J2000.0, over the stretch that was "
-        "analysed. eps_A, chi_A and p_A need the ecliptic of date, which torques cannot give: it "
-        "is that of IAU 2006. The IAU's line is its own angles, fitted alike.",
+        "Coefficients are in arcsec, with t in Julian centuries from J2000.0, fitted over the "
+        "analysed span. eps_A, chi_A and p_A need the ecliptic of date, which torques cannot give; "
+        "it is taken from IAU 2006. The rows marked IAU are the angles of IAU 2006, fitted in the "
+        "same way.",
     )
 
 
@@ -188,11 +193,11 @@ def flattening(tree: Result) -> Table:
         shown = f"{float(of.flattening):.10f}" + (f" ± {error:.10f}" if error else "")
         rows.append((origin, shown, f"{float(of.polar_moment):.7f}"))
     return Table(
-        "H and C that the rate implies",
+        "H and C from the rate of precession",
         ("origin", "H = (C-A)/C", "C/(M a2)"),
         rows,
-        "PREM gives C from densities and not from the pole, though the observed moment was among "
-        "its data; its H is J2 over that C.",
+        "PREM gives C from densities, independently of the pole, although the observed moment was "
+        "among its data; its H is J2 divided by that C/(M a2).",
     )
 
 
@@ -204,26 +209,29 @@ def drawings(tree: Result) -> list[Drawing]:
     """Budget, residuals and ratios."""
     shown = drawn(
         "The budget",
-        "Contribution of each effect to the rate of psi_A, measured by switching it off, "
-        "beside the published one.",
+        "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
+        "and the published contribution. Dashed: the closure.",
         plot_budget(tree),
     )
-    makers = {"residuals_by_model": _residuals_in_time, "nutation": _answer_of_the_body}
+    makers = {"residuals_by_model": _residuals_in_time, "nutation": _response_of_the_earth}
     return [shown, *of_sections(tree, makers)]
 
 
 def _residuals_in_time(tree: Result) -> Drawing:
-    caption = "Our pole less the IAU's, with what was fitted taken off."
+    caption = "The computed pole minus the IAU's; a fitted constant and rate are removed."
     return Drawing("Residuals in time", caption, plot_pole_residuals(tree))
 
 
-def _answer_of_the_body(tree: Result) -> Drawing:
-    caption = "IAU 2000A over our rigid amplitudes, and the fitted resonance form."
-    return drawn("How the yielding body answers", caption, plot_nutation_ratio(tree))
+def _response_of_the_earth(tree: Result) -> Drawing:
+    caption = (
+        "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
+        "resonance formula."
+    )
+    return drawn("Response of the deformable Earth", caption, plot_nutation_ratio(tree))
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """How far each effect is from its published size, and the closure.
+    """Size of each effect, measured and published, and the closure.
 
     Parameters
     ----------
@@ -247,13 +255,13 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_yticks(place, effects)
     ax.set_xscale("log")
     ax.set_xlim(1e-3, 1e4)
-    ax.set_xlabel("size of the contribution to the rate of psi_A, mas a century")
+    ax.set_xlabel("size of the contribution to the rate of psi_A (mas per century)")
     legend_above(ax)
     return ax
 
 
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Our pole less the IAU's for three models, one above the other.
+    """The computed pole minus the IAU's for three models, one above the other.
 
     Parameters
     ----------
@@ -280,7 +288,7 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Ratio of IAU 2000A to our rigid amplitudes against frequency, and the fitted response.
+    """Ratio of IAU 2000A to the computed rigid amplitudes by frequency, and the fitted response.
 
     Parameters
     ----------
@@ -300,7 +308,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
         terms.ratio_in_phase,
         s=10 + 25 * np.log10(1 + np.abs(terms.rigid_in_phase.values)),
         color=BLUE,
-        label="IAU 2000A over ours",
+        label="IAU 2000A / rigid",
         zorder=3,
     )
     words, fitted = "fitted response", terms.transfer_in_phase
@@ -308,7 +316,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_xscale("symlog", linthresh=0.1)
     ax.set_xticks([-27, -13, -2, -1, -0.2, -0.05, 0.05, 0.2, 1, 2, 13, 27])
     ax.set_xticklabels([f"{t:g}" for t in ax.get_xticks()], fontsize=7)
-    ax.set_xlabel("cycles a year in space (negative: retrograde)")
+    ax.set_xlabel("cycles per year in space (negative: retrograde)")
     ax.set_ylabel("ratio, in phase")
     ax.legend(loc="upper right")
     return ax

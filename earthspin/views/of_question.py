@@ -1,4 +1,4 @@
-"""From an answer to the views of its question, which stand in the file of its word."""
+"""From an answer to the views of its question, in the module of that name."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def tables_for(tree: Result) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it; of sections that are not there, nothing is shown.
+        As `run` or `run_tree` give it; sections that it does not hold are not shown.
     """
     answer = answer_of(tree)
     tables: list[Table] = _view(tree).tables(tree)
@@ -49,7 +49,7 @@ def drawings_for(tree: Result) -> list[Drawing]:
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Pictures of an answer that can be turned and played, where there are any."""
+    """Three-dimensional pictures of an answer, which can be turned and played, if it has any."""
     view = _view(tree)
     solids: list[Solid] = view.solids(tree) if hasattr(view, "solids") else []
     return solids
@@ -61,12 +61,12 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     Parameters
     ----------
     answer : Dataset
-        Sections that its figures stand on are run for it.
+        The sections that its figures need are run for it.
 
     Raises
     ------
     SceneError
-        If it does not carry the scene that made it.
+        If the answer does not carry the scene that made it.
     """
     there = plan(answer, "all").sections
     applies = [name for name in getattr(_view(answer), "DRAWN", ()) if name in there]
@@ -82,7 +82,7 @@ def _alike(section: xr.Dataset, answer: xr.Dataset) -> xr.Dataset:
 
 
 def print_tables(tree: Result) -> None:
-    """Print the tables of an answer, and what ran for it, to the terminal."""
+    """Print the tables of an answer, and the parts that ran for it, to the terminal."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -92,7 +92,7 @@ def print_tables(tree: Result) -> None:
 
 
 def scene_page(tree: Result) -> str:
-    """Page of an answer: its tables, figures and solids, and what ran for it.
+    """Page of an answer: its tables, figures and solids, and the parts that ran for it.
 
     Returns
     -------
@@ -139,7 +139,7 @@ def page_of(
 
 
 def what_ran(*trees: Result) -> list[Table]:
-    """What ran for some answers and, of one answer, what was left out and why.
+    """Parts that ran for some answers and, for a single one, those left out and why.
 
     Returns
     -------
@@ -155,8 +155,14 @@ def what_ran(*trees: Result) -> list[Table]:
             rows.append((part, reason, f"{float(of.run_time) * 1e3:.1f}"))
         elif len(trees) == 1 and reason != NOT_ASKED:
             rows.append((part, f"left out: {reason}", ""))
-    title = "What ran, and what was left out" if len(trees) == 1 else "What ran"
-    table = Table(title, ("part", "", "ms"), rows, words=(0, 1), cost=f"{total:.2f} s in all")
+    title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
+    table = Table(
+        title,
+        ("part", "what it computes", "ms"),
+        rows,
+        words=(0, 1),
+        cost=f"{total:.2f} s in total",
+    )
     return [table] if plans else []
 
 
@@ -167,7 +173,7 @@ def _view(tree: Result) -> ModuleType:
 
 
 def _accuracy(answer: xr.Dataset) -> Table:
-    """What was asked for, what is claimed, and the settings that it took."""
+    """Error asked for, error claimed, and the settings chosen for it."""
     unit = answer.error_asked.attrs["units"]
     shown = "" if unit == "1" else f", {unit}"
     row = (
@@ -176,7 +182,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
         f"{float(answer.error_estimated):.3g}",
         f"{int(answer.evaluations):,}",
     )
-    headers = ("chosen", f"asked{shown}", f"claimed{shown}", "evaluations")
+    headers = ("method chosen", f"error asked for{shown}", f"error claimed{shown}", "evaluations")
     return Table("Accuracy", headers, [row])
 
 
@@ -187,5 +193,5 @@ def _footer(answer: xr.Dataset) -> str:
     if "ephemeris" in attrs:
         words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
     if attrs["references"]:
-        words += f" Numbers of the bodies: {attrs['references']}."
+        words += f" Sources of the bodies' numbers: {attrs['references']}."
     return words

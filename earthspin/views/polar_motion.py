@@ -1,4 +1,4 @@
-"""Observed polar motion: the path of the pole, its spectra, the free wobble in it."""
+"""Observed polar motion: the path of the pole, its spectra, and its free wobble."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ DRAWN = ("chandler", "spectrum")
 
 
 def tables(tree: Result) -> list[Table]:
-    """The series, the wobble observed in it, and what the text says of it."""
+    """The series, the observed wobble, and the statements of the source text about it."""
     return [
         series(tree),
         *of_sections(tree, {"chandler": observed}),
@@ -47,12 +47,12 @@ def tables(tree: Result) -> list[Table]:
 
 
 def series(tree: Result) -> Table:
-    """What the table of polar motion holds."""
+    """Range of the observed coordinates of the pole."""
     answer = answer_of(tree)
     first, last = date(answer.time[0]), date(answer.time[-1])
     return Table(
         "Polar motion",
-        ("arcsec", "least", "largest", "last"),
+        ("coordinate, arcsec", "smallest", "largest", "last"),
         [
             (
                 name,
@@ -62,7 +62,8 @@ def series(tree: Result) -> Table:
             )
             for name in ("x", "y")
         ],
-        f"{answer.time.size} days from {first} to {last}, {answer.x.attrs['references']}.",
+        f"{answer.time.size} epochs from {first} to {last}; source: "
+        f"{answer.x.attrs['references']}.",
     )
 
 
@@ -82,15 +83,16 @@ def observed(tree: Result) -> Table:
     annual = f"{float(found.annual_amplitude.median()):.1f}"
     return Table(
         "The observed wobble",
-        ("", "value"),
-        [*rows, ("annual, prograde, mas (median)", annual)],
-        f"By {found.chandler_period.attrs['method']}; 95 % intervals. Amplitudes in windows of "
-        "one beat of the free and the annual wobble, by the year of the window's middle.",
+        ("quantity", "value"),
+        [*rows, ("median amplitude of the prograde annual wobble, mas", annual)],
+        f"Method: {found.chandler_period.attrs['method']}. Errors and intervals are 95 %. "
+        "Amplitudes are means over windows of one beat of the free and the annual wobble; the year "
+        "is that of the middle of the window.",
     )
 
 
 def statements(tree: Result) -> Table:
-    """What the source text says of the wobble, and when it was true."""
+    """Statements of the source text about the wobble, and the years in which they held."""
     found, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(found.chandler_period), float(found.chandler_period_error)
     amplitude = found.chandler_amplitude
@@ -108,10 +110,11 @@ def statements(tree: Result) -> Table:
     ]
     within = "within the error" if abs(434 - period) <= error else "outside the error"
     return Table(
-        "The text's statements (I.6)",
-        ("statement", "observed", "true (within a quarter)"),
+        "Statements of the source text (I.6)",
+        ("statement", "observed", "true within 25 %"),
         [*rows, ("period of 434 days", with_error(period, error), within)],
-        "The free wobble alone; the annual one comes on top of it.",
+        'The source text is Appendix I, "Rigid Body Dynamics". The observed values are those of '
+        "the free wobble alone, without the annual one.",
     )
 
 
@@ -149,11 +152,14 @@ def amplitude_and_phase(tree: Result) -> Drawing:
     middles = needed(tree, "chandler").middle.values
     low = np.datetime64("2018-01-01")
     died = (
-        " The free wobble all but died near 2018 and came back with another phase."
+        " The free wobble almost vanished near 2018 and returned with a different phase."
         if middles[0] < low < middles[-1]
         else ""
     )
-    caption = f"In windows of one beat.{died}"
+    caption = (
+        "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
+        f"and the annual wobble.{died}"
+    )
     return Drawing("Amplitude and phase in time", caption, figure)
 
 
@@ -161,8 +167,9 @@ def amplitude_and_phase(tree: Result) -> Drawing:
 def spectra(tree: Result) -> Drawing:
     """The spectra."""
     return drawn(
-        "Prograde and retrograde",
-        "The free wobble turns one way only, with the spin; the year is nearly so.",
+        "Prograde and retrograde spectra",
+        "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
+        "spin; the annual wobble is mostly prograde.",
         plot_spectra(tree),
     )
 
@@ -172,7 +179,8 @@ def path(tree: Result, years: float | None = 6.0) -> Drawing:
     """The path of the pole."""
     return drawn(
         "The path of the pole",
-        "Annual and free wobble beat every 6.4 years; the spiral's middle drifts.",
+        "Path of the pole over the ground. The annual and the free wobble beat with a period of "
+        "6.4 years, and the mean position drifts.",
         plot_polhode(tree, years=years),
     )
 
@@ -188,7 +196,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     result : Dataset or DataTree
         `x`, `y` over `time`; `polar_radius` for metres.
     years : float, optional
-        The last so many; all with None. For any other window select it before:
+        How many years to draw, up to the last date; all with None. For other years, select them:
         ``result.sel(time=slice("1990", "1996"))``.
     ax : Axes, optional
     """
@@ -272,7 +280,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Amplitude of the free wobble as observed and as an excitation drives it.
+    """Amplitude of the free wobble, observed and driven by an excitation.
 
     Parameters
     ----------
@@ -317,7 +325,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _free_wobble(result: Result) -> tuple[xr.Dataset, np.ndarray, np.ndarray, np.ndarray]:
-    """What was found, the middles of its windows, the amplitude and its error."""
+    """The fit, the middles of its windows, the amplitude and its error."""
     found = result if "chandler_amplitude" in result else needed(result, "chandler")
     assert isinstance(found, xr.Dataset)
     time = found[found.chandler_amplitude.dims[0]].values

@@ -1,4 +1,4 @@
-"""The path of the axes: where they stand, and how the pole nods."""
+"""The path of the axes: their directions, and the nutation of the pole."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def tables(tree: Result) -> list[Table]:
-    """Where the axes stand at the ends of the path."""
+    """Directions of the axes at both ends of the path."""
     answer = answer_of(tree)
     angles = ["psi", "eps"] if "psi" in answer else []
     rows = []
@@ -33,8 +33,9 @@ def tables(tree: Result) -> list[Table]:
         "The axes in the GCRS",
         ("TDB, axis", "X", "Y", *(f"{name}, arcsec" for name in angles)),
         rows,
-        f"{answer.time.size} times. The method is good to {method} uas; the uncertainty of H moves "
-        f"the axes by up to {given} uas on this span (95 %).",
+        f"The path has {answer.time.size} epochs, of which the first and the last are shown. The "
+        f"error of the method is at most {method} uas; the uncertainty of H adds up to {given} uas "
+        "over this span (95 %).",
     )
     return [table]
 
@@ -45,7 +46,8 @@ def drawings(tree: Result) -> list[Drawing]:
     if "psi" not in answer_of(tree):
         return []
     caption = (
-        "The figure axis among the stars: precession carries it along, nutation makes it swing."
+        "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
+        "is removed."
     )
     return [drawn("The path of the pole", caption, plot_pole_path(tree))]
 

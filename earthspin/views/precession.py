@@ -1,4 +1,4 @@
-"""Precession: rates by perturber, what they mean, and how the average converges."""
+"""Precession: rates by perturber, the seasons, and the convergence of the average."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from earthspin.views.reading import (
     changes_of,
     needed,
     of_sections,
+    perturbers_of,
     section,
 )
 from earthspin.views.stars import STARS
-from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured
+from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured, two_digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,10 +33,9 @@ def lead(tree: Result) -> str:
     """The sentence at the head of the page."""
     answer = answer_of(tree)
     period = measured(answer.isel(perturber=-1), "precession_period", "years")
-    pullers = " and ".join(name.capitalize() for name in answer.attrs["perturbers"].split())
     return (
-        f"The axis of the {body_of(answer)} goes once round in {period} under the pull of "
-        f"{pullers} on its bulge."
+        f"The axis of {body_of(answer)} goes once round in {period} under the pull of "
+        f"{perturbers_of(answer)} on the equatorial bulge."
     )
 
 
@@ -59,7 +59,7 @@ def rates(tree: Result) -> Table:
     answer = answer_of(tree)
     first = str(answer.perturber.values[0])
     method, given = (
-        f"{float(answer[f'precession_rate_error_{share}'][-1]) * MAS_PER_CENTURY:.2g}"
+        two_digits(answer[f"precession_rate_error_{share}"][-1] * MAS_PER_CENTURY)
         for share in ("method", "input")
     )
     return Table(
@@ -75,51 +75,53 @@ def rates(tree: Result) -> Table:
             )
             for label, of in along(answer, "perturber")
         ],
-        "In longitude along the fixed orbit, referred to "
-        f"{date(answer.reference_epoch, 'm')} TDB; obliquity {float(answer.obliquity):.6f} deg. "
-        f"Averaged with the {answer.precession_rate.attrs['window']}. Errors are 95 % half-widths; "
-        f"of the rate's last one, averaging has {method} mas/cy, the given numbers {given}.",
+        "Rates are in longitude along the fixed orbit and refer to "
+        f"{date(answer.reference_epoch, 'm')} TDB; the obliquity is {float(answer.obliquity):.6f} "
+        f"deg. Torques are averaged with the {answer.precession_rate.attrs['window']}. Errors are "
+        f"95 % half-widths; in the last rate, averaging contributes {method} mas/cy and the given "
+        f"numbers {given} mas/cy.",
     )
 
 
 def sky_and_calendar(tree: Result) -> Table:
-    """What the rate means in the sky and in the calendar."""
+    """The rate as general precession and as drift of the calendar."""
     of = needed(tree, "seasons")
     tropical = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
     return Table(
-        "What it means in the sky",
-        ("", "ours", "for comparison"),
+        "Equinox and calendar",
+        ("quantity", "computed", "for comparison"),
         [
             (
                 "general precession, arcsec/yr",
                 measured(of, "general_precession"),
                 f"{P_A_RATE.value:.5f} (IAU 2006)",
             ),
-            ("once round, yr", measured(of, "general_precession_period"), "25,800 (I.8)"),
-            ("years per degree", f"{float(of.time_per_degree):.3f}", "72 (I.8)"),
+            ("period, yr", measured(of, "general_precession_period"), "25,800 (source text, I.8)"),
+            ("years per degree", f"{float(of.time_per_degree):.3f}", "72 (source text, I.8)"),
             ("tropical year, d", f"{float(of.tropical_year):.6f}", tropical),
             (
                 "years per day of calendar drift",
                 f"{float(of.time_per_day_of_drift):.2f}",
-                "129.4 (I.8)",
+                "129.4 (source text, I.8)",
             ),
         ],
-        "General precession is the precession of the equator found here, less the motion of the "
-        "ecliptic as IAU 2006 gives it. A calendar of 365.25 days drifts against the tropical "
-        "year, which already contains the precession; the source text finds 129.4 years because it "
-        "divides the period of precession by the number of days in a year.",
+        "General precession is the precession of the equator computed here minus the motion of "
+        "the ecliptic, which is taken from IAU 2006. A calendar of 365.25 days drifts against the "
+        "tropical year, which already contains the precession; the source text (Appendix I, "
+        '"Rigid Body Dynamics") finds 129.4 years because it divides the period of precession by '
+        "the number of days in a year.",
     )
 
 
 _MODELS = {
-    "mccullough": "flattening stands for (I3-I1)/I1",
-    "homogeneous": "J2, with C = 0.4 M a2",
-    "measured": "H as measured",
+    "mccullough": "(C-A)/A = flattening",
+    "homogeneous": "J2 and C = 0.4 M a2",
+    "measured": "observed H",
 }
 
 
 def models(tree: Result) -> Table:
-    """Three ways to H."""
+    """Precession and free wobble by three models of H."""
     figure = needed(tree, "figure_models")
     return Table(
         "Three models of the figure",
@@ -133,35 +135,35 @@ def models(tree: Result) -> Table:
             )
             for model, of in along(figure, "earth_model")
         ],
-        f"C - A = {float(figure.moment_difference):.5e} kg m2 from J2 (and back: "
-        f"{float(figure.j2_from_moment_difference):.7e}); C = "
-        f"{float(figure.polar_moment_factor):.6f} M a2. Both formulas for an even density fail a "
-        "body that is denser inside.",
+        f"J2 gives C - A = {float(figure.moment_difference):.5e} kg m2, and C - A gives back J2 = "
+        f"{float(figure.j2_from_moment_difference):.7e}; C = "
+        f"{float(figure.polar_moment_factor):.6f} M a2. The first two models hold for uniform "
+        "density, not for a body that is denser towards its centre.",
     )
 
 
 def free_wobble(tree: Result) -> Table:
-    """The rigid wobble beside the observed one, where this very body was observed."""
+    """Period of the rigid wobble, and the observed one if this body was observed."""
     of = needed(tree, "free_wobble")
     sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
     rows = [("rigid body, A/(C-A)", measured(of, "free_wobble_period"), sidereal)]
-    notes = ["A rigid body; a real one yields."]
+    notes = ["The formula holds for a rigid body; a real body deforms."]
     if "observed_period" in of:
         rows.append(("observed", measured(of, "observed_period"), ""))
-        notes.append(f"Observed: {of.observed_period.attrs['references']}.")
+        notes.append(f"Source of the observed period: {of.observed_period.attrs['references']}.")
     return Table(
         "Free wobble",
-        ("", "days of 86400 s", "sidereal days"),
+        ("period", "days of 86400 s", "sidereal days"),
         rows,
         " ".join([*notes, *changes_of(answer_of(tree), "body")]),
     )
 
 
 def iau(tree: Result) -> Table:
-    """IAU 2006 beside ours."""
+    """The computed rate compared with that of IAU 2006."""
     of, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     rows = [
-        ("ours", measured(answer.isel(perturber=-1), "precession_rate")),
+        ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
         ("IAU 2006, psi_A", f"{float(of.iau_rate):.8f}"),
         ("difference", measured(of, "difference_from_iau")),
     ]
@@ -170,25 +172,26 @@ def iau(tree: Result) -> Table:
             (f"  left out: {effect}", f"{float(one.neglected_effect):+.6f}")
             for effect, one in along(left_out, "effect")
         ]
-    rows.append(("difference after the published effects", measured(of, "closure")))
+    rows.append(("difference after the effects left out", measured(of, "closure")))
     return Table(
-        "Beside IAU 2006",
+        "Comparison with IAU 2006",
         (f"rate at {date(answer.reference_epoch)}", "arcsec/yr"),
         rows,
-        "Published sizes: Capitaine, Wallace & Chapront 2003, table 3. H itself comes from "
-        "observed precession, so the closure tests consistency, not the theory: what is left is "
+        "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
+        "table 3. H itself comes from observed precession, so the comparison tests consistency, "
+        "not the theory. The difference that remains is "
         f"{abs(float(of.closure / of.iau_rate)) * 1e6:.1f} millionths of the rate.",
     )
 
 
 def standstills(tree: Result) -> Table:
-    """Lunar standstills, two to a row of text."""
+    """Dates and extreme declinations of lunar standstills."""
     found = needed(tree, "standstills")
     text = {"major": "28.58", "minor": "18.30"}
     error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
     return Table(
         "Lunar standstills",
-        ("date (TDB)", "kind", "extreme declination, deg", "I.8, deg"),
+        ("date (TDB)", "kind", "extreme declination, deg", "source text (I.8), deg"),
         [
             (
                 date(of.standstill),
@@ -198,9 +201,10 @@ def standstills(tree: Result) -> Table:
             )
             for _, of in along(found, "standstill")
         ],
-        "Extremes of single months, from the centre of the body. The text adds 5.14 to 23.44 "
-        "degrees; the Sun swings the orbit's tilt between 5.0 and 5.3, so the widest month reaches "
-        f"28.7 and the narrowest stays near 18.1. Errors: at most {error:.0e} deg, the kernel's.",
+        "Extreme declinations of single months, seen from the centre of the body. The source text "
+        "takes 23.44 plus or minus 5.14 degrees; the Sun makes the inclination of the orbit vary "
+        "between 5.0 and 5.3 degrees, so the largest declination reaches 28.7 and the smallest "
+        f"extreme is near 18.1. Errors, from the kernel alone, are at most {error:.0e} deg.",
     )
 
 
@@ -208,7 +212,7 @@ def standstills(tree: Result) -> Table:
 
 
 def drawings(tree: Result) -> list[Drawing]:
-    """How the average converges, and the circle of the pole where the sky is ours."""
+    """Convergence of the average and, for the Earth, the circle of the pole among the stars."""
     return of_sections(tree, {"convergence": convergence, "seasons": circle_of_pole})
 
 
@@ -217,15 +221,15 @@ def convergence(tree: Result) -> Drawing:
     """Convergence of the average with the length of the window."""
     return drawn(
         "How the average converges",
-        "Distance of the averaged rate from the adopted one. A plain mean misses by whole "
-        "arcseconds a century wherever it stops; a taper on a whole number of turns, three or "
-        "more, is within a few thousandths of one.",
+        "Difference between the rate averaged over a window and the adopted rate, against the "
+        "length of the window. A plain mean converges slowly, whatever its length; a tapered mean "
+        "over three or more whole cycles is far closer. Dashed: error claimed for averaging.",
         plot_convergence(tree),
     )
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Distance of the averaged rate from the adopted one, against the window's length.
+    """Difference between averaged and adopted rate, against the length of the window.
 
     Parameters
     ----------
@@ -243,8 +247,8 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
     words = f"error claimed for averaging, {error:.2g} mas/cy"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
-    ax.set_xlabel("length of the window (turns of the slowest cycle)")
-    ax.set_ylabel("off by (mas per century)")
+    ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
+    ax.set_ylabel("difference (mas per century)")
     ax.set_ylim(3e-2, None)
     ax.legend(loc="upper right", ncols=2)
     return ax
@@ -252,11 +256,11 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 @style()
 def circle_of_pole(tree: Result) -> Drawing:
-    """The circle of the pole through the stars."""
+    """The circle of the pole among the stars."""
     return drawn(
-        "The pole's circle through the stars",
-        "The sky from inside, centred on the pole of the ecliptic, at the present rate and "
-        "obliquity; stars where they stand today.",
+        "The circle of the pole among the stars",
+        "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
+        "ecliptic. The sky is drawn as seen from the Earth, with stars at their present places.",
         plot_pole_circle(tree),
         square=True,
     )
@@ -302,7 +306,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _draw_stars(ax: Axes, obliquity: float) -> None:
-    """Stars, named on the side where the circle does not run."""
+    """Stars, labelled on the side away from the circle."""
     for name, ra, dec, magnitude in STARS:
         x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
         ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))

@@ -1,4 +1,4 @@
-"""What a view reads from what it is given: the answer, a section of it, whose answer it is."""
+"""What a view reads from a result: the answer, its sections, its body and its perturbers."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ Result = xr.Dataset | xr.DataTree
 
 T = TypeVar("T")
 
+#: Bodies whose names take the article.
+WITH_ARTICLE = ("earth", "moon", "sun")
+
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Answer itself; of many bodies or starts the first, which is the one that is shown."""
+    """Answer itself; of many bodies or starts, only the first is shown."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
 
@@ -29,12 +32,12 @@ def section(result: Result, name: str) -> xr.Dataset | None:
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
-    """Section of an answer, which is run again where it lacks it.
+    """Section of an answer; if the answer lacks it, the question is run again.
 
     Raises
     ------
     SceneError
-        If the question has no such section, or it does not apply; it gives the reason.
+        If the question has no such section, or the section does not apply; the error says why.
     """
     found = section(result, name)
     if found is None:
@@ -50,28 +53,39 @@ def of_sections(tree: Result, makers: Mapping[str, Callable[[Result], T]]) -> li
     ----------
     tree : Dataset or DataTree
     makers : mapping of str to callable
-        By the section that each stands on; each takes the tree.
+        The function that makes each view from the tree, by the section it needs.
     """
     return [make(tree) for name, make in makers.items() if section(tree, name) is not None]
 
 
 def body_of(answer: xr.Dataset) -> str:
-    """Name of the body, with what sets it apart from the one that it is named after.
+    """Name of the body in a sentence, with the numbers that were changed.
 
-    ``"Mars"``, ``"Earth with spin_period = 43200.0 s"``.
+    ``"Mars"``, ``"the Earth with spin_period = 43200.0 s"``.
     """
-    name, changes = str(answer.attrs["body"]).capitalize(), answer.attrs.get("body_changes")
+    name, changes = in_a_sentence(answer.attrs["body"]), answer.attrs.get("body_changes")
     return f"{name} with {changes}" if changes else name
 
 
+def perturbers_of(answer: xr.Dataset) -> str:
+    """Names of the perturbers in a sentence: ``"the Sun, the Moon and Jupiter"``."""
+    *others, last = map(in_a_sentence, answer.attrs["perturbers"].split())
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def in_a_sentence(name: str) -> str:
+    """Name of a body as a sentence has it: ``"Mars"``, but ``"the Moon"``."""
+    return f"the {name.capitalize()}" if name in WITH_ARTICLE else name.capitalize()
+
+
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Say which bodies are not as they are kept under their names, a sentence each.
+    """Say, one sentence for each key, which bodies were changed from those of their names.
 
     Parameters
     ----------
     answer : Dataset
     *keys : str
-        Of those keys alone; ``"body"`` and ``"perturbers"`` by default.
+        The keys to look at; ``"body"`` and ``"perturbers"`` by default.
     """
     return [
         f"{key.capitalize()}: {answer.attrs[key]} with {answer.attrs[f'{key}_changes']}."

@@ -31,6 +31,13 @@ if TYPE_CHECKING:
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
 MONTH = 27.32  # d
+#: What each rung of the ladder adds to a rigid body.
+ADDED = {
+    "elastic": "an elastic mantle",
+    "fluid-core": "a fluid core",
+    "ocean": "an ocean",
+    "anelastic": "anelasticity",
+}
 
 
 def write_report(
@@ -41,11 +48,11 @@ def write_report(
     Parameters
     ----------
     folder : str or Path
-        Gets ``index.html``, ``precession.nc``, and ``rotors.html``, where free rotors and tops
-        can be turned and played.
+        ``index.html``, ``precession.nc`` and ``rotors.html``, where free rotors and tops can be
+        turned and played, are written to it.
     ephemeris : str, path or Skyfield kernel
     figures : bool
-        Without them, nothing is drawn and the scenes behind them are not run.
+        If false, nothing is drawn, and scenes that only figures need are not run.
 
     Returns
     -------
@@ -84,8 +91,10 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
     year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
     drawings = [
-        torque.through(year, "A year of declination and torque"),
-        torque.through(cycle, "A turn of the Moon's node", smooth_days=MONTH),
+        torque.through(year, "Declination and torque through a year"),
+        torque.through(
+            cycle, "Declination and torque through a cycle of the Moon's node", smooth_days=MONTH
+        ),
     ]
     advance(1)
     return drawings
@@ -109,8 +118,9 @@ def gallery_page() -> str:
     return page(
         "Rotors and tops",
         solids=gallery(),
-        lead="How bodies turn without torque (I.5, I.6), and how a heavy top moves (I.7). "
-        "Every picture can be turned with the mouse and played in time.",
+        lead="How bodies rotate without torque, and how a heavy top moves (sections I.5 to I.7 of "
+        'the source text, Appendix I, "Rigid Body Dynamics"). Every picture can be turned with '
+        "the mouse and played in time.",
         footer=f"earthspin {__version__}.",
     )
 
@@ -123,13 +133,13 @@ def write_wobble_report(
     Parameters
     ----------
     folder : str or Path
-        Gets ``wobble.html``, ``wobble.nc`` and ``polar-motion.nc``.
+        ``wobble.html``, ``wobble.nc`` and ``polar-motion.nc`` are written to it.
     file : str
         Table of polar motion.
     method : str
         As of `earthspin.fit_chandler`.
     figures : bool
-        Without them nothing is drawn.
+        If false, nothing is drawn.
 
     Returns
     -------
@@ -168,9 +178,10 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
         measured(of, "period_solar", "days")
         for of in (answer.sel(rung="rigid"), answer.isel(rung=-1))
     )
+    *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (
-        f"Rigid, the {body_of(answer)} would wobble in {rigid}; as it yields, with its core and "
-        f"its seas, in {last}. Observed: "
+        f"If {body_of(answer)} were rigid, its free wobble would have a period of {rigid}; with "
+        f"{', '.join(others)} and {other}, the computed period is {last}. The observed period is "
         f"{measured(needed(pole, 'chandler'), 'chandler_period', 'days')}."
     )
 

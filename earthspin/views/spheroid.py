@@ -23,6 +23,6 @@ def tables(tree: Result) -> list[Table]:
             )
             for of in (answer.isel(point=number) for number in range(answer.sizes["point"]))
         ],
-        "Homogeneous, with the mass, radius and flattening of the body.",
+        "The spheroid is homogeneous and has the mass, radius and flattening of the body.",
     )
     return [table]

@@ -27,9 +27,9 @@ class Table:
     words : collection of int
         The columns that hold text; the others are set to the right.
     cost : str
-        What it took, in small print below it on a page.
+        Run time, in small print below the table on a page.
     figure : str
-        A picture below it on a page, as SVG.
+        A picture below the table on a page, as SVG.
     """
 
     title: str
@@ -48,7 +48,7 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
     ----------
     value, error : float
     unit : str
-        Put behind.
+        Written after the numbers.
     """
     value, error = float(value), float(error)
     behind = f" {unit}" if unit else ""
@@ -61,6 +61,11 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
         significant = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1
         return f"{value:.{max(significant, 0)}e} ± {error:.1e}{behind}".replace("e+", "e")
     return f"{value:.{digits}f} ± {error:.{digits}f}{behind}"
+
+
+def two_digits(value: SupportsFloat) -> str:
+    """Write a number to two digits, without an exponent from 0.0001 to 999999."""
+    return f"{float(f'{float(value):.2g}'):g}"
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
@@ -79,6 +84,6 @@ def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "
 
 
 def along(data: xr.Dataset, dim: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Go through a dimension: each label as text, and what stands there."""
+    """Go through a dimension: each label as text, with the data at it."""
     for number, label in enumerate(data[dim].values):
         yield str(label), data.isel({dim: number})

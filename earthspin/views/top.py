@@ -1,4 +1,4 @@
-"""The heavy top: what it does, its effective potential, the path of its tip."""
+"""The heavy top: its motion, its effective potential, and the path of its tip."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ DRAWN = ("turning", "potential")
 
 
 def tables(tree: Result) -> list[Table]:
-    """What a heavy top does."""
+    """Pattern, period and mean rate of a heavy top."""
     answer, turning = answer_of(tree), section(tree, "turning")
     rows = [
         ("pattern", answer.pattern.item()),
@@ -39,7 +39,7 @@ def tables(tree: Result) -> list[Table]:
     if turning is not None:
         upper, lower = np.degrees(turning.turning_angle.values)
         rows.insert(1, ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"))
-    return [Table("Heavy top", ("", "value"), rows)]
+    return [Table("Heavy top", ("quantity", "value"), rows)]
 
 
 def drawings(tree: Result) -> list[Drawing]:
@@ -57,8 +57,9 @@ def _potential_and_nutation(tree: Result) -> Drawing:
     right.set_ylabel("inclination (deg)")
     return Drawing(
         "Effective potential and nutation",
-        "Left: the effective potential of the inclination and the top's own energy "
-        "(dashed); it swings where the energy lies above. Right: the inclination in time.",
+        "Left: the effective potential as a function of the inclination, and the energy of the top "
+        "(dashed); the inclination varies where the energy lies above the potential. Right: the "
+        "inclination in time.",
         figure,
     )
 
@@ -103,7 +104,7 @@ def path_of_top(tree: Result) -> Solid:
     bounds = [circle(float(angle)) for angle in needed(tree, "turning").turning_angle.values]
     return Solid(
         title=f"{answer.attrs['title']}: {answer.pattern.item()}",
-        caption="The tip of the axis (red) runs between two circles (grey), the turning points.",
+        caption="The tip of the axis (red) moves between two circles (grey), the turning angles.",
         items=[
             mesh(ellipsoid((1.0, 1.0, 1.0), 19, 37), BLUE, opacity=0.06),
             *(line(bound, GREY, width=1.2) for bound in bounds),

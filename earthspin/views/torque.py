@@ -1,4 +1,4 @@
-"""Torque in time: extremes, declination, and the precessing torque that precession comes from."""
+"""Torque in time: extremes, declination, and the component that causes precession."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def tables(tree: Result) -> list[Table]:
     first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
     table = Table(
         "Torque",
-        ("pulled by", "declination, deg", "distance, m", "largest torque, N m", "its error"),
+        ("pulled by", "declination, deg", "distance, m", "largest torque, N m", "error, N m"),
         [
             (
                 label,
@@ -53,16 +53,16 @@ def through(tree: Result, title: str, smooth_days: float | None = None) -> Drawi
     plot_declination(tree, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
     lines = (
-        f"Thin: once a day; thick: mean over {smooth_days:g} days, which swings with the "
-        "tilt of the Moon's orbit."
+        f"Thin lines are daily values, thick lines means over {smooth_days:g} days; the mean for "
+        "the Moon varies with the inclination of its orbit to the equator."
         if smooth_days
-        else "Dashed: mean. It vanishes when the body crosses the equator."
+        else "Dashed lines are means. The torque vanishes when the perturber crosses the equator."
     )
     return Drawing(
         title,
-        f"Above: declination, {answer_of(tree).torque.attrs['frame']}. Below: the component of the "
-        "torque towards the equinox; it hardly ever changes sign, so the axis is turned "
-        f"the same way all the time. {lines}",
+        f"Above: declination, referred to the {answer_of(tree).torque.attrs['frame']}. Below: the "
+        "component of the torque towards the equinox; it hardly ever changes sign, so it always "
+        f"turns the axis in the same direction. {lines}",
         figure,
     )
 
@@ -97,14 +97,14 @@ def plot_declination(result: Result, *, ax: Axes | None = None) -> Axes:
 def plot_torque(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Component of the torque that precession comes from, towards the equinox, in time.
+    """Component of the torque towards the equinox, which causes precession, in time.
 
     Parameters
     ----------
     result : Dataset or DataTree
         Of the question ``torque``, evenly spaced.
     smooth_days : float, optional
-        Width of a running mean that is drawn on top.
+        Width of a running mean, drawn as a second line.
     ax : Axes, optional
     """
     answer = answer_of(result)

@@ -1,4 +1,4 @@
-"""The free wobble, from a formula of flattening to a body that yields."""
+"""The free wobble, from the formula with the flattening to a deformable body."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ DRAWN = ("observed",)
 
 
 def tables(tree: Result) -> list[Table]:
-    """The ladder, and what its last rung depends on."""
+    """The ladder of models, and the sensitivity of its last rung to the inputs."""
     return [ladder(tree), *of_sections(tree, {"sensitivity": sensitivity})]
 
 
 def ladder(tree: Result) -> Table:
-    """The wobble ladder."""
+    """Period of the free wobble by a series of models, the rungs of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
     rows = [
         (
@@ -36,18 +36,22 @@ def ladder(tree: Result) -> Table:
         )
         for name, of in along(answer, "rung")
     ]
-    notes = ["Each factor is over the rung before; the steps do not commute."]
+    notes = [
+        "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
+        "their periods. The factors depend on the order of the rungs."
+    ]
     if "anelastic" in answer.rung.values:
         notes.append(
-            "The exponent of the loss is a free choice: the last rung is a check of consistency, "
-            "not a prediction."
+            "The exponent of anelasticity is a free choice, so the last rung is a check of "
+            "consistency, not a prediction."
         )
     left_out = answer.rung.attrs.get("left_out", "none")
     if left_out != "none":
         notes.append(f"Rungs left out: {left_out}.")
     if observed is not None:
         rows.append(("observed", measured(observed, "observed_period"), "", "", ""))
-        notes.append(f"{observed.observed_period.attrs.get('references', '')}.")
+        source = observed.observed_period.attrs.get("references", "")
+        notes.append(f"Source of the observed period: {source}.")
     return Table(
         "Free wobble, rung by rung",
         ("rung", "days of 86400 s", "sidereal days", "factor", "Q"),
@@ -57,7 +61,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """What the last rung depends on."""
+    """Sensitivity of the last rung to each input."""
     roots = section(tree, "core_nutation")
     shown = (
         ""
@@ -68,8 +72,8 @@ def sensitivity(tree: Result) -> Table:
         )
     )
     return Table(
-        "What the last rung depends on",
-        ("input", "value", "days per unit", "days from its error"),
+        "Sensitivity of the last rung",
+        ("input", "value", "days per unit of input", "days from error of input"),
         [
             (
                 name.replace("_", " "),
@@ -80,7 +84,9 @@ def sensitivity(tree: Result) -> Table:
             for name, of in along(needed(tree, "sensitivity"), "input")
             if float(of.input_value) != 0
         ],
-        shown and f"The system's other root is the free core nutation; among the stars: {shown}.",
+        shown
+        and "The other root of the equations is the free core nutation; its period in space: "
+        f"{shown}.",
     )
 
 
@@ -90,15 +96,16 @@ def drawings(tree: Result) -> list[Drawing]:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
     caption = " ".join(
         [
-            f"Period of the free wobble, rung by rung, with 95 % errors from sampled inputs{band}.",
+            "Period of the free wobble by a series of models, with 95 % errors from sampled "
+            f"inputs{band}.",
             *changes_of(answer_of(tree), "body"),
         ]
     )
-    return [drawn("From the rigid to the yielding body", caption, plot_ladder(tree))]
+    return [drawn("From the rigid to the deformable body", caption, plot_ladder(tree))]
 
 
 def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Period of each rung in days, the observed one as a band where its section is there.
+    """Period of each rung in days, with the observed period as a band if its section is there.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 
 
 def accuracy_table(result: xr.Dataset) -> Table:
-    """Every setting that was measured, each once.
+    """Error and run time of every setting that was measured.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
 
 
 def _note(result: xr.Dataset) -> str:
-    """What is solved, against what, and what fails."""
+    """The problem, its reference, and the methods that fail."""
     unit = _unit(result)
     words = [
         f"{_capital(result.attrs['problem'])}.",
@@ -185,7 +185,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Points that no other beats in both, the fastest first."""
+    """Points for which no other is both faster and more exact, the fastest first."""
     order = np.lexsort((error, time))
     time, error = time[order], error[order]
     kept = error < np.concatenate([[np.inf], np.minimum.accumulate(error)[:-1]])
@@ -193,7 +193,7 @@ def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _draw_front(result: xr.Dataset, ax: Axes) -> None:
-    """Steps through the points that no other beats."""
+    """Steps through the points of the front."""
     on_front = result.pareto.values
     time, error = _front(result.run_time.values[on_front], result.error.values[on_front])
     right, top = float(result.run_time.max()), float(result.error.max())
@@ -239,7 +239,8 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
     ----------
     results : sequence of Dataset
     folder : str or Path
-        Gets ``accuracy.html`` and, for each quantity, ``accuracy-QUANTITY.nc`` and ``.svg``.
+        ``accuracy.html`` and, for each quantity, ``accuracy-QUANTITY.nc`` and ``.svg`` are written
+        to it.
 
     Returns
     -------
@@ -290,9 +291,9 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
     return page(
         "Error against run time",
         tables,
-        lead="What each way to a number costs, and how wrong it then is.",
-        note="Under each table stands what to use. Filled markers are this package's methods, open "
-        "ones what one would do with SciPy set by hand, or with another library; the front joins "
-        "the points that no other beats in both.",
+        lead="How much time each method needs for a quantity, and how large its error is.",
+        note="The sentence below each table says which method to use. Filled markers are methods "
+        "of this package; open markers are SciPy set by hand, or another library. The front joins the "
+        "points for which no other has both a smaller error and a shorter run time.",
         footer=f"{results[0].attrs['source']}.",
     )

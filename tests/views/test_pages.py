@@ -29,7 +29,7 @@ def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
         *(table.title for table in tables_for(tree)),
         *(solid.title for solid in solids_for(tree)),
         *(drawing.title for drawing in drawings_for(tree)),
-        "What ran, and what was left out",
+        "Parts that ran, and parts left out",
     ]
     assert page.count("<svg") == len(drawings_for(tree))
     assert page.count("<canvas aria-label") == len(solids_for(tree))

@@ -34,11 +34,11 @@ def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
     titles = [table.title for table in tables_for(iau)]
     assert titles == [
         "Rates at J2000.0, effect by effect",
-        "Our pole less that of IAU 2006/2000A",
+        "Computed pole minus that of IAU 2006/2000A",
         "The largest nutations",
         "Free core nutation in IAU 2000A",
         "Angles of precession",
-        "H and C that the rate implies",
+        "H and C from the rate of precession",
     ]
     budget = tables_for(iau)[0]
     assert float(budget.rows[-1][1]) == pytest.approx(float(iau.closure) * 1e5, abs=1e-3)

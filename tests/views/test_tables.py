@@ -31,15 +31,15 @@ def test_tables_of_each_question(precession_tree: xr.DataTree) -> None:
     titles = [table.title for table in tables_for(precession_tree)]
     assert titles == [
         "Precession",
-        "What it means in the sky",
+        "Equinox and calendar",
         "Three models of the figure",
         "Free wobble",
-        "Beside IAU 2006",
+        "Comparison with IAU 2006",
         "Lunar standstills",
     ]
     assert [t.title for t in tables_for(earthspin.run_tree("wobble"))] == [
         "Free wobble, rung by rung",
-        "What the last rung depends on",
+        "Sensitivity of the last rung",
     ]
     assert [t.title for t in tables_for(earthspin.run("torque"))] == ["Torque"]
 
@@ -81,7 +81,7 @@ def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
         earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
     )
     assert (first.title, second.title) == ("Accuracy", "Torque")
-    assert first.headers[1] == "asked, mas"
+    assert first.headers[1] == "error asked for, mas"
     assert first.rows[0][1] == "10"
 
 
@@ -96,7 +96,7 @@ def test_another_earth_says_so_and_shows_nothing_observed() -> None:
     assert "Nastula" not in page
     ours = scene_page(earthspin.run_tree("precession"))
     assert "43200" not in ours
-    assert "Observed: Nastula" in ours
+    assert "Source of the observed period: Nastula" in ours
 
 
 def test_another_ladder_says_so_and_has_no_band() -> None:

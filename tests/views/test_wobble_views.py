@@ -36,7 +36,7 @@ def test_tables_of_the_ladder(ladder: xr.DataTree) -> None:
     text = words(ladder)
     for expected in ("anelastic 431.6 ± ", "303.62464", "not a prediction", "Nastula & Gross"):
         assert expected in text
-    assert "free core nutation; among the stars: -457.6 d (hydrostatic core)" in text
+    assert "free core nutation; its period in space: -457.6 d (hydrostatic core)" in text
     assert "has no ocean" in words(earthspin.wobble_ladder(body="mars"))
 
 
