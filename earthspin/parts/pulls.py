@@ -52,7 +52,7 @@ class Moved(Series):
     """Keys of every question about axes that move under torques."""
 
     effects: Annotated[tuple[str, ...], Several(EffectWord())] = key(
-        RIGID, doc="effects beside the main one"
+        RIGID, doc="effects besides the torque of the perturbers on the bulge"
     )
 
 

@@ -19,7 +19,7 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     missing = [name for name in ("sun", "moon") if name not in names]
     if missing:
         return f"the {missing[0]} is not among the perturbers"
-    return "the comparison is for sun and moon alone" if len(names) > 2 else None
+    return "the comparison is for Sun and Moon only" if len(names) > 2 else None
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
@@ -41,4 +41,6 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 def no_accuracy(accuracy: float | None) -> str | None:
     """Leave out what chooses settings where no accuracy is asked for."""
-    return "no accuracy is asked for: the finest settings" if accuracy is None else None
+    return (
+        "no accuracy is asked for, so the finest settings are taken" if accuracy is None else None
+    )

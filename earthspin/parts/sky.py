@@ -65,13 +65,15 @@ class KernelName:
 class Pulled(Question):
     """Keys of every question about a body that others pull on."""
 
-    body: Body = key(EARTH, doc="what spins; its numbers may be labelled arrays")
-    perturbers: tuple[Body, ...] = key((SUN, MOON), doc="what pulls on it")
-    ephemeris: Annotated[str, KernelName()] = key("de421", doc="where the bodies are")
+    body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
+    perturbers: tuple[Body, ...] = key((SUN, MOON), doc="bodies that pull on it")
+    ephemeris: Annotated[str, KernelName()] = key(
+        "de421", doc="kernel with the positions of the bodies"
+    )
     source: SourceName = key(
         "jplephem",
-        doc="who reads the positions: jplephem, fast, or Skyfield, step by step as one would "
-        "write it",
+        doc="library that reads the positions: jplephem, which is fast, or Skyfield, called in "
+        "its usual way",
     )
 
     #: What the question needs to know of the body, beside its mass.

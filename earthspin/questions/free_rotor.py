@@ -1,4 +1,4 @@
-"""A body without torque in time, and Poinsot's picture of it."""
+"""Motion of a body without torque, and Poinsot's picture of it."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class FreeRotor(
         Over `time` (s): `omega_body`, `angular_momentum_body`, `omega_inertial` (along
         `component`), `attitude` (unit quaternion along `quaternion`, body to inertial; the
         inertial axes are those of the body at t = 0), `energy`. For one start
-        `earthspin.run_tree` gives Poinsot's ellipsoids, polhode and herpolhode beside it.
+        `earthspin.run_tree` adds Poinsot's ellipsoids, polhode and herpolhode.
 
     Raises
     ------
@@ -115,8 +115,8 @@ class FreeRotor(
     )
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")
-    points: Annotated[int, Whole()] = setting(401, doc="how many times, evenly spaced")
-    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+    points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
+    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
 
 _SERIES = ("time", "component")
@@ -135,7 +135,7 @@ ROTATION = covered_by(
         "relative_error": Variable(
             (),
             "1",
-            "95 % half-width of each quantity over its largest value, inputs taken as exact",
+            "95 % half-width of each quantity relative to its largest value, for exact inputs",
         ),
     },
 )
@@ -179,7 +179,7 @@ def several_starts(omega: FloatArray) -> str | None:
 
 
 POINSOT = without_error(
-    "from the same closed form as the rotation, whose relative_error holds",
+    "same closed form as the rotation, so its relative_error holds",
     {
         "inertia_ellipsoid": Variable(
             ("component",), "rad/s", "semi-axes of the inertia ellipsoid"
@@ -190,16 +190,18 @@ POINSOT = without_error(
         "polhode": Variable(
             ("polhode_point", "component"), "rad/s", "path of the angular velocity in the body"
         ),
-        "polhode_period": Variable((), "s", "time of one round of the polhode"),
+        "polhode_period": Variable((), "s", "period of the polhode"),
         "invariable_plane_distance": Variable(
             (), "rad/s", "distance of the invariable plane from the centre, 2T/L"
         ),
         "herpolhode": Variable(
             ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
         ),
-        "herpolhode_radius": Variable(("bound",), "rad/s", "bounds of the herpolhode"),
+        "herpolhode_radius": Variable(
+            ("bound",), "rad/s", "radii between which the herpolhode runs"
+        ),
         "growth_rate": Variable(
-            ("component",), "1/s", "rate at which a small tilt off each axis grows; 0 if stable"
+            ("component",), "1/s", "growth rate of a small tilt away from each axis; 0 if stable"
         ),
     },
 )
@@ -208,8 +210,8 @@ ADVANCE = {
     "herpolhode_advance": Variable(
         (),
         "rad",
-        "turn of the herpolhode per round",
-        no_error="from the same closed form as the rotation, whose relative_error holds",
+        "advance of the herpolhode in one period of the polhode",
+        no_error="same closed form as the rotation, so its relative_error holds",
     )
 }
 

@@ -1,4 +1,4 @@
-"""Our pole beside that of IAU 2006/2000A."""
+"""Comparison of the computed pole with that of IAU 2006/2000A."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ LARGEST = 30
 
 
 class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "step")):
-    """Our pole beside that of IAU 2006/2000A: budget, residuals, nutations, angles.
+    """Computed pole compared with IAU 2006/2000A: budget, residuals, nutations, angles.
 
     Returns
     -------
     Dataset
         Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0), and
-        `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree` gives
-        sections beside it: residuals in time, the largest nutations, the free core nutation, the
+        `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree` adds the
+        sections: residuals in time, the largest nutations, the free core nutation, the
         angles of precession, and H and C as the IAU's rate implies them.
 
     Raises
@@ -70,7 +70,7 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date of the residuals, TDB",
     )
-    step: Step = key("5 d", doc="time between two residuals")
+    step: Step = key("5 d", doc="interval between residuals")
 
     def check(self) -> None:
         """What is compared to the microarcsecond stands on positions whose error is known."""
@@ -117,7 +117,7 @@ BUDGET = {
     **with_error(
         "psi_rate",
         Variable(
-            _EFFECT, "arcsec/yr", "contribution to the rate of psi_A at J2000.0, by switching"
+            _EFFECT, "arcsec/yr", "contribution to the rate of psi_A at J2000.0, by switching off"
         ),
     ),
     "psi_rate_published": Variable(
@@ -129,8 +129,10 @@ BUDGET = {
     **with_error(
         "omega_rate", Variable(_EFFECT, "arcsec/yr", "contribution to the rate of omega_A")
     ),
-    **with_error("psi_rate_total", Variable((), "arcsec/yr", "our rate of psi_A at J2000.0")),
-    **with_error("omega_rate_total", Variable((), "arcsec/yr", "our rate of omega_A at J2000.0")),
+    **with_error("psi_rate_total", Variable((), "arcsec/yr", "computed rate of psi_A at J2000.0")),
+    **with_error(
+        "omega_rate_total", Variable((), "arcsec/yr", "computed rate of omega_A at J2000.0")
+    ),
     "psi_rate_iau": Variable(
         (), "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_MODEL
     ),
@@ -140,24 +142,24 @@ BUDGET = {
     "closure": Variable(
         (),
         "arcsec/yr",
-        "our rate plus the published non-linear term less the IAU's",
+        "computed rate plus the published non-linear term minus the IAU's rate",
         error="psi_rate_total_error",
     ),
     "omega_closure": Variable(
-        (), "arcsec/yr", "our rate of omega_A less the IAU's", error="omega_rate_total_error"
+        (), "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
     ),
     "psi_rate_analysis_error": Variable(
-        (), "arcsec/yr", "by what the analysis misses the rate of the IAU's own pole"
+        (), "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
     ),
     "omega_rate_analysis_error": Variable(
-        (), "arcsec/yr", "by what the analysis misses the IAU's rate of omega_A"
+        (), "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
     ),
 }
 
 
 @part(gives=BUDGET)
 def budget(rates_by_effect: Budget) -> xr.Dataset:
-    """Rates effect by effect, beside the published ones; the closure."""
+    """Rates effect by effect, the published ones, and the closure."""
     of = rates_by_effect
     return build(
         BUDGET,
@@ -218,7 +220,7 @@ def differences(
     body: Body,
     effects: tuple[str, ...],
 ) -> Differences:
-    """Our pole less the IAU's in time, for three models."""
+    """Computed pole minus the IAU's in time, for three models."""
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -259,13 +261,13 @@ RESIDUALS = {
     "dpsi_sineps": Variable(
         ("time",),
         "mas",
-        "our pole less the IAU's in longitude times sin(eps), line removed",
+        "computed pole minus the IAU's in longitude times sin(eps), straight line removed",
         error="residual_error",
     ),
     "deps": Variable(
         ("time",),
         "mas",
-        "our pole less the IAU's in obliquity, line removed",
+        "computed pole minus the IAU's in obliquity, straight line removed",
         error="residual_error",
     ),
     "residual_error": _HALF_WIDTH,
@@ -274,7 +276,7 @@ RESIDUALS = {
 
 @part(gives=RESIDUALS)
 def residuals(differences: Differences) -> xr.Dataset:
-    """Our pole less the IAU's in time, with the effects that are switched on."""
+    """Computed pole minus the IAU's in time, with the effects that are switched on."""
     chosen = differences.fitted[:, differences.chosen]
     return build(
         RESIDUALS,
@@ -291,13 +293,13 @@ _BY_MODEL = {
     "dpsi_sineps_by_model": Variable(
         ("time", "model"),
         "mas",
-        "our pole less the IAU's in longitude times sin(eps), for three models, line removed",
+        "computed pole minus the IAU's in longitude times sin(eps), straight line removed",
         error="error_by_model",
     ),
     "deps_by_model": Variable(
         ("time", "model"),
         "mas",
-        "our pole less the IAU's in obliquity, for three models, line removed",
+        "computed pole minus the IAU's in obliquity, straight line removed",
         error="error_by_model",
     ),
     "error_by_model": _HALF_WIDTH,
@@ -306,7 +308,7 @@ _BY_MODEL = {
 
 @part(gives=_BY_MODEL)
 def residuals_by_model(differences: Differences) -> xr.Dataset:
-    """Our pole less the IAU's in time, model by model."""
+    """Computed pole minus the IAU's in time, model by model."""
     fitted = differences.fitted
     return build(
         _BY_MODEL,
@@ -322,13 +324,16 @@ def residuals_by_model(differences: Differences) -> xr.Dataset:
 _SIZE = ("model", "direction")
 RESIDUAL_SIZES = {
     "residual_rms": Variable(
-        _SIZE, "mas", "root mean square after constant and rate", error="residual_size_error"
+        _SIZE,
+        "mas",
+        "root mean square after removal of a constant and a rate",
+        error="residual_size_error",
     ),
     "residual_maximum": Variable(
-        _SIZE, "mas", "largest after constant and rate", error="residual_size_error"
+        _SIZE, "mas", "largest after removal of a constant and a rate", error="residual_size_error"
     ),
     "residual_rms_unfitted": Variable(
-        _SIZE, "mas", "root mean square with nothing fitted", error="residual_size_error"
+        _SIZE, "mas", "root mean square without a fit", error="residual_size_error"
     ),
     "residual_size_error": _HALF_WIDTH,
 }
@@ -370,7 +375,7 @@ def _phases(name: str, unit: str, words: str, error: str = "", no_error: str = "
     }
 
 
-_FIT = "part of a fit; left_in_phase and left_out_of_phase say what it leaves"
+_FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 NUTATION = {
     "period": Variable(
         _TERM,
@@ -378,13 +383,13 @@ NUTATION = {
         "period of the circle in space, negative if retrograde",
         no_error="it follows from the adopted arguments of IERS 2003",
     ),
-    **_phases("rigid", "mas", "our rigid amplitude", "amplitude_error"),
+    **_phases("rigid", "mas", "computed rigid amplitude", "amplitude_error"),
     **_phases("iau", "mas", "amplitude of IAU 2000A", "amplitude_error"),
     "amplitude_error": Variable(
-        _TERM, "mas", "95 % half-width of an amplitude, what is the neighbour's apart"
+        _TERM, "mas", "95 % half-width of an amplitude, without the neighbour's share"
     ),
     "neighbour": Variable(
-        _TERM, "", "term that 150 years do not part from this one; empty where there is none"
+        _TERM, "", "term that 150 years cannot separate from this one; empty if there is none"
     ),
     **_phases(
         "neighbour",
@@ -392,21 +397,21 @@ NUTATION = {
         "share of the neighbour in the amplitude of IAU 2000A",
         no_error="coefficients of the adopted series",
     ),
-    **_phases("ratio", "1", "IAU 2000A over ours", "ratio_error"),
+    **_phases("ratio", "1", "ratio of IAU 2000A to the computed rigid amplitude", "ratio_error"),
     "ratio_error": Variable(_TERM, "1", "95 % half-width of the ratio"),
-    **_phases("transfer", "1", "fitted resonance form", no_error=_FIT),
+    **_phases("transfer", "1", "fitted resonance formula", no_error=_FIT),
     **_phases(
         "left",
         "uas",
-        "IAU 2000A less response times ours",
-        no_error="a measure of error itself; what both analyses miss alike cancels in it",
+        "IAU 2000A minus response times rigid amplitude",
+        no_error="a measure of error itself; errors common to both analyses cancel",
     ),
 }
 
 
 @part(gives=NUTATION)
 def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
-    """The thirty largest circular terms of both poles, their ratio, what the response leaves."""
+    """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.nutation.nutation import phases
     from earthspin.sky import iau
@@ -441,7 +446,7 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     return build(NUTATION, values, coords={"term": labels})
 
 
-_LEFT = "a size of what is left, itself a measure of error"
+_LEFT = "part of a fit; response_rms and response_maximum measure its residuals"
 CORE = {
     **with_error(
         "core_nutation_period", Variable((), "d", "period of the free core nutation in space")
@@ -454,9 +459,9 @@ CORE = {
         ("mode",), "1", "fitted strength, imaginary part", no_error=_LEFT
     ),
     "response_rms": Variable(
-        (), "uas", "root mean square of what the response leaves", no_error=_LEFT
+        (), "uas", "root mean square of the residuals of the response", no_error=_LEFT
     ),
-    "response_maximum": Variable((), "uas", "largest that the response leaves", no_error=_LEFT),
+    "response_maximum": Variable((), "uas", "largest residual of the response", no_error=_LEFT),
 }
 
 
@@ -486,17 +491,19 @@ ANGLES = {
     "angle_coefficient": Variable(
         _COEFFICIENT,
         "arcsec",
-        "coefficient of (t/century)^degree, our pole on the ecliptic of IAU 2006",
+        "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006",
         error="angle_coefficient_error",
     ),
     "angle_coefficient_iau": Variable(
         _COEFFICIENT,
         "arcsec",
-        "coefficient of (t/century)^degree, IAU 2006, fitted alike",
+        "coefficient of (t/century)^degree, IAU 2006, fitted in the same way",
         no_error="a model that was adopted, exact by definition",
     ),
     "angle_coefficient_error": Variable(
-        _COEFFICIENT, "arcsec", "95 % half-width of our coefficients: of the analysis, and of H"
+        _COEFFICIENT,
+        "arcsec",
+        "95 % half-width of the computed coefficients, from the analysis and H",
     ),
 }
 

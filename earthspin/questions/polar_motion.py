@@ -1,4 +1,4 @@
-"""Observed polar motion, the free wobble in it, and what excites it."""
+"""Observed polar motion, its free wobble, and their excitation."""
 
 from __future__ import annotations
 
@@ -96,16 +96,16 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     IERS c04
     """
 
-    body: Body = key(EARTH, doc="whose pole was observed")
+    body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
     file: Annotated[str, TableFile()] = setting(
         "c04", doc="the daily table of the IERS that astropy carries, or a local file"
     )
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
-        None, doc="what sort of table it is; told from the file if not given"
+        None, doc="layout of the table; recognised from the file if not given"
     )
     method: Method = setting(
-        "burg", doc="how the free wobble is found; least squares give no quality factor"
+        "burg", doc="how the free wobble is fitted; least squares give no quality factor"
     )
     window: Days | None = setting(
         None, doc="length of the sliding windows; one beat of annual and free wobble if not given"
@@ -114,9 +114,13 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
 
 _TIME = ("time",)
 OBSERVED = {
-    **with_error("x", Variable(_TIME, "arcsec", "pole, towards the prime meridian")),
-    **with_error("y", Variable(_TIME, "arcsec", "pole, towards 90 degrees west")),
-    "polar_radius": Variable((), "m", "polar radius of the body", no_error="a number of the body"),
+    **with_error(
+        "x", Variable(_TIME, "arcsec", "coordinate of the pole towards the prime meridian")
+    ),
+    **with_error("y", Variable(_TIME, "arcsec", "coordinate of the pole towards 90 degrees west")),
+    "polar_radius": Variable(
+        (), "m", "polar radius of the body", no_error="a given number of the body"
+    ),
 }
 
 
@@ -154,7 +158,7 @@ def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) ->
 
 _MIDDLE = ("middle",)
 CHANDLER = without_error(
-    "a mean over a beat; its scatter was not propagated",
+    "a mean over one beat, whose scatter was not propagated",
     {
         **with_error("chandler_period", Variable((), "d", "period of the free wobble")),
         **with_error(
@@ -252,7 +256,7 @@ def _quality(found: WobbleFit) -> dict[str, float]:
 
 
 SPECTRUM = without_error(
-    "an amplitude at one frequency scatters by as much as itself",
+    "the scatter of an amplitude at one frequency is as large as the amplitude",
     {
         "spectral_amplitude": Variable(
             ("frequency",), "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
@@ -359,7 +363,7 @@ def neglected() -> Neglected:
     return Neglected(
         sizes={"tides of a day and of half a day": OCEAN_TIDES * MAS},
         unit="mas",
-        what="largest sum of its terms in x, left out of tables by convention",
+        what="sum of the amplitudes of its terms in x, which tables leave out by convention",
         source="IERS Conventions (1996), ch. 8: eight terms, as listed by the Paris Observatory",
     )
 
@@ -472,14 +476,14 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
 
 
 CHI = without_error(
-    "the table that it is read from gives none",
+    "the table from which it is read gives none",
     {
         "chi1": Variable(_TIME, "mas", "excitation, towards the prime meridian"),
         "chi2": Variable(_TIME, "mas", "excitation, towards 90 degrees east"),
     },
 )
 POLE = without_error(
-    "what excitation and oscillator are given without",
+    "excitation and free wobble are given without errors",
     {
         "x": Variable(_TIME, "arcsec", "pole, towards the prime meridian"),
         "y": Variable(_TIME, "arcsec", "pole, towards 90 degrees west"),
@@ -489,7 +493,7 @@ POLE = without_error(
 
 @in_range("excitation")
 def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100.0) -> xr.Dataset:
-    """Excitation that polar motion asks for: exact means over each step.
+    """Excitation that produces a given polar motion: exact means over each step.
 
     Parameters
     ----------
@@ -546,7 +550,7 @@ def polar_motion_from(
     start: Any = None,
     fitted_to: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Polar motion that an excitation drives: the inverse of `excitation`.
+    """Polar motion driven by an excitation: the inverse of `excitation`.
 
     Parameters
     ----------
@@ -555,7 +559,7 @@ def polar_motion_from(
     period, quality_factor : duration, float, optional
         Of the free wobble (a number is in days); those that `excitation` noted by default.
     start : pair of angles, optional
-        x and y at the start (a number is in mas); as noted, or zero.
+        x and y at the start (a number is in mas); by default as `excitation` noted them, or zero.
     fitted_to : Dataset, optional
         `x` and `y` as observed; the start is then the one that comes nearest to them beside drift
         and seasonal terms, over the span that both cover.

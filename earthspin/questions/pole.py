@@ -1,4 +1,4 @@
-"""The path of the axes under the torques."""
+"""Path of the three axes of a body under torques."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ if TYPE_CHECKING:
 class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the axes under the torques, in the GCRS.
 
-    The body starts from its pole at J2000.0; the Earth from that of IAU 2006/2000A. Of the
-    effects, `geodesic` needs the Sun among the perturbers and turns a sphere, too; `nonrigid` is
-    the response of the Earth's inside, fitted to IAU 2000A.
+    The path starts at J2000.0 from the pole of the body; for the Earth, from that of IAU
+    2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
+    `nonrigid` is the response of the Earth's interior, fitted to IAU 2000A.
 
     Returns
     -------
@@ -54,7 +54,7 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; among it a spin that is too slow.
+        Whatever is wrong, in one line; a spin that is too slow is refused.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date, TDB; the last is included if the step meets it",
     )
-    step: Step = key("5 d", doc="time between two dates")
+    step: Step = key("5 d", doc="interval between dates")
     accuracy: AngleError | None = key(
         None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
     )
@@ -103,12 +103,16 @@ DIRECTIONS = covered_by(
         "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
         "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
         "direction_error": Variable(
-            ("time",), "uas", "95 % half-width of the directions, figure of the body included"
+            ("time",), "uas", "95 % half-width of the directions, from all three shares"
         ),
-        "direction_error_method": Variable(("time",), "uas", "share of the integration"),
-        "direction_error_input": Variable(("time",), "uas", "share of the uncertainty of H"),
+        "direction_error_method": Variable(
+            ("time",), "uas", "share of direction_error from the integration"
+        ),
+        "direction_error_input": Variable(
+            ("time",), "uas", "share of direction_error from the uncertainty of H"
+        ),
         "direction_error_kernel": Variable(
-            ("time",), "uas", "share of where the bodies may be off"
+            ("time",), "uas", "share of direction_error from the positions of the bodies"
         ),
     },
 )

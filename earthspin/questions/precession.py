@@ -1,4 +1,4 @@
-"""Rate and period of precession, and what they mean."""
+"""Rate and period of precession, and quantities that follow from them."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Precession(Pulled, word="precession", call="precession"):
     Dataset
         Along `perturber`: `precession_rate` (arcsec/yr), `precession_period` (yr) and
         `mean_torque` (N m), each with its 95 % half-width `_error`, referred to
-        `reference_epoch`. `earthspin.run_tree` gives sections beside it: convergence of the
+        `reference_epoch`. `earthspin.run_tree` adds the sections: convergence of the
         average, models of the figure, the free wobble, the seasons, IAU 2006, standstills of the
         Moon, and what is neglected.
 
@@ -66,7 +66,7 @@ class Precession(Pulled, word="precession", call="precession"):
     """
 
     span: Span | None = key(
-        None, doc="dates to average between; all that the kernel covers if not given"
+        None, doc="first and last date of the average; all that the kernel covers if not given"
     )
     accuracy: Relative | None = key(
         None,
@@ -319,13 +319,13 @@ RATES = {
         split=True,
     ),
     **with_error(
-        "precession_period", Variable(_PERTURBER, "yr", "time for one turn of precession")
+        "precession_period", Variable(_PERTURBER, "yr", "period of one full turn of precession")
     ),
     "rate_ratio": Variable(
         _PERTURBER,
         "1",
-        "rate over that of the first perturber",
-        no_error="of two rates that each carry their own",
+        "ratio of the rate to that of the first perturber",
+        no_error="a ratio of two rates that each carry their own error",
     ),
     **with_error(
         "mean_torque",
@@ -335,7 +335,7 @@ RATES = {
         (),
         "deg",
         "angle between spin axis and orbit normal at the epoch",
-        no_error="between a pole and a plane that are given",
+        no_error="an angle between a pole and a plane that are given",
     ),
     "reference_epoch": Variable((), "", "epoch that the averages refer to (TDB)"),
 }
@@ -386,10 +386,10 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> xr.Dataset:
 # --- sections ------------------------------------------------------------------------------------
 
 CONVERGENCE = without_error(
-    "the curve itself shows how far a window is off",
+    "the curve itself shows the error of each window",
     {
         "rate_by_window": Variable(
-            ("window", "window_cycles"), "arcsec/yr", "rate of precession of all perturbers"
+            ("window", "window_cycles"), "arcsec/yr", "rate of precession by all perturbers"
         ),
         "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
     },
@@ -434,21 +434,21 @@ def no_figure(body: Body) -> str | None:
 
 _MODEL = ("earth_model",)
 FIGURE_MODELS = without_error(
-    "a model of the figure, to be held against the others",
+    "a model of the figure, for comparison with the others",
     {
         "h_by_model": Variable(_MODEL, "1", "dynamical flattening (C - A)/C"),
-        "period_by_model": Variable(_MODEL, "yr", "time for one turn of precession"),
+        "period_by_model": Variable(_MODEL, "yr", "period of one full turn of precession"),
         "wobble_by_model": Variable(_MODEL, "d", "period of the rigid free wobble"),
         "moment_difference": Variable((), "kg m2", "C - A from J2"),
         "polar_moment_factor": Variable((), "1", "C/(M a2) from J2 and H"),
-        "j2_from_moment_difference": Variable((), "1", "J2 from C - A, and back"),
+        "j2_from_moment_difference": Variable((), "1", "J2 computed back from C - A"),
     },
 )
 
 
 @part(gives=FIGURE_MODELS, unless=no_figure)
 def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
-    """Three ways to the dynamical flattening, and what precession and wobble each implies."""
+    """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
 
     from earthspin.mass import inertia
@@ -490,7 +490,7 @@ def is_sphere(body: Body) -> str | None:
 
 
 FREE_WOBBLE = without_error(
-    "relative to itself, that of free_wobble_period",
+    "its relative error is that of free_wobble_period",
     {
         **with_error(
             "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
@@ -522,17 +522,18 @@ def free_wobble(body: Body) -> xr.Dataset:
 
 
 SEASONS = without_error(
-    "relative to itself, that of general_precession",
+    "its relative error is that of general_precession",
     {
         **with_error(
             "general_precession",
-            Variable((), "arcsec/yr", "slide of the equinox along the moving ecliptic"),
+            Variable((), "arcsec/yr", "motion of the equinox along the moving ecliptic"),
         ),
         **with_error(
-            "general_precession_period", Variable((), "yr", "time for one turn of the equinox")
+            "general_precession_period",
+            Variable((), "yr", "period of one full turn of the equinox"),
         ),
-        "time_per_degree": Variable((), "yr", "time in which the equinox slides by one degree"),
-        "tropical_year": Variable((), "d", "time from season to season"),
+        "time_per_degree": Variable((), "yr", "time in which the equinox moves by one degree"),
+        "tropical_year": Variable((), "d", "tropical year, the period of the seasons"),
         "time_per_day_of_drift": Variable(
             (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
         ),
@@ -542,7 +543,7 @@ SEASONS = without_error(
 
 @part(gives=SEASONS, unless=not_sun_and_moon)
 def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Dataset:
-    """General precession, years a degree, drift of the calendar."""
+    """General precession, years per degree, drift of the calendar."""
     from earthspin.nutation import seasons as s
     from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
@@ -573,17 +574,17 @@ IAU_2006 = {
         "rate of psi_A in IAU 2006 at the same epoch",
         no_error="a model that was adopted, exact by definition",
     ),
-    **with_error("difference_from_iau", Variable((), "arcsec/yr", "our rate minus the IAU's")),
+    **with_error("difference_from_iau", Variable((), "arcsec/yr", "computed rate minus the IAU's")),
     **with_error(
         "closure",
-        Variable((), "arcsec/yr", "difference left after every published contribution"),
+        Variable((), "arcsec/yr", "difference that remains after all published contributions"),
     ),
 }
 
 
 @part(gives=IAU_2006, unless=not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
-    """IAU 2006 precession beside ours, and what closes the difference."""
+    """IAU 2006 precession compared with the computed one, published effects included."""
     from earthspin.nutation.budget import closure
     from earthspin.sky.iau import precession_rates
 
@@ -613,7 +614,7 @@ STANDSTILLS = {
 
 @part(gives=STANDSTILLS, unless=no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
-    """Major and minor standstills of the moon: dates and extreme declinations."""
+    """Major and minor standstills of the Moon: dates and extreme declinations."""
     from earthspin.sky.standstill import find_standstills
 
     moon = {"moon": sky.targets["moon"]}

@@ -46,14 +46,14 @@ class Spheroid(
     [-8.148] m/s2
     """
 
-    body: Body = key(EARTH, doc="whose mass and figure the spheroid has")
+    body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
-        doc="points from the centre, z along the axis"
+        doc="coordinates from the centre, z along the axis"
     )
     point_mass: Annotated[float, Number("kg", "1 kg", low=0.0, high=1e60)] = setting(
-        "1 kg", doc="mass at each point, whose torque on the body is given"
+        "1 kg", doc="mass at each point; its torque on the body is computed"
     )
-    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
     def check(self) -> None:
         """A spheroid has a mass."""
@@ -67,13 +67,15 @@ FIELD = covered_by(
     "relative_error",
     {
         "position": Variable(
-            _VECTOR, "m", "place of the point from the centre", no_error="as it was given"
+            _VECTOR, "m", "coordinates of the point from the centre", no_error="as it was given"
         ),
         "potential": Variable(("point",), "J/kg", "gravitational potential"),
         "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
         "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
         "relative_error": Variable(
-            ("point",), "1", "95 % half-width of potential, attraction and torque over their sizes"
+            ("point",),
+            "1",
+            "95 % half-width of potential, attraction and torque relative to their sizes",
         ),
     },
 )
@@ -112,7 +114,7 @@ def field_accuracy(field: xr.Dataset, accuracy: float | None) -> xr.Dataset:
 
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
-    """What the even density leaves out: the body is denser inside and has a smaller J2."""
+    """What a uniform density leaves out: the body is denser inside and has a smaller J2."""
     from earthspin.mass.figure import eccentricity_squared
 
     if body.labelled or body.j2 is None:

@@ -38,7 +38,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     Dataset
         Over `time` (s): `theta`, `phi`, `psi` (rad), `attitude`, `omega_body`; `pattern` (wave,
         cusp, loop, sleeping, steady), `nutation_period`, `mean_precession_rate`.
-        `earthspin.run_tree` gives the turning angles and the effective potential beside it.
+        `earthspin.run_tree` adds the turning angles and the effective potential.
 
     Raises
     ------
@@ -64,11 +64,11 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
 
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")
-    points: Annotated[int, Whole()] = setting(401, doc="how many times, evenly spaced")
+    points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
     transverse_moment: Moment = setting(
-        doc="I1, about an axis through the pivot square to the axis"
+        doc="I1, about any line through the pivot perpendicular to the axis"
     )
-    axial_moment: Moment = setting(doc="I3, about the axis; no body has more than 2 I1")
+    axial_moment: Moment = setting(doc="I3, about the axis; at most 2 I1 in any body")
     weight_moment: Annotated[float, Number("N m", "0.04 N m")] = setting(
         doc="m g r, weight times the distance from the pivot to the centre of mass"
     )
@@ -76,9 +76,9 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     spin: Rate = setting(doc="omega3, angular velocity along the axis")
     phi_rate: Rate = setting("0 rad/s", doc="rate of phi at t = 0")
     theta_rate: Rate = setting("0 rad/s", doc="rate of theta at t = 0")
-    phi: Angle = setting("0 deg", doc="turn of the axis about the vertical at t = 0")
-    psi: Angle = setting("0 deg", doc="turn of the body about its axis at t = 0")
-    accuracy: Relative | None = key(None, doc="relative error that must be kept")
+    phi: Angle = setting("0 deg", doc="azimuth of the axis about the vertical at t = 0")
+    psi: Angle = setting("0 deg", doc="rotation angle of the body about its axis at t = 0")
+    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
 
 @part
@@ -125,20 +125,20 @@ MOTION = covered_by(
     "relative_error",
     {
         "theta": Variable(_TIME, "rad", "angle from the vertical to the axis"),
-        "phi": Variable(_TIME, "rad", "turn of the axis about the vertical"),
-        "psi": Variable(_TIME, "rad", "turn of the body about its axis"),
+        "phi": Variable(_TIME, "rad", "azimuth of the axis about the vertical"),
+        "psi": Variable(_TIME, "rad", "rotation angle of the body about its axis"),
         "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
         "omega_body": Variable(
             ("time", "component"), "rad/s", "angular velocity along the principal axes"
         ),
         "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
-        "nutation_period": Variable((), "s", "time in which theta goes once to and fro"),
+        "nutation_period": Variable((), "s", "period of the nutation, the oscillation of theta"),
         "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
         "relative_error": Variable(
             (),
             "1",
-            "95 % half-width of theta over itself, of each other quantity over its largest value: "
-            "what a unit in the last place of the start does, and the closed form",
+            "95 % half-width of theta relative to itself, of the others relative to their largest "
+            "values, from rounding of the initial values and of the closed form",
         ),
     },
 )
@@ -174,17 +174,17 @@ def euler_angles(
     )
 
 
-_AS_THE_MOTION = "from the same closed form as the motion, whose relative_error holds"
+_AS_THE_MOTION = "same closed form as the motion, so its relative_error holds"
 TURNING = {
     "turning_angle": Variable(
-        ("turning",), "rad", "least and greatest theta", no_error=_AS_THE_MOTION
+        ("turning",), "rad", "smallest and largest theta", no_error=_AS_THE_MOTION
     )
 }
 
 
 @part(gives=TURNING)
 def turning(motion: HeavyTopMotion) -> xr.Dataset:
-    """The angles at which the nutation turns back."""
+    """The angles theta between which the nutation runs."""
     values = {"turning_angle": motion.turning_angle}
     return build(TURNING, values, coords={"turning": ["upper", "lower"]})
 
@@ -193,8 +193,8 @@ POTENTIAL = {
     "effective_potential": Variable(
         ("inclination",),
         "rad2 / s2",
-        "effective potential V of alpha = theta'^2 + V",
-        no_error="two terms of one formula: rounding alone",
+        "effective potential V, where alpha = theta'^2 + V is constant",
+        no_error="two terms of one formula, with rounding errors only",
     )
 }
 

@@ -1,4 +1,4 @@
-"""Where the perturbers stand and what they pull, at many times."""
+"""Positions of the perturbers and their torques at many times."""
 
 from __future__ import annotations
 
@@ -57,8 +57,10 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
         doc="first and last date, TDB; the last is included if the step meets it",
     )
-    step: Step = key("6 h", doc="time between two dates")
-    equator: Literal["mean", "true"] = key("mean", doc="equator and equinox of date to refer to")
+    step: Step = key("6 h", doc="interval between dates")
+    equator: Literal["mean", "true"] = key(
+        "mean", doc="equator and equinox of date that directions refer to"
+    )
     accuracy: AngleError | None = key(
         None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
     )
@@ -98,7 +100,10 @@ TORQUES = {
     "declination": Variable(_SERIES, "deg", "declination, geometric", error="direction_error"),
     "distance": Variable(_SERIES, "m", "distance between the centres"),
     "torque": Variable(
-        (*_SERIES, "component"), "N m", "torque on the bulge", error="torque_magnitude_error"
+        (*_SERIES, "component"),
+        "N m",
+        "torque on the equatorial bulge",
+        error="torque_magnitude_error",
     ),
     **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
     "direction_error": Variable(("perturber",), "deg", "bound on right ascension and declination"),

@@ -1,4 +1,7 @@
-"""The wobble ladder: rigid rungs, what the interior adds, and what it depends on."""
+"""The wobble ladder: rigid rungs, rungs of the interior, and their sensitivity to the inputs.
+
+A rung is a model that adds one effect to the model before.
+"""
 
 from __future__ import annotations
 
@@ -34,17 +37,18 @@ _SPIN = ("gm", "radius", "spin_period")
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
-    """Period of the free wobble, from a formula of flattening to a body that yields (I.6).
+    """Period of the free wobble, from the formula with the flattening to a deformable body (I.6).
 
-    The `interior` of the body says how far the ladder goes.
+    A ladder of models: each rung adds one effect to the rung before. The `interior` of the body
+    determines the last rung.
 
     Returns
     -------
     Dataset
         Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
         `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
-        `quality_factor`. `earthspin.run_tree` gives sections beside it: the observed period, what
-        the last rung depends on, the free core nutation, and the Love numbers of the interior.
+        `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
+        sensitivity of the last rung, the free core nutation, and the Love numbers.
 
     Raises
     ------
@@ -58,11 +62,11 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
 
-    body: Body = key(EARTH, doc="what wobbles")
-    ocean: Literal["real", "global", "none"] = setting("real", doc="which ocean lies on it")
+    body: Body = key(EARTH, doc="body that wobbles")
+    ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
         ANELASTIC_EXPONENT.value,
-        doc="exponent of frequency in the mantle's quality factor; observed decay leaves 0.04 to "
+        doc="exponent of frequency in the mantle's quality factor; observed decay allows 0.04 to "
         "0.19 (Smith & Dahlen 1981)",
     )
 
@@ -86,7 +90,7 @@ def why_rigid(body: Body) -> str | None:
     if body.interior in (None, "none"):
         return f"no interior of {body.name} is kept; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
-        return "only an oblate body is climbed further"
+        return "models with an interior are for oblate bodies"
     interior = interior_of(body)
     if interior.layers is not None:
         for what, own, models in (
@@ -161,7 +165,7 @@ def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
 
 _RUNG = ("rung",)
 LADDER = without_error(
-    "relative to itself, that of period_solar; the quality factor follows from published ones",
+    "its relative error is that of period_solar; the quality factor follows from published ones",
     {
         **with_error(
             "period_solar",
@@ -170,7 +174,7 @@ LADDER = without_error(
         "period_sidereal": Variable(
             _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
         ),
-        "factor": Variable(_RUNG, "1", "period over that of the rung before"),
+        "factor": Variable(_RUNG, "1", "ratio of the period to that of the rung before"),
         "quality_factor": Variable(
             _RUNG,
             "1",
@@ -178,19 +182,21 @@ LADDER = without_error(
             (
                 (
                     "comment",
-                    "infinite where nothing is lost; the exponent of the loss is a free choice, "
+                    "infinite without dissipation; the exponent of anelasticity is a free choice, "
                     "so the anelastic rung is a check of consistency, not a prediction",
                 ),
             ),
         ),
-        "rung_formula": Variable(_RUNG, "", "turns per wobble, and where the formula stands"),
+        "rung_formula": Variable(
+            _RUNG, "", "formula for the turns of the body per wobble, with its source"
+        ),
     },
 )
 
 
 @part(gives=LADDER)
 def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
-    """Free wobble, from a formula of flattening to a body that yields."""
+    """Free wobble, from the formula with the flattening to a deformable body."""
     import xarray as xr
 
     from earthspin.wobble import ladder
@@ -265,14 +271,16 @@ def _along(
 # --- sections --------------------------------------------------------------------------------
 
 INTERIOR = without_error(
-    "the section sensitivity says what its uncertainty does to the period",
+    "the section sensitivity gives the effect of its uncertainty on the period",
     {
         "love_number": Variable(("love",), "1", "Love number of degree two, elastic, at 1 s"),
-        "moment_factor": Variable((), "1", "moment of inertia of the model over M R2"),
-        "core_fraction": Variable((), "1", "moment of the core over that of the body"),
+        "moment_factor": Variable((), "1", "moment of inertia of the model, divided by M R2"),
+        "core_fraction": Variable(
+            (), "1", "ratio of the moment of inertia of the core to that of the body"
+        ),
         "fluid_love_number": Variable((), "1", "k2 if the body were liquid throughout"),
         "global_ocean_love_number": Variable(
-            (), "1", "what an ocean all over would add to k2, in closed form"
+            (), "1", "increase of k2 by an ocean that covers the whole body, in closed form"
         ),
     },
 )
@@ -305,13 +313,13 @@ def interior_response(body: Body) -> xr.Dataset:
 
 
 SENSITIVITY = without_error(
-    "a share of an error, or what it is made of",
+    "a share of an error, or an input of it",
     {
         "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
         "input_value": Variable(("input",), "1", "value of the input"),
         "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
         "days_from_input": Variable(
-            ("input",), "d", "95 % half-width of the last rung from the input"
+            ("input",), "d", "95 % half-width of the last rung from the uncertainty of the input"
         ),
     },
 )
@@ -345,7 +353,7 @@ CORE_NUTATION = without_error(
     "the uncertainty of the core was not propagated to it",
     {
         "free_core_nutation": Variable(
-            ("core_shape",), "d", "period of the free core nutation among the stars"
+            ("core_shape",), "d", "period of the free core nutation in space"
         ),
         "free_core_nutation_sidereal": Variable(
             ("core_shape",), "1", "period of the free core nutation in turns of the body"
@@ -356,7 +364,7 @@ CORE_NUTATION = without_error(
 
 @part(gives=CORE_NUTATION)
 def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
-    """The system's other root: the free core nutation, by the shape of the core."""
+    """Free core nutation, the other root of the equations, by the shape of the core."""
     from earthspin.wobble import ladder
 
     shapes = {"hydrostatic": inside.inputs}
@@ -383,8 +391,10 @@ def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     """What the last rung leaves out."""
     if inside is None:
-        return Neglected(what=f"all that yields: {why_rigid(body)}")
-    return Neglected(what="a solid inner core, winds and currents, of sizes not known here")
+        return Neglected(what=f"all deformation: {why_rigid(body)}")
+    ocean = inside.interior.ocean is not None and inside.ocean != "none"
+    flows = "winds and currents" if ocean else "winds"
+    return Neglected(what=f"a solid inner core and {flows}; their sizes are not known here")
 
 
 made_of(

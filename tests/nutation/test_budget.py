@@ -101,7 +101,7 @@ def test_only_sun_and_moon_are_compared() -> None:
     plan = earthspin.plan(
         earthspin.Scene(compute="precession", perturbers=["sun", "moon", "venus"])
     )
-    assert plan.left_out["iau-2006"] == "the comparison is for sun and moon alone"
+    assert plan.left_out["iau-2006"] == "the comparison is for Sun and Moon only"
 
 
 def test_each_rate_lies_within_its_error_of_the_published_one() -> None:
