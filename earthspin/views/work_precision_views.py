@@ -293,7 +293,7 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
         tables,
         lead="How much time each method needs for a quantity, and how large its error is.",
         note="The sentence below each table says which method to use. Filled markers are methods "
-        "of this package; open markers are SciPy set by hand, or another library. The front joins the "
-        "points for which no other has both a smaller error and a shorter run time.",
+        "of this package; open markers are SciPy set by hand, or another library. The front joins "
+        "the points for which no other has both a smaller error and a shorter run time.",
         footer=f"{results[0].attrs['source']}.",
     )
