@@ -15,17 +15,51 @@ extensions = [
     "sphinx.ext.autosummary",
     "numpydoc",
     "myst_nb",
+    "sphinx_design",
+    "sphinx_gallery.gen_gallery",
     "equation_map",
     "native_math",
     "scene_keys",
 ]
 html_theme = "pydata_sphinx_theme"
-html_theme_options = {"show_prev_next": False, "secondary_sidebar_items": ["page-toc"]}
+html_theme_options = {
+    "secondary_sidebar_items": ["page-toc"],
+    "header_links_before_dropdown": 6,
+    "show_toc_level": 2,
+}
+html_sidebars = {"index": []}
+html_static_path = ["_static"]
+html_css_files = ["earthspin.css"]
 html_math_renderer = "native"
 html_title = "earthspin"
 templates_path = ["_templates"]
-exclude_patterns = ["_build", "_templates", "jupyter_execute", "examples"]
-myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+exclude_patterns = [
+    "_build", "_templates", "jupyter_execute", "examples", "gallery", "auto_gallery/**/*.ipynb",
+]  # fmt: skip
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "auto_gallery",
+    "subsection_order": [
+        f"gallery/{section}"
+        for section in (
+            "bodies", "free_rotors", "top", "torques", "precession", "pole", "wobble", "accuracy",
+            "many",
+        )
+    ],
+    "within_subsection_order": "FileNameSortKey",
+    "reset_modules": ("gallery_figures.journal",),
+    "image_scrapers": ("gallery_figures.one_figure",),
+    "image_srcset": ["2x"],
+    "abort_on_example_error": True,
+    "capture_repr": (),
+    "remove_config_comments": True,
+    "show_memory": False,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+    "thumbnail_size": (480, 336),
+    "write_computation_times": False,
+}  # fmt: skip
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "attrs_block"]
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120

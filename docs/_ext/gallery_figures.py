@@ -1,0 +1,89 @@
+"""What each script of the gallery keeps to: one style, one figure, axes that name their units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.dates import AutoDateFormatter
+from matplotlib.figure import Figure
+
+from earthspin.views.drawing import CYCLE, STYLE
+
+#: The package's own style, and what a figure on a page of a journal needs beside it.
+JOURNAL: dict[str, Any] = {
+    **STYLE,
+    "figure.figsize": (6.4, 4.0),
+    "figure.constrained_layout.use": True,
+    "figure.dpi": 110,
+    "lines.linewidth": 1.3,
+    "axes.prop_cycle": f"cycler(color={list(CYCLE)})",
+    "axes.titlelocation": "left",
+    "legend.fontsize": 8,
+}
+
+#: What a label says of the unit of its numbers, as a word of its own.
+UNIT = re.compile(
+    r"(?<![\w$])(m|cm|km|kg|s|h|d|day|days|yr|year|years|century|cycles|turns|TDB|deg|degrees|rad|1/s|"
+    r"rad/s|rad²/s²|arcsec|mas|µas|%|ratio|relative|number|ppm|N\sm|m²/s²|kg\sm²|kg/m³)(?![\w$])"
+)
+
+
+def journal(_conf: object = None, _script: object = None) -> None:
+    """Draw the next script in the style of the gallery, on a clean desk."""
+    plt.close("all")
+    plt.rcdefaults()
+    plt.rcParams.update(JOURNAL)
+
+
+def faults(figures: list[Figure]) -> list[str]:
+    """Say what is wrong with the figures of one script; nothing, if all is well."""
+    if len(figures) != 1:
+        return [f"it draws {len(figures)} figures, not one"]
+    figures[0].canvas.draw()
+    return [fault for ax in figures[0].axes for fault in _faults_of(ax)]
+
+
+def _faults_of(ax: Axes) -> Iterator[str]:
+    for name, axis in _axes_with_numbers(ax):
+        words = axis.get_label_text()
+        if not UNIT.search(words):
+            yield f"the label of {name}, {words!r}, has no unit"
+    for line in ax.lines:
+        if not np.all(np.isfinite(np.asarray(line.get_xydata(), dtype=float))):
+            yield f"the line {line.get_label()!r} has NaN"
+    for dots in ax.collections:
+        if np.ma.isMaskedArray(offsets := dots.get_offsets()) and np.ma.is_masked(offsets):
+            yield f"the dots {dots.get_label()!r} have NaN"
+
+
+def _axes_with_numbers(ax: Axes) -> Iterator[tuple[str, Axis]]:
+    """Axes whose ticks are labelled with numbers: names and dates speak for themselves."""
+    if not ax.axison:
+        return
+    for name in ("x", "y", "z"):
+        axis = getattr(ax, f"{name}axis", None)
+        if axis is None or not axis.get_visible():
+            continue
+        if isinstance(axis.get_major_formatter(), AutoDateFormatter):
+            continue
+        texts = [tick.get_text() for tick in axis.get_ticklabels() if tick.get_visible()]
+        shown = [re.sub(r"[\s$\\{}^−+×.,°-]|mathdefault|times", "", text) for text in texts if text]
+        if any(text.isdigit() for text in shown):
+            yield name, axis
+
+
+def one_figure(block: Any, variables: Any, conf: Any) -> str:
+    """Take the picture of a script into its page, or say why it is none (for sphinx-gallery)."""
+    from sphinx_gallery.scrapers import matplotlib_scraper
+
+    figures = [plt.figure(number) for number in plt.get_fignums()]
+    if figures and (wrong := faults(figures)):
+        raise ValueError("; ".join(wrong))
+    page: str = matplotlib_scraper(block, variables, conf, dpi=110)
+    return page

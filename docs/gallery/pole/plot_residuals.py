@@ -1,0 +1,24 @@
+r"""
+What an Earth that is not rigid adds
+====================================
+
+Our pole less IAU 2000A for three models. Better celestial mechanics leaves the first remainder as
+it is; the response of the inside of the Earth takes it away (Mathews, Herring & Buffett 2002).
+The year that stays in the last panel is an atmospheric tide that the IAU's series holds and no
+response makes.
+
+*Next:* ``effects=[...]`` in ``earthspin.compare_iau`` switches each part by itself.
+"""
+
+import matplotlib.pyplot as plt
+
+import earthspin
+from earthspin.views.iau import plot_pole_residuals
+
+sections = ["residuals_by_model", "residual_sizes"]
+tree = earthspin.run_tree(earthspin.load_scene("iau"), sections=sections)
+
+fig = plt.figure(figsize=(8.2, 6.0))
+plot_pole_residuals(tree, figure=fig)
+for ax in fig.axes:
+    ax.set_ylabel("residual (mas)")
