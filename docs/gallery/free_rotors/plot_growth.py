@@ -22,7 +22,9 @@ rate = float(axis_stability(moments, 1.0).growth_rate[1])
 fig, ax = plt.subplots()
 for number, push in enumerate((1e-2, 1e-5, 1e-8)):
     racket = earthspin.free_rotor(moments, [push, 1.0, 0.0], times)
-    ax.semilogy(times, racket.omega_body.sel(component="x"), color=f"C{number}", label=f"{push:g} rad/s")
+    ax.semilogy(
+        times, racket.omega_body.sel(component="x"), color=f"C{number}", label=f"{push:g} rad/s"
+    )
     early = times < np.log(0.5 / push) / rate
     ax.semilogy(times[early], push * np.cosh(rate * times[early]), "k--", lw=0.8)
 ax.set(xlabel="time (s)", ylabel="spin about the axis of least moment (rad/s)")

@@ -3,8 +3,8 @@ The largest terms of nutation
 =============================
 
 The pole's path, taken apart into circles: a turn of the node, half a year, a fortnight and so on,
-each a pair of circles, one each way. The largest of a rigid Earth stand beside those of IAU 2000A
-(Souchay et al. 1999 have the rigid theory); on this scale the two look alike.
+each a pair of circles, one each way. The largest of a rigid Earth
+(as in Souchay et al. 1999) stand beside those of IAU 2000A; on this scale the two look alike.
 
 *Next:* divide one by the other: that is the response of the Earth's inside.
 """

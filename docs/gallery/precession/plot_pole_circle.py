@@ -15,5 +15,6 @@ import matplotlib.pyplot as plt
 import earthspin
 from earthspin.views.precession import plot_pole_circle
 
-fig, ax = plt.subplots(figsize=(7.2, 7.2))
+fig, ax = plt.subplots(figsize=(6.5, 6.1))
 plot_pole_circle(earthspin.precession(), ax=ax)
+ax.set(xlim=(-33.5, 28), ylim=(-28, 28))

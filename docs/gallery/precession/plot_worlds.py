@@ -24,7 +24,7 @@ worlds = {
 }
 
 fig, ax = plt.subplots()
-for row, (name, found) in enumerate(worlds.items()):
+for row, found in enumerate(worlds.values()):
     all_of_it = found.isel(perturber=-1)
     period, error = all_of_it.precession_period / 1e3, all_of_it.precession_period_error / 1e3
     ax.errorbar(period, row, xerr=error, fmt="o", color=f"C{row}", capsize=3)

@@ -20,9 +20,13 @@ angle = np.radians(np.linspace(10, 120, 300))
 fig, ax = plt.subplots()
 for number, (name, push) in enumerate({"let go": 0.0, "pushed back": -0.6}.items()):
     top = HeavyTop(
-        transverse_moment=1.0, axial_moment=1.2, weight_moment=1.5,
-        theta=np.radians(40), spin=3.0, phi_rate=push,
-    )  # fmt: skip
+        transverse_moment=1.0,
+        axial_moment=1.2,
+        weight_moment=1.5,
+        theta=np.radians(40),
+        spin=3.0,
+        phi_rate=push,
+    )
     ax.plot(np.degrees(angle), effective_potential(top, angle), color=f"C{number}", label=name)
     ends = turning_angles(top)
     level = effective_potential(top, ends)

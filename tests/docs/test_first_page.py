@@ -1,0 +1,29 @@
+"""The first page: its lines run, print what stands there, and draw a figure."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = (DOCS / "index.md").read_text(encoding="utf-8")
+
+
+def test_the_eight_lines_print_what_stands_below_them(tmp_path: Path) -> None:
+    (program,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
+    (printed,) = re.findall(r"```text\n(.*?)```", PAGE, flags=re.DOTALL)
+    assert len([line for line in program.splitlines() if line.strip()]) == 8
+    out = subprocess.run(
+        [sys.executable, "-X", "utf8", "-c", program],
+        check=True, capture_output=True, encoding="utf-8", cwd=tmp_path,
+    ).stdout  # fmt: skip
+    assert out == printed
+    assert (tmp_path / "torque.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_pictures_on_pages_come_from_scripts() -> None:
+    for page in DOCS.glob("*.md"):
+        for picture in re.findall(r"```\{figure\} (\S+)", page.read_text(encoding="utf-8")):
+            found = re.fullmatch(r"auto_gallery/(\w+)/images/sphx_glr_(plot_\w+)_001\.png", picture)
+            assert found, f"{page.name}: {picture}"
+            assert (DOCS / "gallery" / found[1] / f"{found[2]}.py").is_file(), picture
