@@ -5,11 +5,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
-from earthspin import __version__
+import earthspin
 
 project = "earthspin"
 author = "the earthspin developers"
-release = __version__
+release = earthspin.__version__
 extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -76,5 +76,14 @@ def keep_absolute_values(app, what, name, obj, options, lines):
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
+def described_elsewhere(app, what, name, obj, skip, options):
+    """Leave out of a module's page what has a page of its own in the reference."""
+    own = Path(app.srcdir) / "reference" / "generated" / f"earthspin.{name}.rst"
+    if what == "module" and own.exists() and getattr(earthspin, name, None) is obj:
+        return True
+    return None
+
+
 def setup(app):
     app.connect("autodoc-process-docstring", keep_absolute_values, priority=900)
+    app.connect("autodoc-skip-member", described_elsewhere)

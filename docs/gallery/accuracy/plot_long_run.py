@@ -2,10 +2,9 @@ r"""
 An integrator forgets, a closed form does not
 =============================================
 
-A tumbling body for ever longer times. The error of an integrator at its default tolerance and at
-a tight one grows with the time; its energy and angular momentum drift (they are constant by
-I.5.1). The closed form of Euler's equations (I.4.4) keeps both to rounding; it is the reference
-here.
+A tumbling body for ever longer times. The error of an integrator grows with the time, at each of
+three tolerances; its energy and angular momentum, constant by I.5.1, drift. The closed form of
+Euler's equations (I.4.4) keeps both to rounding and is the reference here.
 
 *Next:* try ``method="LSODA"``, which changes its order as it goes.
 """

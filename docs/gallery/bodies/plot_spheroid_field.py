@@ -6,7 +6,7 @@ The potential of a homogeneous spheroid has a closed form (the third reader exer
 Beside it stands the usual short form with the moment difference alone (I.9.31). Near a flat body
 the short form fails, far away both agree; the flatter the body, the farther one has to go.
 
-*Next:* a negative flattening makes a cigar. Where does the error change sign?
+*Next:* a negative flattening makes a cigar. Does the error change its sign?
 """
 
 import matplotlib.pyplot as plt

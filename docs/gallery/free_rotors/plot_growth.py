@@ -4,7 +4,7 @@ How fast the middle axis fails
 
 Near the middle axis a disturbance grows as :math:`e^{\gamma t}` with :math:`\gamma =
 \omega\sqrt{(C-B)(B-A)/(AC)}`, which follows from Euler's equations (I.4.4). Starts a thousand
-times closer to the axis buy the same few seconds each time; none buys for ever. The dashed lines
+times closer to the axis buy the same stretch of time each; none buys for ever. The dashed lines
 are the linear growth, the solid ones the exact motion until the flip.
 
 *Next:* compare with a body whose middle moment is closer to the least.

@@ -4,8 +4,8 @@ Why a top nods between two angles
 
 With azimuth and spin gone from the equations, the inclination moves like a ball in the valley of
 the effective potential (I.7.18). The energy of each start is a level in it, and the top swings
-between the two points where the level meets the valley's sides. The cusp is the top let go at
-rest: it starts on one of them.
+between the two points where the level meets the valley's sides. Both tops start without any
+swing, so at one of these points; the one that is let go at rest draws cusps.
 
 *Next:* double the spin. The valley narrows and the nodding shrinks.
 """

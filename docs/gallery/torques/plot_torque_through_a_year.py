@@ -3,9 +3,9 @@ A year of torque
 ================
 
 Sun and Moon pull on the Earth's bulge whenever they stand off the equator (I.8.7). The torque
-towards the equinox goes with the square of the declination, so it has the same sign in summer and
-in winter and does not average out: the dashed means are what makes the axis precess. The Moon's
-month and its larger pull stand out.
+towards the equinox goes nearly with the square of the declination, so it has the same sign in
+summer and in winter and does not average out: the dashed means are what makes the axis precess.
+The Moon's month and its larger pull stand out.
 
 *Next:* take a year nine years later, when the Moon's declinations are smallest.
 """

@@ -2,10 +2,10 @@ r"""
 Where the moment of inertia sits
 ================================
 
-Density falls outwards in PREM (Dziewonski & Anderson 1981), and with a step at the core. The
-share of the moment of inertia grows with the fourth power of the radius, so the core, half of the
-radius, holds little of it. This share is why a core that stays behind matters for the wobble, and
-the mean moment is less than the 2/5 of a uniform sphere (exercise in I.9).
+Density falls outwards in PREM (Dziewonski & Anderson 1981), and with a step at the core. A shell
+counts in the moment of inertia with the fourth power of its radius, so the core, half of the
+Earth across, holds little of it. This share is why a core that stays behind matters for the
+wobble, and the mean moment is less than the 2/5 of a uniform sphere (exercise in I.9).
 
 *Next:* compute the share of a uniform Earth and compare the two curves.
 """
