@@ -83,7 +83,7 @@ def one_figure(block: Any, variables: Any, conf: Any) -> str:
     from sphinx_gallery.scrapers import matplotlib_scraper
 
     figures = [plt.figure(number) for number in plt.get_fignums()]
-    if figures and (wrong := faults(figures)):
-        raise ValueError("; ".join(wrong))
+    if wrong := faults(figures):
+        raise ValueError(f"{variables['src_file']}: {'; '.join(wrong)}")
     page: str = matplotlib_scraper(block, variables, conf, dpi=110)
     return page
