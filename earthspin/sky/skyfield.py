@@ -98,6 +98,7 @@ class Skyfield:
             If a trajectory gives no finite position.
         """
         self.check_times(days, {*targets.values(), centre})
+        self.file.check_records(days, {*targets.values(), centre})
         found = {name: np.empty((days.size, 3)) for name in targets}
         for block, t in blocks_of_times(days):
             for name, place in targets.items():
@@ -133,6 +134,7 @@ class Skyfield:
             At the true equator and equinox of date, or at the mean ones.
         """
         self.check_times(days, {*targets.values(), centre})
+        self.file.check_records(days, {*targets.values(), centre})
         found = {name: np.empty((3, days.size)) for name in targets}
         for block, t in blocks_of_times(days):
             t = _with_equator(t, true=true)
