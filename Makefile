@@ -2,14 +2,19 @@
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
+LOWEST := .venv-lowest
 
-.PHONY: report test check docs bench fuzz mutants clean
+.PHONY: report test test-lowest check docs bench fuzz mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
 
 test: $(VENV)/.test
 	$(BIN)/python -m pytest -q --numprocesses=auto --dist=loadfile
+
+# The oldest versions that pyproject.toml allows; what they themselves need is the newest.
+test-lowest: $(LOWEST)/.test
+	$(LOWEST)/bin/python -m pytest -q --numprocesses=auto --dist=loadfile $(TESTS)
 
 check: $(VENV)/.check
 	$(BIN)/ruff check .
@@ -36,7 +41,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/call_overhead.py
 
 clean:
-	rm -rf $(VENV) report build dist docs/_build
+	rm -rf $(VENV) $(LOWEST) report build dist docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
@@ -51,4 +56,10 @@ $(VENV)/.test: pyproject.toml | $(VENV)/bin/python
 
 $(VENV)/.check: pyproject.toml | $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet --editable '.[test,check,docs]'
+	@touch $@
+
+$(LOWEST)/.test: pyproject.toml | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet uv
+	$(PYTHON) -m venv --clear $(LOWEST)
+	$(BIN)/uv pip install --quiet --python $(LOWEST)/bin/python --resolution lowest-direct --editable '.[test]'
 	@touch $@

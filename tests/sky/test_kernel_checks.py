@@ -340,11 +340,11 @@ def test_a_named_kernel_must_be_the_published_one(
 
 
 def test_random_damage_gives_no_wrong_torque(tmp_path: Path, pieces: list[Piece]) -> None:
-    """A thousand flipped bits and changed fields, with fixed seeds.
+    """Six hundred flipped bits and changed fields, with fixed seeds.
 
     Half of the flips lie too low in their number to matter and are answered. Measured: refused
-    51 % of 700 bits and bytes among the data, 78 % of 300 of the summaries and directories; the
-    largest error of a torque that was answered, 1.5e-10, came of a start of records off by 50 us.
+    50 % of 400 bits and bytes among the data, 79 % of 200 of the summaries and directories; the
+    largest error of a torque that was answered, 1.5e-10, came of a length of records off by 2 us.
     """
     path = write_kernel(tmp_path / "small.bsp", pieces)
     whole = path.read_bytes()
@@ -353,11 +353,11 @@ def test_random_damage_gives_no_wrong_torque(tmp_path: Path, pieces: list[Piece]
     truth = torques(Ephemeris(path), days)
     largest = np.abs(truth).max(axis=(1, 2), keepdims=True)
     chance = np.random.default_rng(20)
-    places = [int(chance.integers(3 * RECORD, len(whole))) for _ in range(700)]
+    places = [int(chance.integers(3 * RECORD, len(whole))) for _ in range(400)]
     heads = [summary(step, "start") for step in NAMES]
     tails = [directory(pieces, step, "start") for step in NAMES]
     regions = [(0, 128), *((at, 40) for at in heads), *((at, 32) for at in tails)]
-    for _ in range(300):
+    for _ in range(200):
         first, size = regions[chance.integers(len(regions))]
         places.append(first + int(chance.integers(size)))
     worst, refused = 0.0, {True: 0, False: 0}
@@ -371,11 +371,11 @@ def test_random_damage_gives_no_wrong_torque(tmp_path: Path, pieces: list[Piece]
         try:
             found = torques(Ephemeris(path), days)
         except EarthspinError:
-            refused[number < 700] += 1
+            refused[number < 400] += 1
             continue
         off = float(np.max(np.abs(found - truth) / largest))
         assert off <= 1e-9, f"byte {place} of {path.name}: torque off by {off:.2g}"
         worst = max(worst, off)
     assert worst > 0  # some were answered: the bound was put to the test
-    assert refused[True] > 0.45 * 700
-    assert refused[False] > 0.7 * 300
+    assert refused[True] > 0.45 * 400
+    assert refused[False] > 0.7 * 200

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import struct
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import erfa
 import numpy as np
+from jplephem.daf import DAF
 from numpy.typing import NDArray
 
 from earthspin.bodies import MARS, MOON
@@ -102,6 +106,76 @@ def _cut() -> None:
         half.write_bytes(whole[: len(whole) // 2])
         with without_folder(half):
             Ephemeris(half)
+
+
+@contextmanager
+def _changed(offset: int, form: str, *values: float) -> Iterator[Path]:
+    """A copy of the kernel with other numbers at one place."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "changed.bsp"
+        data = bytearray(kernel().path.read_bytes())
+        struct.pack_into(_daf().endian + form, data, offset, *values)
+        copy.write_bytes(data)
+        with without_folder(copy):
+            yield copy
+
+
+def _daf() -> DAF:
+    return kernel()._segments[_TO_MOON].daf
+
+
+def _summaries() -> int:
+    """Byte at which the list of segments begins: the number of the next record stands there."""
+    return 1024 * (int(_daf().fward) - 1)
+
+
+_TO_MOON = (3, CODES["moon"])
+
+
+@CASES.case("a kernel whose list of segments names itself as the next")
+@hard_because("read on and on, it fills the memory")
+@refused("never ends")
+def _endless() -> None:
+    with _changed(_summaries(), "d", _daf().fward) as path:
+        Ephemeris(path)
+
+
+@CASES.case("a kernel whose Moon hangs on the Earth, not on their barycentre")
+@hard_because("1.2 % nearer is within its orbit: the distance is possible")
+@refused("does not move")
+def _wrong_centre() -> None:
+    place = list(kernel()._segments).index(_TO_MOON)
+    with _changed(_summaries() + 24 + 40 * place + 20, "i", CENTRE) as path:
+        Ephemeris(path)
+
+
+@CASES.case("a kernel whose records start a second late")
+@hard_because("every position is smooth, and a kilometre off")
+@refused("other times")
+def _late() -> None:
+    segment = kernel()._segments[_TO_MOON]
+    first = segment.daf.read_array(segment.end_i - 3, segment.end_i - 3)[0]
+    with _changed(8 * (segment.end_i - 4), "d", first + 1.0) as path:
+        Ephemeris(path)
+
+
+@CASES.case("a kernel with one coefficient of the Moon a metre off")
+@hard_because("one record of 14080, and by 3e-9 of the distance")
+@refused("jumps")
+def _metre_off() -> None:
+    segment = kernel()._segments[_TO_MOON]
+    word = segment.start_i + 7500 * kernel()._records[_TO_MOON].size + 5
+    old = segment.daf.read_array(word, word)[0]
+    with _changed(8 * (word - 1), "d", old + 1e-3) as path:
+        Ephemeris(path).positions(CODES, CENTRE, np.arange(*_ends(), 3.0))
+
+
+@CASES.case("a kernel with a name, one bit in its comment changed")
+@hard_because("no number shows it")
+@refused("its SHA-256 is")
+def _another_hash() -> None:
+    with _changed(1024, "B", 0) as path:
+        Ephemeris(path, name="de421").positions(CODES, CENTRE, np.array([0.0]))
 
 
 @CASES.case("a body that the kernel does not hold")
