@@ -70,7 +70,7 @@ def test_a_span_of_skyfield_times() -> None:
         "2000-02-30",
         "2000-02-30T00:00Z",
         "NaT",
-        np.datetime64("NaT"),
+        np.datetime64("NaT", "s"),
         pd.NaT,
         SCALE.tdb_jd(np.nan),
         3.0,

@@ -68,7 +68,7 @@ def test_common_units_are_astropys_bit_for_bit(unit: str, number: float) -> None
         np.ma.masked_array([1.0, 2.0], [False, True]),
         np.ma.masked,
         10**400,
-        np.timedelta64("NaT"),
+        np.timedelta64("NaT", "s"),
         np.array([1, "NaT"], "m8[s]"),
         "many",
         "1 s 2",

@@ -170,7 +170,7 @@ def _metre_off() -> None:
         Ephemeris(path).positions(CODES, CENTRE, np.arange(*_ends(), 3.0))
 
 
-@CASES.case("a kernel with a name, one bit in its comment changed")
+@CASES.case("a kernel with a name, one byte of its comment changed")
 @hard_because("no number shows it")
 @refused("its SHA-256 is")
 def _another_hash() -> None:
