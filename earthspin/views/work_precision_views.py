@@ -117,7 +117,7 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
 
 
 def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Error against run time on log axes: filled markers are this package's, the broad line a front.
+    """Error against run time on log axes: filled markers are ours, the broad line is the front.
 
     A bar is half the range of the run times; the thin line of a method joins those of its settings
     that no other of its own beats, so that it never doubles back.
