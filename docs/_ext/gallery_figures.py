@@ -1,9 +1,18 @@
-"""What each script of the gallery keeps to: one style, one figure, axes that name their units."""
+"""What each script of the gallery keeps to: one style, one figure, axes that name their units.
+
+``python docs/_ext/gallery_figures.py SCRIPT ...`` runs scripts, and prints a line of JSON
+for each: its path and what is wrong with its figure.
+"""
 
 from __future__ import annotations
 
+import json
 import re
+import runpy
+import sys
 from collections.abc import Iterator
+from contextlib import redirect_stdout
+from io import StringIO
 from typing import Any
 
 import numpy as np
@@ -87,3 +96,19 @@ def one_figure(block: Any, variables: Any, conf: Any) -> str:
         raise ValueError(f"{variables['src_file']}: {'; '.join(wrong)}")
     page: str = matplotlib_scraper(block, variables, conf, dpi=110)
     return page
+
+
+def main(scripts: list[str]) -> None:
+    """Run each script on a clean desk, and print what is wrong with its figure."""
+    plt.switch_backend("Agg")
+    for script in scripts:
+        journal()
+        printed = StringIO()
+        with redirect_stdout(printed):
+            runpy.run_path(script, run_name="__main__")
+        figures = [plt.figure(number) for number in plt.get_fignums()]
+        print(json.dumps({"script": script, "faults": faults(figures)}), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
