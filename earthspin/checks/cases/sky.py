@@ -140,7 +140,7 @@ def _endless() -> None:
         Ephemeris(path)
 
 
-@CASES.case("a kernel whose Moon hangs on the Earth, not on their barycentre")
+@CASES.case("a kernel whose Moon hangs on the planet, not on their barycentre")
 @hard_because("1.2 % nearer is within its orbit: the distance is possible")
 @refused("does not move")
 def _wrong_centre() -> None:
