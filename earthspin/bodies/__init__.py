@@ -8,6 +8,9 @@ from earthspin.bodies.planets import PLANETS
 from earthspin.bodies.sun import SUN
 
 __all__ = [
-    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric", "all_of",
-    "body",
+    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "WITH_ARTICLE", "Body",
+    "Numeric", "all_of", "body",
 ]  # fmt: skip
+
+#: Names that take the article in a sentence: the Moon, but Mars.
+WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)

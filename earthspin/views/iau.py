@@ -100,7 +100,7 @@ def residuals(tree: Result) -> Table:
         ],
         f"Each cell gives dpsi sin(eps) / deps{dates}. A constant and a rate were fitted to each "
         "and removed, except in the last column. The residuals of the first two models are large "
-        "because the Earth is not rigid; no better integration can remove them.",
+        "because the body is not rigid; no better integration can remove them.",
     )
 
 
@@ -213,7 +213,7 @@ def drawings(tree: Result) -> list[Drawing]:
         "and the published contribution. Dashed: the closure.",
         plot_budget(tree),
     )
-    makers = {"residuals_by_model": _residuals_in_time, "nutation": _response_of_the_earth}
+    makers = {"residuals_by_model": _residuals_in_time, "nutation": _response}
     return [shown, *of_sections(tree, makers)]
 
 
@@ -222,12 +222,12 @@ def _residuals_in_time(tree: Result) -> Drawing:
     return Drawing("Residuals in time", caption, plot_pole_residuals(tree))
 
 
-def _response_of_the_earth(tree: Result) -> Drawing:
+def _response(tree: Result) -> Drawing:
     caption = (
         "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
         "resonance formula."
     )
-    return drawn("Response of the deformable Earth", caption, plot_nutation_ratio(tree))
+    return drawn("Response of the deformable body", caption, plot_nutation_ratio(tree))
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:

@@ -260,7 +260,7 @@ def circle_of_pole(tree: Result) -> Drawing:
     return drawn(
         "The circle of the pole among the stars",
         "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
-        "ecliptic. The sky is drawn as seen from the Earth, with stars at their present places.",
+        "ecliptic. The sky is drawn as seen from inside, with stars at their present places.",
         plot_pole_circle(tree),
         square=True,
     )

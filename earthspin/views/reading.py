@@ -7,15 +7,13 @@ from typing import TypeVar
 
 import xarray as xr
 
+from earthspin.bodies import WITH_ARTICLE
 from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.
 Result = xr.Dataset | xr.DataTree
 
 T = TypeVar("T")
-
-#: Bodies whose names take the article.
-WITH_ARTICLE = ("earth", "moon", "sun")
 
 
 def answer_of(result: Result) -> xr.Dataset:

@@ -117,10 +117,10 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
 
 
 def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Error against run time on log axes: filled markers are ours, the broad line is the front.
+    """Error against run time on log axes: filled markers are methods of this package.
 
-    A bar is half the range of the run times; the thin line of a method joins those of its settings
-    that no other of its own beats, so that it never doubles back.
+    The broad line is the front. A bar is half the range of the run times. The thin line of a method
+    joins those of its settings for which no other setting is both faster and more exact.
 
     Parameters
     ----------
