@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import xarray as xr
 
-from earthspin.bodies import EARTH, MOON
+from earthspin.bodies import MOON
 from earthspin.checks.case import Cases, Distances, hard_because, held_against, refused
 from earthspin.checks.sky import BODY
 from earthspin.errors import UndefinedError
@@ -138,7 +138,7 @@ def _too_far() -> None:
 @refused("do not fit into memory")
 def _times_of_members() -> None:
     radius = xr.DataArray(np.linspace(6.3e6, 6.4e6, 1000), dims="member")
-    body = EARTH.replace(radius=radius)
+    body = BODY.replace(radius=radius)
     torque_series("2000-01-01", "2027-01-01", "6 h", body=body)
 
 
