@@ -76,7 +76,7 @@ def test_a_polhode_without_a_period_has_no_advance(moments: list, omega: list) -
     assert np.isposinf(tree["poinsot"].polhode_period)
     assert "herpolhode_advance" not in tree["poinsot"]
     rows = dict(tables_for(tree)[0].rows)
-    assert rows["advance of the herpolhode per period, deg"] == "PLACE"
+    assert rows["advance of the herpolhode per period, deg"] == "none (the polhode has no period)"
     assert "does not come back" in drawings_for(tree)[1].caption
 
 
