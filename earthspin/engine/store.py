@@ -365,8 +365,8 @@ def _netcdf_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
         entry = _kind_encoding(variable)
         if variable.dims == (name,) and variable.dtype.kind in "UO":
             entry["dtype"] = "S1"
-        if variable.dtype.kind == "f":
-            entry["_FillValue"] = None  # nothing is ever missing
+        if variable.dtype.kind == "f" or variable.dims == (name,):
+            entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
         if variable.size and variable.ndim and variable.dtype.kind in "fiubM":
             entry["fletcher32"] = True
         encoding[str(name)] = entry
