@@ -93,6 +93,7 @@ PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981")
 # --- conversions -----------------------------------------------------------------------------
 DAY = 86400.0
 JULIAN_YEAR = 365.25 * DAY
+DAYS_PER_CENTURY = 36525.0
 ARCSEC = math.pi / 648000.0
 MAS = ARCSEC / 1000.0
 UAS = 1e-6 * ARCSEC

@@ -20,7 +20,8 @@ from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest
+from earthspin.errors import EarthspinError, UnitsError, Where, nearest
+from earthspin.text import Text
 
 FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -441,23 +442,6 @@ class Word:
 
     def write(self, value: str) -> Plain:
         """Give the word."""
-        return value
-
-
-@dataclass(frozen=True)
-class Text:
-    """A line of text."""
-
-    words, hint = "a line of text", "str"
-
-    def read(self, given: object, where: Where) -> str:
-        """Check."""
-        if not isinstance(given, str) or not is_one_line(given):
-            raise where.error(given, f"it is {self.words}")
-        return given
-
-    def write(self, value: str) -> Plain:
-        """Give the text."""
         return value
 
 

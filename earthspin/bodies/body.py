@@ -17,7 +17,6 @@ from earthspin import constants as c
 from earthspin.bodies.kinds import (
     CitedPeriod,
     Codes,
-    Line,
     Magnitude,
     Moments,
     OwnPlace,
@@ -26,6 +25,7 @@ from earthspin.bodies.kinds import (
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
+from earthspin.text import Text
 
 #: A float, or an array with named dimensions (anything numpy can read element by element).
 Numeric = Any
@@ -100,7 +100,7 @@ class Body:
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
     """
 
-    name: Annotated[str, Line()]
+    name: Annotated[str, Text()]
     gm: Annotated[Numeric, Magnitude("m3/s2", "3.986e14 m3/s2")]
     naif: Annotated[tuple[int, ...], Codes()] = ()
     radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
@@ -119,13 +119,13 @@ class Body:
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # measured: `python -m data_tools windows`
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
-    interior: Annotated[str | None, Line()] = None
+    interior: Annotated[str | None, Text()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     position: Annotated[Any, OwnPlace()] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
-    reference: Annotated[str, Line()] = ""
+    reference: Annotated[str, Text()] = ""
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"

@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.constants import DAY, DE440, IERS_2010, P03, SIDEREAL_YEAR, Constant
+from earthspin.constants import (
+    DAY,
+    DAYS_PER_CENTURY,
+    DE440,
+    IERS_2010,
+    P03,
+    SIDEREAL_YEAR,
+    Constant,
+)
 from earthspin.sky.poles import IAU_2006
 
 _EGM2008 = "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
@@ -32,7 +40,7 @@ NUMBERS = {
     "j3": Constant(-9.57161207e-7 * math.sqrt(7.0), "", None, _EGM2008),
     "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008),
     "j2_rate": Constant(
-        -3.001e-9 / (36525.0 * DAY), "s-1", None, P03 + ": -3.001e-9 a century, sect. 4.1"
+        -3.001e-9 / (DAYS_PER_CENTURY * DAY), "s-1", None, P03 + ": -3.001e-9 a century, sect. 4.1"
     ),
     # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
     # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude atan2(S22, C22)/2 = -14.93 deg.

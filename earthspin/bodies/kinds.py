@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from earthspin.constants import Constant
-from earthspin.errors import EarthspinError, Where, is_one_line
+from earthspin.errors import EarthspinError, Where
 
 #: What a scene file can hold. The border itself is loaded when there is something to read.
 Plain = Any
@@ -53,23 +53,6 @@ class Magnitude:
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
         return f"{float(value)!r} {self.unit}" if self.unit else value
-
-
-@dataclass(frozen=True)
-class Line:
-    """A line of text."""
-
-    words, hint = "a line of text", "str"
-
-    def read(self, given: object, where: Where) -> str:
-        """Check."""
-        if not isinstance(given, str) or not is_one_line(given):
-            raise where.error(given, f"it is {self.words}")
-        return given
-
-    def write(self, value: str) -> Plain:
-        """Give the text."""
-        return value
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from earthspin.bodies.body import Body
-from earthspin.constants import DAY, DE440, Constant
+from earthspin.constants import DAY, DAYS_PER_CENTURY, DE440, Constant
 
 NUMBERS = {
     "gm": Constant(
@@ -14,7 +14,7 @@ NUMBERS = {
     ),
     # the node goes once round in 1296000"/6962890.5431" centuries = 6798.383 d
     "cycle": Constant(
-        1296000.0 / 6962890.5431 * 36525.0 * DAY,
+        1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY,
         "s",
         0.0,
         "Simon et al. 1994, A&A 282, 663, sect. 3.5: rate of the mean longitude of the node",

@@ -79,13 +79,9 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
         a2 + lambda and c2 + lambda, in units of the squared equatorial radius.
     """
     f = check_flattening(flattening)
-    square = np.asarray(position, dtype=float) ** 2
-    e2 = eccentricity_squared(f)
     oblate = f >= 0
-    focal = np.abs(e2)
-    # The smaller square s solves s2 - p s - w = 0; either root formula adds equal signs only.
-    p = np.sum(square, axis=-1) - focal
-    w = focal * np.where(oblate, square[..., 2], square[..., 0] + square[..., 1])
+    focal, p, w = _quadratic(f, np.asarray(position, dtype=float) ** 2)
+    # Either root formula adds equal signs only.
     q = np.hypot(p, 2 * np.sqrt(w)) + np.abs(p)
     smaller = np.where(p >= 0, q / 2, 2 * w / np.maximum(q, np.finfo(float).tiny))
     # Inside the body lambda stays zero.
@@ -93,6 +89,14 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
     across = np.where(oblate, smaller + focal, smaller)
     along = np.where(oblate, smaller, smaller + focal)
     return across, along
+
+
+def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Squared focal distance, and p and w of s2 - p s - w = 0 for the smaller square s."""
+    focal = np.abs(eccentricity_squared(f))
+    p = np.sum(square, axis=-1) - focal
+    w = focal * np.where(f >= 0, square[..., 2], square[..., 0] + square[..., 1])
+    return focal, p, w
 
 
 def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
@@ -117,9 +121,7 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
     """
     f = check_flattening(flattening)
     square = np.asarray(position, dtype=float) ** 2
-    focal = np.abs(eccentricity_squared(f))
-    p = np.sum(square, axis=-1) - focal
-    w = focal * np.where(f >= 0, square[..., 2], square[..., 0] + square[..., 1])
+    focal, p, w = _quadratic(f, square)
     discriminant = np.maximum(np.hypot(p, 2 * np.sqrt(w)), np.finfo(float).tiny)
     moved = np.finfo(float).eps * (2 * np.sum(square, axis=-1) + focal)
     inside = square[..., 0] + square[..., 1] + square[..., 2] / (1 - f) ** 2 <= 1

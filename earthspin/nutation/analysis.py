@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR
+from earthspin.constants import ARCSEC, DAYS_PER_CENTURY, EPSILON_0, JULIAN_YEAR
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from
 from earthspin.nutation.nutation import Circles, FrequencyAnalysis
 
@@ -68,7 +68,7 @@ class PoleAnalysis:
         self, days: FloatArray, arguments: FloatArray, rates: FloatArray, ecliptic: FloatArray
     ) -> None:
         self.ecliptic = ecliptic
-        self._least_squares = FrequencyAnalysis(days / 36525.0, arguments, rates)
+        self._least_squares = FrequencyAnalysis(days / DAYS_PER_CENTURY, arguments, rates)
         self._sine = float(np.sin(EPSILON_0.value * ARCSEC))
 
     def secular(self, pole: FloatArray) -> Secular:

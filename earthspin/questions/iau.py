@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import NORMAL_95, PUBLISHED_EFFECTS
+from earthspin.constants import DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Schema, Variable, build, with_error
@@ -246,11 +246,12 @@ def differences(
     }
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
+    centuries = days / DAYS_PER_CENTURY
     return Differences(
         days=days,
         models=tuple(models),
         plain=plain,
-        fitted=without_line(days / 36525.0, plain.reshape(days.size, -1)).reshape(plain.shape),
+        fitted=without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID.name in effects else 1,
         error=math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta)))),
     )
@@ -516,7 +517,7 @@ def angles(pole_analysis: Analysed, body: Body) -> xr.Dataset:
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
-    t = pole_analysis.days / 36525.0
+    t = pole_analysis.days / DAYS_PER_CENTURY
     ecliptic = iau.ecliptic_of_date(pole_analysis.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     ours, again = (

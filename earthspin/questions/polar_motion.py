@@ -22,6 +22,7 @@ from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.engine.run import in_range
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
+from earthspin.text import Text
 from earthspin.units import (
     Days,
     FilePath,
@@ -29,7 +30,6 @@ from earthspin.units import (
     Number,
     Numbers,
     Several,
-    Text,
     Word,
     kind_of,
 )

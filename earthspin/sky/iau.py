@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from earthspin.constants import DAY, J2000_JD
+from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -96,7 +96,7 @@ def precession_rates(day: float) -> PrecessionRates:
 
 def mean_longitude_of_node(days: FloatArray) -> FloatArray:
     """Mean longitude of the Moon's ascending node, rad (IERS 2003, `erfa.faom03`)."""
-    return np.asarray(erfa.faom03(days / 36525.0))
+    return np.asarray(erfa.faom03(days / DAYS_PER_CENTURY))
 
 
 def true_pole(days: FloatArray) -> FloatArray:
@@ -119,7 +119,7 @@ def nutation_2000a(days: FloatArray) -> FloatArray:
 
 def delaunay_arguments(days: FloatArray) -> FloatArray:
     """Arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
-    t = days / 36525.0
+    t = days / DAYS_PER_CENTURY
     return np.stack([erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)])
 
 

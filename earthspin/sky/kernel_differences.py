@@ -8,6 +8,8 @@ J2000.0, as the longitudes of two Moons do whose tidal acceleration differs (DE4
 
 from __future__ import annotations
 
+from earthspin.constants import JULIAN_YEAR
+
 #: Days from J2000.0 TDB beyond which a difference grows. Both kernels cover -36,684 to 19,639; a
 #: little inside, so that the Moon of 1560 comes to the 141 mas of the two accelerations.
 GROWS_FROM = (-35700.0, 19600.0)
@@ -16,7 +18,7 @@ GROWS_FROM = (-35700.0, 19600.0)
 #: under Sun and Moon (3.4e-9), under the Sun (3.2e-9), and of that of Mars (2.7e-9), 1901 to 2050.
 DRIFT = 3.6e-9
 #: What their short periods add: as much as the axis sweeps in this time, s.
-DRIFT_FROM = 4 * 365.25 * 86400.0
+DRIFT_FROM = 4 * JULIAN_YEAR
 #: Pairs whose pull was compared so, by their codes.
 DRIFT_MEASURED = ((10, 399), (301, 399), (4, 10))
 

@@ -25,7 +25,7 @@ from skyfield.timelib import Time
 from skyfield.vectorlib import VectorFunction
 
 from earthspin._version import version
-from earthspin.constants import J2000_JD
+from earthspin.constants import DAYS_PER_CENTURY, J2000_JD
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.protocol import Place, checked
 from earthspin.sky.vector_functions import at, blocks_of_times, function_of
@@ -162,7 +162,7 @@ def _with_equator(t: Time, *, true: bool) -> Time:
     """A time whose equator of date is that of IAU 2006, with the nutation 2000A or without."""
     if true:
         longitude, obliquity = iau2000a_radians(t)
-        of_j2 = J2_RATE_2006 * (t.tt - J2000_JD) / 36525.0
+        of_j2 = J2_RATE_2006 * (t.tt - J2000_JD) / DAYS_PER_CENTURY
         angles = longitude * (1 + SCALE_2006 + of_j2), obliquity * (1 + of_j2)
     else:
         angles = np.zeros_like(t.tt), np.zeros_like(t.tt)

@@ -186,27 +186,7 @@ def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
 
 def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
     """Maximum likelihood, with errors where it falls by half the 95 % point of chi-squared."""
-    return _largest(Likelihood(time, p), "likelihood")
-
-
-def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
-    """Maximum likelihood of polar motion together with an excitation that is known.
-
-    Parameters
-    ----------
-    time : array, shape (n,)
-        d, evenly spaced.
-    p : complex array, shape (n,)
-        x - i y in any unit.
-    chi : complex array, shape (n - 1,)
-        chi1 + i chi2, means over the steps, in the unit of p.
-
-    Raises
-    ------
-    UndefinedError
-        If the likelihood is largest at the edge of what is looked through.
-    """
-    return _largest(LikelihoodWithExcitation(time, p, chi), "likelihood with excitation")
+    return largest(Likelihood(time, p), "likelihood")
 
 
 def lowest(
@@ -235,7 +215,7 @@ def lowest(
     return best.x * UNIT, float(best.fun)
 
 
-def _largest(likelihood: Likelihood, method: str) -> WobbleFit:
+def largest(likelihood: Likelihood, method: str) -> WobbleFit:
     """Where a likelihood is largest, and where it has fallen on either side."""
     at, least = lowest(likelihood)
     period = 2 * np.pi / (MIDDLE + at[0])

@@ -77,4 +77,6 @@ def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
     """
     check(time, p)
     need_wobble(time, p)
-    return likelihood.fit_with_excitation(time, p, chi)
+    return likelihood.largest(
+        likelihood.LikelihoodWithExcitation(time, p, chi), "likelihood with excitation"
+    )

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from earthspin.checks.case import Cases, Distances, hard_because, held_against
 from earthspin.checks.sky import SPIN, H
-from earthspin.constants import ARCSEC, DAY, SIDEREAL_YEAR, UAS
+from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
 from earthspin.nutation.budget import contributions
 from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis
@@ -68,7 +68,7 @@ def _faint_line() -> Distances:
     arguments, rates = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
     faint = np.exp(-1j * (MULTIPLES[40] @ arguments))
     eta = 1e9 * np.exp(1j * (MULTIPLES[0] @ arguments)) + faint
-    found = FrequencyAnalysis(DAYS / 36525, arguments, rates)(eta)
+    found = FrequencyAnalysis(DAYS / DAYS_PER_CENTURY, arguments, rates)(eta)
     yield complex(found.amplitude[len(MULTIPLES) + 40]) - 1
 
 

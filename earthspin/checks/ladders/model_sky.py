@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.sky import GM, unit_vectors
-from earthspin.constants import DAY
+from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position
 
@@ -86,14 +86,14 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 
 def arguments(times: FloatArray) -> FloatArray:
     """D, l', l, F at times in s from J2000.0, rad, shape (4, n)."""
-    centuries = times / (36525 * DAY)
+    centuries = times / (DAYS_PER_CENTURY * DAY)
     return np.asarray(np.radians(ARGUMENTS[:, np.newaxis] + RATES[:, np.newaxis] * centuries))
 
 
 def turn_of_the_node() -> float:
     """Time in which the Moon's node goes once round, s."""
     of_node = RATES[3] - RATES[0] - RATES[1]  # F - (D + l'): how fast the node falls back
-    return float(360.0 / of_node * 36525 * DAY)
+    return float(360.0 / of_node * DAYS_PER_CENTURY * DAY)
 
 
 def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

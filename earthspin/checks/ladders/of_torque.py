@@ -15,7 +15,7 @@ from skyfield.jpllib import SpiceKernel
 
 from earthspin.checks.sky import CENTRE, CODES, kernel, positions, unit_vectors
 from earthspin.checks.work_precision import Ladder, Method, Setting, settings
-from earthspin.constants import J2000_JD, MAS
+from earthspin.constants import DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.sky import iau
 from earthspin.sky.equator import rotate
 from earthspin.sky.skyfield import Skyfield
@@ -70,7 +70,7 @@ def reference(days: FloatArray) -> LongArray:
 
 def long_matrix(days: FloatArray) -> LongArray:
     """GCRS to true equator and equinox of date in long double, shape (n, 3, 3)."""
-    t = days.astype(np.longdouble) / 36525
+    t = days.astype(np.longdouble) / DAYS_PER_CENTURY
     gamma, phi, psi, obliquity = (
         np.polynomial.polynomial.polyval(t, np.array(angle, dtype=np.longdouble)) * _arcsec()
         for angle in FUKUSHIMA_WILLIAMS
