@@ -3,7 +3,8 @@
 A result is written beside its place and moved there when it is complete (`earthspin.engine.drafts`
 says what that promises). Its numbers carry the checksums of the format, the whole of it a checksum
 of our own (`earthspin.engine.checksums`): netCDF is held to both whenever it is opened, Zarr to the
-first as it is used, and to the second by `verify`.
+first as it is used, and to the second by `verify`. A third, of the bytes of a netCDF file
+(`earthspin.engine.last_line`), is looked at before the library that reads netCDF opens it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from earthspin.engine import last_line
 from earthspin.engine.drafts import as_path, put_back, replacing
 from earthspin.engine.labels import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, one_line
@@ -91,6 +93,7 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
                 engine="netcdf4",
                 encoding=_netcdf_encoding(node),
             )
+        last_line.append(path)
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
@@ -294,6 +297,10 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
             options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
             return xr.open_groups(ZarrFolder(path), decode_times=coder, **options)  # type: ignore[arg-type]
         with _NETCDF:
+            if path.is_fifo():
+                raise OutputError(path, "it is a pipe", "give a file")
+            if last_line.is_broken(path):
+                raise OutputError(path, f"its bytes {CHANGED[0]}", CHANGED[1])
             nodes = xr.open_groups(path, decode_times=coder, engine="netcdf4")
             return {name: _loaded(node) for name, node in nodes.items()}
     except EarthspinError:
@@ -327,11 +334,7 @@ def _hold_to_checksums(nodes: dict[str, xr.Dataset], path: Path, *, data: bool) 
         raise _unreadable(path, error) from None
     for name, what in ((HEADER, "its names, sizes or attributes"), (DATA, "its numbers or words")):
         if (data or name == HEADER) and told[name] != found[name]:
-            raise OutputError(
-                path,
-                f"{what} are not what was written",
-                "if they were changed on purpose, read it with xarray.open_dataset",
-            )
+            raise OutputError(path, f"{what} {CHANGED[0]}", CHANGED[1])
     return True
 
 
@@ -347,6 +350,11 @@ def _loaded(node: xr.Dataset) -> xr.Dataset:
         return node.load()
 
 
+#: What is said of a file that does not match a checksum.
+CHANGED = (
+    "are not what was written",
+    "if they were changed on purpose, read it with xarray.open_dataset",
+)
 #: Date that a file's history begins with.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from hashlib import sha256
 from pathlib import Path
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,11 +19,10 @@ from hypothesis.extra import numpy as hnp
 
 import earthspin
 from earthspin import OutputError
-from earthspin.engine import store
+from earthspin.engine import last_line, store
 from tests import shipped
 
-#: Bits that are flipped, one at a time, in files of these answers.
-FLIPS, SEED = 240, 20261121
+SEED = 20261121
 #: An answer with sections, words and dates, and a plain series.
 SCENES = ("precession", "torque")
 
@@ -32,23 +36,107 @@ def same(one: xr.Dataset | xr.DataTree, other: xr.Dataset | xr.DataTree) -> bool
     return type(one) is type(other) and one.identical(other)
 
 
-def fates(path: Path, original: xr.Dataset | xr.DataTree, flips: int) -> dict[str, int]:
-    """What becomes of a file with one bit flipped: noticed, of no effect, or wrong."""
+@contextmanager
+def flipped(path: Path, place: int) -> Iterator[None]:
+    """A file with one of its bits the other way."""
+    with path.open("r+b", buffering=0) as file:
+
+        def flip() -> None:
+            file.seek(place // 8)
+            (byte,) = file.read(1)
+            file.seek(place // 8)
+            file.write(bytes([byte ^ 1 << place % 8]))
+
+        flip()
+        yield
+        flip()
+
+
+def refused(path: Path) -> bool:
+    try:
+        store.open(path)
+    except OutputError as error:
+        return "its bytes are not what was written" in str(error)
+    return False
+
+
+def test_every_bit_of_a_netcdf_file_counts(tmp_path: Path) -> None:
+    """Each of a short file: HDF5, which some keep busy without end, sees a file with none."""
+    answer = xr.Dataset({"x": ("n", np.arange(3.0), {"units": "m"})}, attrs={"title": "short"})
+    path = store.write(answer, tmp_path / "r.nc")
+    passed = []
+    for place in range(8 * path.stat().st_size):
+        with flipped(path, place):
+            if not last_line.is_broken(path):
+                passed.append(place)
+    assert passed == []
+    assert same(store.open(path), answer)
+
+
+def refused_with(path: Path, place: int) -> bool:
+    with flipped(path, place):
+        return refused(path)
+
+
+def test_no_flipped_bit_of_a_netcdf_file_is_read(tmp_path: Path) -> None:
+    """Of answers with sections, words and dates: 1,000 bits anywhere, 534 at the end."""
+    rng = np.random.default_rng(SEED)
+    for answer in (shipped.tree("precession"), small_series()):
+        path = store.write(answer, tmp_path / "r.nc")
+        bits = 8 * path.stat().st_size
+        places = [*rng.integers(0, bits, 1000).tolist(), *range(bits - 1600, bits, 3)]
+        assert [place for place in places if not refused_with(path, place)] == []
+        assert same(store.open(path), answer)
+
+
+def test_a_netcdf_file_that_was_cut_short_is_refused_or_whole(tmp_path: Path) -> None:
+    """Cut within its last line, it holds all that was written."""
+    answer = small_series()
+    path = store.write(answer, tmp_path / "r.nc")
     whole = path.read_bytes()
     rng = np.random.default_rng(SEED)
-    tally = {"noticed": 0, "of no effect": 0, "wrong": 0}
-    damaged = path.with_name("damaged.nc")
-    for place in rng.integers(0, 8 * len(whole), flips).tolist():
-        bits = bytearray(whole)
-        bits[place // 8] ^= 1 << (place % 8)
-        damaged.write_bytes(bits)
-        try:
-            back = store.open(damaged)
-        except OutputError:
-            tally["noticed"] += 1
-        else:
-            tally["of no effect" if same(back, original) else "wrong"] += 1
-    return tally
+    inside = len(whole) - last_line.LENGTH
+    for size in (0, 1, *rng.integers(0, inside, 20).tolist(), inside - 1):
+        path.write_bytes(whole[:size])
+        with pytest.raises(OutputError, match="cannot be read"):
+            store.open(path)
+    for size in range(inside, len(whole), 7):
+        path.write_bytes(whole[:size])
+        assert refused(path) or same(store.open(path), answer)
+
+
+def test_many_bytes_damaged_at_the_end_are_not_taken_for_another_program(tmp_path: Path) -> None:
+    path = store.write(small_series(), tmp_path / "r.nc")
+    whole = path.read_bytes()
+    for damage in (b"\0" * 64, b"\xff" * 75):
+        path.write_bytes(whole[: -len(damage)] + damage)
+        assert refused(path)
+
+
+def test_the_last_line_is_the_checksum_of_what_stands_before_it(tmp_path: Path) -> None:
+    """By hand: ``head -c -110 r.nc | sha256sum; tail -n 1 r.nc``."""
+    path = store.write(shipped.tree("precession"), tmp_path / "r.nc")
+    whole = path.read_bytes()
+    assert last_line.LENGTH == 110
+    line = f"\nearthspin: SHA-256 of all before this line: {sha256(whole[:-110]).hexdigest()}\n"
+    assert whole[-110:] == line.encode()
+
+
+def test_a_file_that_another_program_changed_has_no_last_line(tmp_path: Path) -> None:
+    """HDF5 cuts off what it did not write; the checksums inside stay, and hold."""
+    answer = small_series()
+    path = store.write(answer, tmp_path / "r.nc")
+    with netCDF4.Dataset(path, "a"):
+        pass
+    assert b"SHA-256 of all" not in path.read_bytes()
+    assert same(store.open(path), answer)
+    assert earthspin.verify(path) == path
+
+
+def test_a_pipe_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "r.nc")
+    with pytest.raises(OutputError, match="it is a pipe"):
+        store.open(tmp_path / "r.nc")
 
 
 def test_no_flipped_bit_of_a_zarr_store_passes_verify(tmp_path: Path) -> None:
@@ -129,8 +217,6 @@ def summed_by_netcdf(answer: xr.Dataset, folder: Path) -> str:
 def test_an_attribute_that_was_changed_is_noticed(tmp_path: Path, kind: str) -> None:
     path = store.write(small_series(), tmp_path / f"r.{kind}")
     if kind == "nc":
-        import netCDF4
-
         with netCDF4.Dataset(path, "a") as raw:
             raw["torque"].units = "kg"
     else:

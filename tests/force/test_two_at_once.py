@@ -59,8 +59,10 @@ def test_a_writer_in_another_container_keeps_its_draft(tmp_path: Path, kind: str
     assert other.stdin is not None
     assert other.stdout is not None
     assert other.stdout.readline() == b"begun\n"
+    (draft,) = tmp_path.glob(".*.draft")
     store.write(small(1.0), path)
     assert store.open(path).identical(small(1.0))
+    assert draft.exists()
     out, complaint = other.communicate(b"\n", timeout=60)
     assert (out, complaint, other.returncode) == (b"done\n", b"", 0)
     assert store.open(path).identical(small(2.0))
