@@ -8,9 +8,18 @@ from earthspin.bodies.planets import PLANETS
 from earthspin.bodies.sun import SUN
 
 __all__ = [
-    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "WITH_ARTICLE", "Body",
-    "Numeric", "all_of", "body",
+    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric", "all_of",
+    "body", "in_a_sentence", "proper",
 ]  # fmt: skip
 
-#: Names that take the article in a sentence: the Moon, but Mars.
-WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)
+_WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)
+
+
+def proper(name: str) -> str:
+    """Spell a name as a sentence has it: ``"Earth"``; one of the user's own stays as it is."""
+    return name.capitalize() if name in BODIES else name
+
+
+def in_a_sentence(name: str) -> str:
+    """Spell a name with its article, if it takes one: ``"Mars"``, but ``"the Moon"``."""
+    return f"the {proper(name)}" if name in _WITH_ARTICLE else proper(name)

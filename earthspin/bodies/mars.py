@@ -64,7 +64,7 @@ MARS = Body.cited(
     orbit_pole=Direction(math.radians(273.37323), math.radians(65.32299)),
     interior="mars-insight",
     observed_wobble=Constant(
-        206.9, "d", 0.5, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568: observed"
+        206.9, "d", 0.5, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568"
     ),
     reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, proper
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.part import part
@@ -17,7 +17,9 @@ OBSERVED = with_error("observed_period", Variable((), "d", "observed period of t
 
 def not_kept(body: Body) -> str | None:
     """Leave it out for a body that nobody has observed."""
-    return None if body.observed_wobble else f"no observed wobble of this {body.name} is kept"
+    if body.observed_wobble:
+        return None
+    return f"no observed wobble of this {proper(body.name)} is kept"
 
 
 @part(gives=OBSERVED, unless=not_kept)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, in_a_sentence, proper
 
 
 def no_iau_model(body: Body) -> str | None:
     """Leave out what stands on the IAU's models, for a body that has none."""
     described = body.pole is not None and body.pole.of_the_iau
-    return None if described else f"the IAU has no precession model for {body.name}"
+    return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
@@ -28,7 +28,7 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
         return not_sun_and_moon(body, perturbers)
     if body.is_as_named:
         return None
-    return f"the IAU's numbers are those of another {body.name}: {body.changes}"
+    return f"the IAU's numbers are those of another {proper(body.name)}: {body.changes}"
 
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:

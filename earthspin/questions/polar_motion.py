@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, Body
+from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import ask
@@ -126,7 +126,7 @@ OBSERVED = {
 
 def not_observed(body: Body) -> str | None:
     """Leave out a body whose pole no table holds."""
-    return f"no polar motion of {body.name} is kept" if no_iau_model(body) else None
+    return f"no polar motion of {in_a_sentence(body.name)} is kept" if no_iau_model(body) else None
 
 
 @part(gives=OBSERVED, unless=not_observed)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
@@ -80,7 +80,8 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
             raise self.error(
                 "effects",
                 NONRIGID.name,
-                f"no response of the inside of {self.body.name} is known; leave it out",
+                f"no response of the inside of {in_a_sentence(self.body.name)} is known; "
+                "leave it out",
             )
 
 
@@ -174,7 +175,7 @@ def no_longitude(body: Body) -> str | None:
     """Angles need an orbit, and an axis that does not stand on it."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
-        return f"psi is counted along the orbit, and {body.name} has no orbit_pole"
+        return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"
     if pole.is_upright(body.orbit_pole):
         return "the axis stands upright on the orbit: its longitude psi is not defined"
     return None
@@ -222,7 +223,7 @@ def pole_accuracy(axes: xr.Dataset, accuracy: float | None) -> xr.Dataset:
 def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
-        return Neglected(what=f"effects whose sizes were not measured for this {body.name}")
+        return Neglected(what=f"effects whose sizes were not measured for this {proper(body.name)}")
     reach = max(abs(day) for day in epochs.span())
     return Neglected(
         {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},

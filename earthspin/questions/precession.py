@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body, all_of
+from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
@@ -169,8 +169,8 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]
             turns = locking.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
                 raise UndefinedError(
-                    f"{body.name} turns {turns:g} times in each orbit with '{name}': an average "
-                    f"over orbits does not hold for a spin that is locked"
+                    f"{in_a_sentence(body.name)} turns {turns:g} times in each orbit with "
+                    f"'{name}': an average over orbits does not hold for a spin that is locked"
                 )
 
 
@@ -424,7 +424,7 @@ def no_figure(body: Body) -> str | None:
     """Leave out the models of a figure that is not known, or from which nothing follows."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
-        return f"{body.name} has no {missing[0]}"
+        return f"{in_a_sentence(body.name)} has no {missing[0]}"
     if not all_of(abs(body.needed("flattening")) < 1):
         return "McCullough's formula needs a flattening between -1 and 1"
     if not all_of(body.needed("dynamical_flattening") != 0):

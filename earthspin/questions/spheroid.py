@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, all_of
+from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.choosing.promises import closed_form, promise
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by
@@ -119,7 +119,8 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
 
     if body.labelled or body.j2 is None:
         return Neglected(
-            what=f"a density that grows inwards: this {body.name} has no single J2 to compare with"
+            what=f"a density that grows inwards: this {proper(body.name)} has no single J2 "
+            "to compare with"
         )
     # inside the body the field of its J2 is another
     nearest = max(float(np.min(np.linalg.norm(position, axis=-1))), body.number("radius"))

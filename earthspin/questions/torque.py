@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, in_a_sentence
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -72,7 +72,9 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         super().check()
         if self.equator == "true" and no_iau_model(self.body):
             raise self.error(
-                "equator", "true", f"there is no nutation model for {self.body.name}; use 'mean'"
+                "equator",
+                "true",
+                f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'",
             )
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, Numeric, all_of
+from earthspin.bodies import EARTH, Body, Numeric, all_of, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error, without_error
@@ -88,7 +88,7 @@ def interior_of(body: Body) -> Interior:
 def why_rigid(body: Body) -> str | None:
     """Why the ladder stops at the rigid rungs; None if it goes on."""
     if body.interior in (None, "none"):
-        return f"no interior of {body.name} is kept; set body.interior"
+        return f"no interior of {in_a_sentence(body.name)} is kept; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
     interior = interior_of(body)
@@ -105,9 +105,9 @@ def why_rigid(body: Body) -> str | None:
 def not_layered(body: Body) -> str | None:
     """Leave the Love numbers out of a body without layers."""
     if body.interior in (None, "none"):
-        return f"no interior of {body.name} is kept"
+        return f"no interior of {in_a_sentence(body.name)} is kept"
     layered = interior_of(body).layers is not None
-    return None if layered else f"interior '{body.interior}' is published numbers, not layers"
+    return None if layered else f"interior '{body.interior}' has published numbers, but no layers"
 
 
 # --- what lies inside ------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import xarray as xr
 
-from earthspin.bodies import WITH_ARTICLE
+from earthspin.bodies import in_a_sentence
 from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.
@@ -69,11 +69,6 @@ def perturbers_of(answer: xr.Dataset) -> str:
     """Names of the perturbers in a sentence: ``"the Sun, the Moon and Jupiter"``."""
     *others, last = map(in_a_sentence, answer.attrs["perturbers"].split())
     return f"{', '.join(others)} and {last}" if others else last
-
-
-def in_a_sentence(name: str) -> str:
-    """Name of a body as a sentence has it: ``"Mars"``, but ``"the Moon"``."""
-    return f"the {name.capitalize()}" if name in WITH_ARTICLE else name.capitalize()
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:

@@ -427,7 +427,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
         found["ocean"] = roots(inputs, unit, compliance, water)
     if interior.layers is None:
         left_out["anelastic"] = (
-            f"interior '{interior.name}' is published numbers, of k2 as observed at tidal periods"
+            f"interior '{interior.name}' has no layers; its k2, as observed, has anelasticity in it"
         )
     else:
         elastic_turns = list(found.values())[-1].turns

@@ -130,12 +130,12 @@ def test_an_earth_with_a_day_of_twelve_hours_says_so() -> None:
     assert "free_wobble_period" in tree["free_wobble"]
     assert "observed_period" not in tree["free_wobble"]
     reason = str(tree["plan/reason"].sel(part="observed-wobble").values)
-    assert reason == "no observed wobble of this earth is kept"
+    assert reason == "no observed wobble of this Earth is kept"
     wobble = load_scene("wobble", {"body.spin_period": "12 h", "body.interior": "none"})
     assert "observed" not in earthspin.run_tree(wobble)
     changes = earthspin.run(wobble).attrs["body_changes"]
     assert changes == "spin_period = 43200.0 s; interior = none"
-    with pytest.raises(earthspin.SceneError, match="no observed wobble of this earth"):
+    with pytest.raises(earthspin.SceneError, match="no observed wobble of this Earth"):
         earthspin.run_tree(wobble, "observed")
 
 

@@ -148,7 +148,7 @@ def test_a_scene_that_cannot_be_written_by_region(tmp_path: Path) -> None:
 
 
 def test_a_body_without_nutation_has_no_true_equator() -> None:
-    with pytest.raises(SceneError, match="no nutation model for mars"):
+    with pytest.raises(SceneError, match="no nutation model for Mars"):
         earthspin.torque_series(
             "2000-01-01", "2000-01-02", "6 h", body="mars", perturbers=["sun"], equator="true"
         )

@@ -147,7 +147,7 @@ def test_what_is_refused() -> None:
         earthspin.run(earthspin.load_scene("pole", {"accuracy": 1e-6}))
     with pytest.raises(earthspin.SceneError, match="do not fit"):
         earthspin.pole("1950-01-01", "2050-01-01", "1 s")
-    with pytest.raises(earthspin.SceneError, match="no response of the inside of mars"):
+    with pytest.raises(earthspin.SceneError, match="no response of the inside of Mars"):
         earthspin.pole(body="mars", effects=["nonrigid"])
     with pytest.raises(earthspin.BodyError, match="one body at a time"):
         earthspin.pole(

@@ -320,7 +320,7 @@ def test_unknown_methods_and_windows(pole: xr.Dataset) -> None:
         earthspin.fit_chandler(pole, window=400.0)
     with pytest.raises(SceneError, match=r"polar_motion\.flie"):
         earthspin.run(earthspin.load_scene("polar-motion", {"polar_motion.flie": "x"}))
-    with pytest.raises(SceneError, match="no polar motion of mars"):
+    with pytest.raises(SceneError, match="no polar motion of Mars"):
         earthspin.run(earthspin.load_scene("polar-motion", {"body": "mars"}))
 
 
