@@ -310,6 +310,12 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
+    """What to say of it: the words of our own if the libraries met them on their way."""
+    met: BaseException | None = error
+    while met is not None:
+        if isinstance(met, OutputError):
+            return met
+        met = met.__cause__ or met.__context__  # xarray 2025 stumbles when it passes them on
     words = one_line(error) or type(error).__name__
     return OutputError(path, f"it cannot be read: {words}")
 

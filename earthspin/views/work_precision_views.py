@@ -143,7 +143,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ax.errorbar(
             time,
             error,
-            xerr=[np.minimum(spread, 0.9 * time), spread],
+            xerr=[np.minimum(spread, 0.9 * time).tolist(), spread.tolist()],
             fmt=_MARKERS[number % len(_MARKERS)],
             ms=5.5,
             mfc=colour if ours else "white",
