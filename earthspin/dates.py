@@ -15,7 +15,6 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
 from typing import Annotated, Any, cast
 
 import numpy as np
@@ -191,22 +190,14 @@ def is_skyfield_time(value: object) -> bool:
 
 @contextmanager
 def _tables_at_hand() -> Iterator[None]:
-    """Leap seconds and UT1 from the tables that are installed, however old; nothing is fetched."""
+    """Leap seconds and UT1 from the tables that are installed; nothing is fetched.
+
+    Without a largest age, nobody complains of theirs.
+    """
     from astropy.utils import iers
 
     with iers.conf.set_temp("auto_download", False), iers.conf.set_temp("auto_max_age", None):
-        _look_for_leap_seconds()
         yield
-
-
-@cache
-def _look_for_leap_seconds() -> None:
-    """Have the library take its newest table now, where complaints of its age are no errors."""
-    from astropy.time import Time
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        Time(2451545.0, format="jd", scale="utc").tai  # noqa: B018 - for what it does on the way
 
 
 def is_time(value: object) -> bool:
