@@ -194,15 +194,17 @@ def test_threads_read_and_write_netcdf(tmp_path: Path) -> None:
             for turn in range(25):
                 store.write(small(float(turn)), path)
                 assert store.open(path).identical(small(float(turn)))
-            print("whole")
+            whole.append(number)
+        whole = []
         threads = [threading.Thread(target=work, args=(n,)) for n in range(4)]
         [t.start() for t in threads]
         [t.join() for t in threads]
+        print(sorted(whole))
     """
     process = python(program, str(tmp_path))
     out, complaint = process.communicate()
     assert (process.returncode, complaint) == (0, b"")
-    assert out == b"whole\n" * 4
+    assert out == b"[0, 1, 2, 3]\n"
 
 
 @pytest.mark.parametrize("path", [3, None, 1.5, ["r.nc"], b"r.nc"])
