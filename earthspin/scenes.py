@@ -174,7 +174,8 @@ def run(scene: Any) -> xr.Dataset:
     ----------
     scene : str, Path, Question, Dataset or DataTree
         The name of a shipped scene, a file, a question, or an answer that is run again: with the
-        same versions it gives the same bits, otherwise a warning says which differ.
+        same versions, and the same instructions of the processor, it gives the same bits; if
+        versions differ, a warning says which.
 
     Returns
     -------

@@ -28,8 +28,8 @@ def test_circles_that_were_put_in_come_out(analysis: FrequencyAnalysis) -> None:
     t = DAYS / 36525
     eta = amplitude @ np.exp(1j * (every @ ARGUMENTS)) + (3 - 2j) * t + 0.5j * t**2
     found = analysis(eta)
-    assert np.max(np.abs(found.amplitude - amplitude)) < 1e-13  # measured: 1.4e-14
-    assert np.max(np.abs(found.slow - [0, 3 - 2j, 0.5j, 0, 0])) < 1e-11  # measured: 1e-12
+    assert np.max(np.abs(found.amplitude - amplitude)) < 5e-15  # measured: 5e-16
+    assert np.max(np.abs(found.slow - [0, 3 - 2j, 0.5j, 0, 0])) < 1.5e-13  # measured: 1.5e-14
     wanted = amplitude @ np.exp(1j * (every @ ARGUMENTS))
     assert np.max(np.abs(found.at(ARGUMENTS) - wanted)) < 6e-13  # measured: 8e-14
 
