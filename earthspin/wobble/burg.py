@@ -15,7 +15,7 @@ ORDER = 12
 #: How far the scatter of Burg's periods exceeds the best possible one, from simulations.
 PERIOD_EXCESS = 1.2
 #: The same of the decay, downwards and upwards: noise makes it too fast rather than too slow.
-DECAY_EXCESS = (2.1, 0.6)
+DECAY_EXCESS = (2.1, 0.65)
 
 
 def burg(x: Complex, order: int) -> Complex:
