@@ -51,6 +51,8 @@ class Interior:
         Products of inertia (c13, c23)/(M a2) per radian of wobble (m1, m2).
     relative_uncertainty : mapping
         One standard deviation over value, by name of the input (`Inputs` of the ladder).
+    neglected : mapping of str to Constant
+        By how many days the period of the free wobble is off for what the model leaves out.
     """
 
     name: str
@@ -62,6 +64,7 @@ class Interior:
     observed_core_ellipticity: Constant | None = None
     ocean: tuple[tuple[float, float], tuple[float, float]] | None = None
     relative_uncertainty: Mapping[str, float] = field(default_factory=dict, hash=False)
+    neglected: Mapping[str, Constant] = field(default_factory=dict, hash=False)
 
     def values(self) -> tuple[float, float, float | None]:
         """Love number k2, core fraction and hydrostatic (or published) core ellipticity.
@@ -75,6 +78,24 @@ class Interior:
         assert self.core_fraction is not None
         return self.k2, self.core_fraction, self.core_ellipticity
 
+
+#: Change of the Earth's free wobble by what the ladder leaves out.
+_LEFT_OUT_OF_PREM = {
+    "rotation and ellipticity in the Love number": Constant(
+        -2.7,
+        "d",
+        None,
+        "IERS Conventions (2010), table 6.3, as recalled: k21 = 0.29470 for a rotating, elliptic, "
+        "elastic Earth, in the place of the sphere's 0.29826",
+    ),
+    "a solid inner core": Constant(
+        -0.03,
+        "d",
+        None,
+        "equations and compliances of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with "
+        "an inner core, less those with all of the core fluid",
+    ),
+}
 
 #: Core radius 1835 (55) km (Le Maistre et al. 2023) and mean density 6000 (300) kg m-3 (Staehler et
 #: al. 2021), over A = (0.36367 - J2) M R2.
@@ -97,6 +118,7 @@ INTERIORS: dict[str, Interior] = {
                 # Published Love numbers of the real ocean spread from 0.045 to 0.048.
                 "ocean": 0.02,
             },
+            neglected=_LEFT_OUT_OF_PREM,
         ),
         Interior(
             name="mars-insight",

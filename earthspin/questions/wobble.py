@@ -392,9 +392,18 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     """What the last rung leaves out."""
     if inside is None:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
-    ocean = inside.interior.ocean is not None and inside.ocean != "none"
-    flows = "winds and currents" if ocean else "winds"
-    return Neglected(what=f"a solid inner core and {flows}; their sizes are not known here")
+    left_out = inside.interior.neglected
+    if not left_out or not body.is_as_named:
+        return Neglected(
+            what="an inner core, and rotation and ellipticity in the Love number: their sizes "
+            f"were not found for this {body.name}"
+        )
+    return Neglected(
+        {name: days.value * DAY for name, days in left_out.items()},
+        "d",
+        "change of the period of the last rung; winds and currents drive the wobble, not its period",
+        "; ".join(f"{name}: {days.source}" for name, days in left_out.items()),
+    )
 
 
 made_of(
