@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 LOWEST := .venv-lowest
 
-.PHONY: report test test-lowest check docs bench fuzz mutants clean
+.PHONY: report test test-lowest check docs numbers bench fuzz mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -26,6 +26,10 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.check
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+
+# Every measured number of the pages, made again: half an hour; those by DE440 if it is installed.
+numbers: $(VENV)/.test
+	$(BIN)/python -m pytest -q -m every_number --numprocesses=auto tests/docs/test_numbers.py
 
 fuzz: $(VENV)/.test
 	$(BIN)/python -m tests.fuzz $(or $(SEED),1) $(or $(COUNT),20000)

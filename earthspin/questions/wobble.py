@@ -401,7 +401,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     return Neglected(
         {name: days.value * DAY for name, days in left_out.items()},
         "d",
-        "change of the period of the last rung; winds and currents drive the wobble, not its period",
+        "change of the last rung; winds and currents drive the wobble, and not its period",
         "; ".join(f"{name}: {days.source}" for name, days in left_out.items()),
     )
 

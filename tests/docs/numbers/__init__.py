@@ -1,0 +1,8 @@
+"""Every number of the pages that is measured, and what makes it again; one module a subject.
+
+A sentence of a page stands here with `{}` for each of its numbers, beside what gives them. The
+test finds the sentence, reads the numbers and compares; a sentence that is gone is an error.
+Numbers that no test makes again stand here too, with where they come from.
+"""
+
+PAGES = ("pole", "wobble", "trust", "rotors", "skyfield")

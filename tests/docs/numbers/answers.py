@@ -1,0 +1,45 @@
+"""Answers that several pages take their numbers from; each is made once in a process."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import earthspin
+from earthspin.constants import ARCSEC
+from tests import shipped
+
+#: Of an arcsecond a year.
+MAS_A_CENTURY = 1e5
+
+
+@cache
+def iau(kernel: str = "de421") -> xr.DataTree:
+    """The comparison with the IAU by a kernel."""
+    if kernel == "de421":
+        return shipped.tree("iau")
+    return earthspin.run_tree(earthspin.load_scene("iau", {"ephemeris": kernel}))
+
+
+def value(scene: str, section: str, name: str, **labels: object) -> float:
+    """One number of a section of a shipped scene; the answer itself is the section `/`."""
+    node = shipped.tree(scene)[section] if section != "/" else shipped.answer(scene)
+    return float(node[name].sel(labels))
+
+
+@cache
+def axes(**changes: str) -> dict[str, NDArray[np.float64]]:
+    """The three axes under Sun and Moon from 1980 to 2020, mas, shape (t, 3) each."""
+    path = earthspin.pole("1980-01-01", "2020-01-01", "5 d", effects=["second-order"], **changes)
+    return {
+        str(axis): np.stack([path.sel(axis=axis)[c].values for c in "XYZ"], axis=-1) / ARCSEC * 1e3
+        for axis in path.axis.values
+    }
+
+
+def apart(one: str, other: str) -> NDArray[np.float64]:
+    """One axis less another, mas, shape (t, 3)."""
+    return np.asarray(axes()[one] - axes()[other])

