@@ -27,7 +27,7 @@ check: $(VENV)/.check
 docs: $(VENV)/.check
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
 
-# Every measured number of the pages, made again: half an hour; those by DE440 if it is installed.
+# Every measured number of the pages, made again: an hour; those by DE440 if it is installed.
 numbers: $(VENV)/.test
 	$(BIN)/python -m pytest -q -m every_number --numprocesses=auto tests/docs/test_numbers.py
 

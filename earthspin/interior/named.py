@@ -79,14 +79,14 @@ class Interior:
         return self.k2, self.core_fraction, self.core_ellipticity
 
 
-#: Change of the Earth's free wobble by what the ladder leaves out.
+#: Change of the free wobble by what the ladder leaves out, for the body that PREM is.
 _LEFT_OUT_OF_PREM = {
     "rotation and ellipticity in the Love number": Constant(
         -2.7,
         "d",
         None,
-        "IERS Conventions (2010), table 6.3, as recalled: k21 = 0.29470 for a rotating, elliptic, "
-        "elastic Earth, in the place of the sphere's 0.29826",
+        "IERS Conventions (2010), table 6.3, as recalled: k21 = 0.29470 with rotation and "
+        "ellipticity, in the place of the sphere's 0.29826",
     ),
     "a solid inner core": Constant(
         -0.03,

@@ -113,8 +113,10 @@ FLATTENINGS = 1.00001225
 
 def leading(term: str) -> float:
     """Amplitude of a rigid term by DE440, less its neighbour's share, mas."""
-    of = iau("de440")["nutation"].sel(term=term)
-    return -float(of.rigid_in_phase - of.neighbour_in_phase) / FLATTENINGS
+    of = iau("de440")["nutation"].to_dataset().sel(term=term)
+    amplitude = complex(of.rigid_in_phase, of.rigid_out_of_phase)
+    neighbour = complex(of.neighbour_in_phase, of.neighbour_out_of_phase)
+    return abs(amplitude - neighbour) / FLATTENINGS
 
 
 def closures() -> list[float]:

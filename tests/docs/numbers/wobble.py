@@ -162,6 +162,10 @@ def sinusoids() -> list[float]:
     return [float(off.mean()), float(off.std()), float(100 * np.mean(abs(off) <= error))]
 
 
+def left_out(what: str) -> float:
+    return value("wobble", "neglected", "neglected_effect", effect=what)
+
+
 def limit() -> float:
     """The least scatter of the period for Q = 100 and 65 years, d."""
     return float(433 * np.sqrt(433 / (4 * np.pi * 100 * 65 * 365.25)))
@@ -256,6 +260,12 @@ MEASURED = [
         slow=True,
     ),
     Sentence(PAGE, "gives no $Q$ | {} ± {} d |", partial(of_c04, "least-squares"), slow=True),
+    Sentence(
+        PAGE,
+        "| rotation and ellipticity in the Love number | {} |",
+        partial(left_out, "rotation and ellipticity in the Love number"),
+    ),
+    Sentence(PAGE, "| a solid inner core | {} |", partial(left_out, "a solid inner core")),
     *(
         Sentence(PAGE, f"{label} | {{}} ± {{}} |", partial(of_input, name))
         for name, label in (
@@ -304,7 +314,38 @@ MEASURED = [
     ),
     Sentence(PAGE, "| amplitude, mas |" + " {} |" * 9, amplitudes),
 ]
+MATHEWS = "published: Mathews, Buffett, Herring & Shapiro 1991"
+SMITH = "published: Smith & Dahlen 1981"
+KONOPLIV = "published: Konopliv et al. 2020"
+GIVEN = "given: the truth of a simulation"
 TOLD = [
+    Told(
+        PAGE,
+        "| $I/MR^2$ | 0.330935 ({} with the ocean) | {}, the paper",
+        "published: Dziewonski & Anderson 1981",
+    ),
+    Told(PAGE, "| {}, {}, {} with a liquid inner core", "an independent integration of PREM"),
+    Told(PAGE, "| {}, {} (Gross 2007, as recalled)", "published: Gross 2007, as recalled"),
+    Told(PAGE, "for PREM ($\\gamma = {}$, $\\beta = {}$)", MATHEWS),
+    Told(PAGE, "chose {}, within {} to {}, to fit", SMITH),
+    Told(PAGE, "| $\\alpha$ | {} ({} to {}) |", SMITH),
+    Told(PAGE, "values range from {} to {}, a difference", "published: several, as recalled"),
+    Told(PAGE, "$(B-A)/Ma^2 = {}$", "published: the figure of earthspin.EARTH"),
+    Told(PAGE, "One turn lasts {} days of 86,400 s", "published: the spin of earthspin.EARTH"),
+    Told(PAGE, "$k_2$ = {} (Konopliv", KONOPLIV),
+    Told(PAGE, "a core of {} km", "published: Le Maistre et al. 2023"),
+    Told(PAGE, "The observed {} d\nasks for", "published: Mathews, Herring & Buffett 2002"),
+    Told(PAGE, "| $H$ | {} |", "published: Mathews, Herring & Buffett 2002"),
+    Told(
+        PAGE, "has a circle of {} m, a cone of {} arcsec and a period of {} days", "the source text"
+    ),
+    Told(PAGE, "A simulated pole of {} days and", GIVEN),
+    Told(PAGE, "with errors of {} mas, is recovered", GIVEN),
+    Told(PAGE, "the power between 400 and {} days is compared", "given: a band"),
+    Told(PAGE, "(12 mas with a memory of {} d)", GIVEN),
+    Told(PAGE, "With white noise of {}\nmas in steps of two days", GIVEN),
+    Told(PAGE, "on C04 since 1985 ($T$ = {} d", GIVEN),
+    Told(PAGE, "$k_{21}$ = {}, IERS Conventions (2010)", "published, as recalled"),
     Told(PAGE, "against {} ± {} observed from orbit (Konopliv", "published: Konopliv et al. 2020"),
     Told(PAGE, "found {} ± {} d and $Q$ = {} ({} to {}), one", "published: Nastula & Gross 2015"),
 ]
