@@ -1,7 +1,7 @@
 """The free wobble of a body, rung by rung, from a formula of flattening to a body that yields.
 
 Each rung gives the period in turns of the body. The rungs are factors, not steps of
-days: they do not commute, the liquid core takes 34 days from a rigid mantle and 50 from
+days: they do not commute, the liquid core takes 34 days from a rigid mantle and 51 from
 an elastic one. Their order is part of the answer.
 
 Rungs from `elastic` on are roots of one linear system, Liouville's equation of the whole

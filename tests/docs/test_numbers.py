@@ -41,7 +41,7 @@ UNACCOUNTED = {
     "docs/stability.md": 9,
     "docs/testing.md": 2,
     "docs/theory.md": 12,
-    "docs/wobble.md": 85,
+    "docs/wobble.md": 80,
     "docs/work_precision.md": 14,
 }
 READ = sorted(str(path.relative_to(ROOT)) for path in (*ROOT.glob("docs/*.md"), ROOT / "README.md"))

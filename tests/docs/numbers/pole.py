@@ -116,7 +116,8 @@ def leading(term: str) -> float:
     of = iau("de440")["nutation"].to_dataset().sel(term=term)
     amplitude = complex(of.rigid_in_phase, of.rigid_out_of_phase)
     neighbour = complex(of.neighbour_in_phase, of.neighbour_out_of_phase)
-    return abs(amplitude - neighbour) / FLATTENINGS
+    response = complex(of.transfer_in_phase, of.transfer_out_of_phase)
+    return abs(amplitude - neighbour / response) / FLATTENINGS
 
 
 def closures() -> list[float]:

@@ -14,12 +14,15 @@ import earthspin
 from earthspin.constants import Constant
 from earthspin.interior.named import INTERIORS
 from earthspin.interior.prem import PREM
-from earthspin.wobble import simulation
+from earthspin.wobble import ladder, simulation
 from tests import shipped
 from tests.docs.numbers.answers import value
 from tests.docs.numbers.sentence import ROOT, Sentence, Told
 
 PAGE = "docs/wobble.md"
+EARTH = earthspin.EARTH
+SPIN = ladder.Spin(EARTH.gm, EARTH.radius, EARTH.spin_period)
+FIGURE = {name: EARTH.needed(name) for name in ("dynamical_flattening", "j2", "triaxiality")}
 RIGID = ("flattening", "rigid", "triaxial")
 
 
@@ -53,6 +56,32 @@ def with_exponent(alpha: float) -> list[float]:
     """Turns, days and quality factor of the last rung."""
     last = earthspin.wobble_ladder(anelastic_exponent=alpha).isel(rung=-1)
     return [float(last[v]) for v in ("period_sidereal", "period_solar", "quality_factor")]
+
+
+def core_shortens() -> list[float]:
+    """Days by which the core shortens the period of a rigid and of an elastic body."""
+    rigid, elastic, fluid = (rung(name)[1] for name in ("rigid", "elastic", "fluid-core"))
+    a_turn = rung("rigid")[1] / rung("rigid")[0]
+    slipping = ladder.roots(
+        ladder.inputs_of(INTERIORS["prem"], SPIN, FIGURE), 1.0, (0.0, 0.0, 0.0, 0.0)
+    )
+    return [rigid - float(slipping.turns) * a_turn, elastic - fluid]
+
+
+def global_ocean() -> float:
+    """Days that an ocean all over adds."""
+    wet = earthspin.wobble_ladder(ocean="global").period_solar
+    return float(wet.sel(rung="ocean") - wet.sel(rung="fluid-core"))
+
+
+def with_any_exponent() -> list[float]:
+    """Median and ends of 95 % of the periods, with the exponent anywhere in its range."""
+    exponents = np.linspace(0.0, 0.2, 9)
+    days = np.polynomial.Polynomial.fit(exponents, [with_exponent(a)[1] for a in exponents], 6)
+    rng = np.random.default_rng(0)
+    other = np.hypot.reduce([sensitivity(k)[1] for k in ("k2", "core_fraction", "ocean")]) / 1.96
+    drawn = days(rng.uniform(0.04, 0.19, 400_000)) + other * rng.standard_normal(400_000)
+    return [float(q) for q in np.quantile(drawn, [0.5, 0.025, 0.975])]
 
 
 def sensitivity(name: str) -> list[float]:
@@ -199,6 +228,15 @@ MEASURED = [
         PAGE,
         "With the equatorial radius\n  $k_s$ is {} and the period",
         partial(secular, float(earthspin.EARTH.radius)),
+    ),
+    Sentence(PAGE, "by {} days with a rigid mantle and by {} with an elastic one", core_shortens),
+    Sentence(PAGE, "and {} days. The real ocean has coasts", global_ocean),
+    Sentence(
+        PAGE,
+        "the median of the periods is {} days and 95 % of them lie\nbetween {} and {}.",
+        with_any_exponent,
+        0.15,
+        slow=True,
     ),
     Sentence(PAGE, "| $I/MR^2$ | {} (0.330799", partial(interior, "moment_factor")),
     Sentence(PAGE, "| core's share of the moment | {} |", partial(interior, "core_fraction")),
