@@ -42,7 +42,7 @@ UNACCOUNTED = {
     "docs/testing.md": 2,
     "docs/theory.md": 12,
     "docs/wobble.md": 80,
-    "docs/work_precision.md": 14,
+    "docs/work_precision.md": 15,
 }
 READ = sorted(str(path.relative_to(ROOT)) for path in (*ROOT.glob("docs/*.md"), ROOT / "README.md"))
 

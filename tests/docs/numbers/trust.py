@@ -1,4 +1,4 @@
-"""docs/accuracy.md, docs/files.md, docs/stability.md and docs/testing.md."""
+"""docs/accuracy.md, files, stability, testing, and the first two pages."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from tests.docs.numbers.sentence import ROOT, Part, Sentence, Told
 
 ACCURACY, FILES = "docs/accuracy.md", "docs/files.md"
 STABILITY, TESTING = "docs/stability.md", "docs/testing.md"
+FIRST, QUICK = "docs/index.md", "docs/quickstart.md"
 
 MAS = ARCSEC / 1e3
 BENCH = "run time: make bench"
@@ -125,6 +126,22 @@ def rows_of_stability() -> list[tuple[str, str]]:
     return found
 
 
+def malformed() -> float:
+    from tests.fuzz.test_fuzz import COUNTS
+
+    return sum(COUNTS.values())
+
+
+def period() -> float:
+    return value("precession", "/", "precession_period", perturber="total")
+
+
+def epochs_of_the_example() -> float:
+    """Minutes from 1900 to 2050, millions."""
+    span = np.datetime64("2050-01-01") - np.datetime64("1900-01-01")
+    return float(span / np.timedelta64(1, "m") / 1e6)
+
+
 def tally() -> Sequence[float]:
     """Of all cases: how many, which must hold, hold, are refused, fail."""
     verdict = cases().verdict.values
@@ -216,6 +233,9 @@ MEASURED = [
             ),
         )
     ),
+    Sentence(TESTING, "`tests/fuzz` makes {} malformed scenes", malformed),
+    Sentence(FIRST, "once round in {} years", period, 0.5),
+    Sentence(QUICK, '"torque.zarr")  # {} million epochs', epochs_of_the_example),
     Sentence(
         STABILITY,
         "\n{} cases, {} of which must hold: {} hold, {} are refused as they should be, {} fail;",
