@@ -45,8 +45,8 @@ MULTIPLES = np.array([term.split() for term in _TERMS.split("/")], dtype=int)
 #: Those large enough to grow visibly in a century.
 _GROWING = ("0 0 0 0 1", "0 0 2 -2 2", "0 0 2 0 2", "0 1 0 0 0", "0 0 0 0 2")
 SLOW_DEGREE = 4
-#: How often the least squares are solved, and the residual that ends each time, over its start.
-ROUNDS, NEAR_ENOUGH = 2, 1e-12
+#: Residual that ends the least squares, over its start.
+NEAR_ENOUGH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -123,13 +123,9 @@ class FrequencyAnalysis:
         eta : ndarray, shape (t,), complex
             dpsi sin(eps0) + i deps, rad.
         """
-        # The columns are nearly orthogonal (condition number 20 over 150 years), so that normal
-        # equations do, by conjugate gradients; the second round is for what the first has left.
-        found = np.zeros(len(self._scale), dtype=complex)
-        for _ in range(ROUNDS):
-            left = eta - np.einsum("it,i->t", self._rows, found)
-            right = np.einsum("it,t->i", self._adjoint, left)
-            found += cg(self._normal, right, rtol=NEAR_ENOUGH, atol=0.0)[0]
+        found = self._solved(eta)
+        left = eta - np.einsum("it,i->t", self._rows, found)
+        found += self._solved(left)
         found /= self._scale
         count = len(self._multiples)
         return Circles(
@@ -138,6 +134,15 @@ class FrequencyAnalysis:
             found[:count],
             found[count : count + SLOW_DEGREE + 1],
         )
+
+    def _solved(self, eta: ComplexArray) -> ComplexArray:
+        """Least squares for columns of unit length.
+
+        The columns are nearly orthogonal (condition number 20 over 150 years), so that normal
+        equations do, and conjugate gradients end after forty rounds.
+        """
+        right = np.einsum("it,t->i", self._adjoint, eta)
+        return np.asarray(cg(self._normal, right, rtol=NEAR_ENOUGH, atol=0.0)[0])
 
 
 def complex_nutation(angles: FloatArray) -> ComplexArray:
