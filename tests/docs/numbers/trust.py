@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, partial
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import xarray as xr
@@ -90,18 +88,6 @@ def drift(body: str) -> float:
     from data_tools.kernels import drifts
 
     return {words: apart for words, (apart, _) in drifts("de440").items()}[body]
-
-
-# --- files -----------------------------------------------------------------------------------
-
-
-@cache
-def flipped() -> list[int]:
-    """How many bits are flipped one at a time, how often that is refused, and of no effect."""
-    from tests.force.test_stored import fates_of_flipped_bits
-
-    with TemporaryDirectory() as folder:
-        return list(fates_of_flipped_bits(Path(folder)).values())[:3]
 
 
 # --- stability -------------------------------------------------------------------------------
@@ -210,12 +196,6 @@ MEASURED = [
         slow=True,
         de440=True,
     ),
-    Sentence(
-        FILES,
-        "{} bits were flipped, one at a time, in the files of a Zarr store: {} were refused in one "
-        "line, and the other {}\nstand where nothing is read: the answer is identical",
-        flipped,
-    ),
     *(
         Sentence(STABILITY, text, partial(measured_again, name), slow=True)
         for text, name in (
@@ -246,8 +226,11 @@ MEASURED = [
 TOLD: list[Told | Part] = [
     Part(ACCURACY, "## Run times", BENCH),
     Part(ACCURACY, "## Savings from parts left out", "run time: tests/benchmarks/leaving_out.py"),
-    Told(FILES, "Forty years of torques each half hour ({} MB) are verified", "size of a file"),
-    Told(FILES, "packed to {} MB as they were", "size of a file"),
+    Told(
+        FILES,
+        "({} MB) are written in {} s and verified in {} s, of which the last line takes {} s",
+        "size of a file and run times",
+    ),
     Told(
         STABILITY,
         "made block by block, which took six\nminutes and {} MB more memory",
