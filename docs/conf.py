@@ -17,6 +17,7 @@ extensions = [
     "myst_nb",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
+    "course",
     "equation_map",
     "native_math",
     "scene_keys",

@@ -6,6 +6,7 @@ from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
 CENTRED = "text-align: center; overflow-x: auto; margin: 1rem 0"
+NUMBER = '<span class="equation-number">({})</span>'
 
 
 def inline(translator: HTML5Translator, node: nodes.math) -> None:
@@ -14,8 +15,10 @@ def inline(translator: HTML5Translator, node: nodes.math) -> None:
 
 
 def block(translator: HTML5Translator, node: nodes.math_block) -> None:
-    formula = convert(" ".join(node.astext().split()), display="block")
-    translator.body.append(f'<div style="{CENTRED}">{formula}</div>')
+    tex = " ".join(node.astext().split())
+    formula = convert(tex.replace("{aligned}", "{align*}"), display="block")
+    number = NUMBER.format(node["label"]) if node.get("label") else ""
+    translator.body.append(f'<div style="{CENTRED}" class="formula">{formula}{number}</div>')
     raise nodes.SkipNode
 
 
