@@ -89,7 +89,7 @@ class EquationMap(Map):
         return nodes.table("", group, classes=["equation-map", "colwidths-given"])
 
     def row(self, entry: dict[str, str]) -> nodes.row:
-        place = self.reference("place", entry["number"], nodes.Text(entry["number"]))
+        place = self.reference("place", entry["number"], nodes.Text(short(entry["number"])))
         what = self.parse_inline(entry["what"], lineno=self.lineno)[0]
         row = nodes.row("", cell(place), cell(*what))
         if "why_not" in entry:
@@ -146,6 +146,11 @@ def source_of(test: str, source: str) -> str:
 def in_words(test: str) -> str:
     """Return the name of a test as the sentence that it is."""
     return test.split("::test_")[1].replace("_", " ")
+
+
+def short(number: str) -> str:
+    """Return what names an entry in the table of its section: a number, or an exercise."""
+    return number if "exercise" not in number else number.split(": ")[0].split(" ", 1)[1]
 
 
 def test_anchor(test: str) -> str:
