@@ -33,7 +33,8 @@ class Place(ReferenceRole):
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         words = self.title if self.has_explicit_title else f"({self.target})"
-        node = nodes.inline(self.rawtext, words, ids=[anchor(self.target)], classes=["place"])
+        kept = [] if self.has_explicit_title else ["place"]  # on one line
+        node = nodes.inline(self.rawtext, words, ids=[anchor(self.target)], classes=kept)
         self.env.domains.math_domain.note_equation(self.env.docname, self.target, location=node)
         return [node], []
 

@@ -6,7 +6,7 @@ from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
 CENTRED = "text-align: center; overflow-x: auto; margin: 1rem 0"
-NUMBER = '<span class="equation-number">({})</span>'
+NUMBERED = '<div class="numbered"><div>{}</div><span>({})</span></div>'
 
 
 def inline(translator: HTML5Translator, node: nodes.math) -> None:
@@ -17,8 +17,9 @@ def inline(translator: HTML5Translator, node: nodes.math) -> None:
 def block(translator: HTML5Translator, node: nodes.math_block) -> None:
     tex = " ".join(node.astext().split())
     formula = convert(tex.replace("{aligned}", "{align*}"), display="block")
-    number = NUMBER.format(node["label"]) if node.get("label") else ""
-    translator.body.append(f'<div style="{CENTRED}" class="formula">{formula}{number}</div>')
+    if node.get("label"):
+        formula = NUMBERED.format(formula, node["label"])
+    translator.body.append(f'<div style="{CENTRED}" class="formula">{formula}</div>')
     raise nodes.SkipNode
 
 

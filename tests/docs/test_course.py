@@ -26,6 +26,7 @@ NUMBER = r"([-+]?\d[\d.]*(?:e[-+]?\d+)?)"
 #: Pairs of numbers that a lesson prints for one thing, found in two ways, and how near they are.
 PAIRS = {
     "inertia-tensor": [
+        (rf"T over particles: {NUMBER} J\nT from the tensor: {NUMBER}", 1e-11),
         (rf"torque on the bearings: {NUMBER} N m, by the formula {NUMBER}", 1e-4),
         (rf"trace {NUMBER}, 2 Σ m r² {NUMBER}", 1e-6),
     ],
