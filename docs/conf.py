@@ -64,6 +64,7 @@ myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "attrs_block"]
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
+nb_merge_streams = True
 nb_render_markdown_format = "myst"
 autosummary_generate = True
 autodoc_typehints = "none"
