@@ -32,8 +32,8 @@ def write(app: Sphinx, failure: Exception | None) -> None:
         notebook = nbformat.read(Path(app.outdir).parent / RUN / f"{page}.ipynb", as_version=4)
         for cell in notebook.cells:
             if cell.cell_type == "markdown":
-                cell.source = for_jupyter(cell.source)
-        notebook.cells = [cell for cell in notebook.cells if cell.source.strip()]
+                cell.source = for_jupyter(cell.source).strip()
+        notebook.cells = [cell for cell in notebook.cells if cell.source]
         nbformat.write(notebook, Path(app.outdir) / f"{page}.ipynb")
 
 
