@@ -1,11 +1,13 @@
 """Numbers of the source text: their places in the course, and the map of all of them.
 
 In the course a formula with a label, ``$$ ... $$ (I.6.7)``, or the role ``{place}`I.6.7``` is
-the place of a number. `equation-map` shows docs/equations.toml as tables that link each number
-to its place, its function and its test; `equation-tests` shows the tests themselves.
+the place of a number; on any page a number in brackets leads there. `equation-map` shows
+docs/equations.toml as tables that link each number to its place, its function and its test;
+`equation-tests` shows the tests themselves.
 """
 
 import ast
+import re
 import tomllib
 from itertools import groupby
 from pathlib import Path
@@ -19,7 +21,8 @@ from sphinx.util.docutils import ReferenceRole, SphinxDirective
 from sphinx.util.nodes import make_refnode
 
 ROOT = Path(__file__).resolve().parents[2]
-TESTS_PAGE = "equation_tests"
+MAP, TESTS_PAGE = "equations.toml", "equation_tests"
+NUMBER = re.compile(r"(?<=\()(I\.\d\.\d+[abc]?)(?=\))")
 COLUMNS = {"number": 13, "what": 38, "function": 25, "test": 24}  # widths, per cent
 
 
@@ -39,11 +42,17 @@ class Place(ReferenceRole):
         return [node], []
 
 
-def numbers_as_in_the_text(_app: Sphinx, env: BuildEnvironment) -> None:
-    """Let references show the label of a formula, which is its number in the source text."""
-    equations: dict[str, tuple[str, Any]] = env.domains.math_domain.equations
-    for label, (page, _) in equations.items():
-        equations[label] = (page, label)
+def link_numbers(app: Sphinx, page: nodes.document) -> None:
+    """Let each number in a sentence, ``(I.6.7)``, lead to its place in the course."""
+    known = {entry["number"] for entry in read_map(app.env)["equation"]}
+    for text in list(page.findall(nodes.Text)):
+        words = NUMBER.split(text)
+        if isinstance(text.parent, nodes.paragraph) and known.intersection(words[1::2]):
+            text.parent.replace(text, [
+                nodes.Text(word) if word not in known or k % 2 == 0 else
+                reference("place", word, nodes.Text(word), app.env.docname)
+                for k, word in enumerate(words)
+            ])  # fmt: skip
 
 
 def to_the_place(
@@ -57,25 +66,30 @@ def to_the_place(
     return make_refnode(app.builder, node["refdoc"], page, anchor(number), words)
 
 
-class Map(SphinxDirective):
-    """What the two directives share: the entries of the map."""
-
-    def entries(self) -> list[dict[str, str]]:
-        return self.read()["equation"]
-
-    def read(self) -> dict[str, list[dict[str, str]]]:
-        path = Path(self.env.srcdir) / "equations.toml"
-        self.env.note_dependency(str(path))
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+def read_map(env: BuildEnvironment) -> dict[str, list[dict[str, str]]]:
+    """Return docs/equations.toml."""
+    return tomllib.loads((Path(env.srcdir) / MAP).read_text(encoding="utf-8"))
 
 
-class EquationMap(Map):
+def reference(
+    kind: str, target: str, words: nodes.Node, page: str, domain: str = ""
+) -> pending_xref:
+    """Return a reference on a page, resolved when all pages are read; a warning if it is not."""
+    return pending_xref(
+        "", words, refdomain=domain, reftype=kind, reftarget=target, refdoc=page,
+        refexplicit=True, refwarn=True,
+    )  # fmt: skip
+
+
+class EquationMap(SphinxDirective):
     """One table for each section of the source text."""
 
     def run(self) -> list[nodes.Node]:
-        titles = {section["number"]: section["title"] for section in self.read()["section"]}
+        self.env.note_dependency(MAP)
+        read = read_map(self.env)
+        titles = {section["number"]: section["title"] for section in read["section"]}
         sections: list[nodes.Node] = []
-        for number, entries in groupby(self.entries(), key=lambda entry: entry["number"][:3]):
+        for number, entries in groupby(read["equation"], key=lambda entry: entry["number"][:3]):
             section = nodes.section(ids=[nodes.make_id(f"section-{number}")])
             section += nodes.title("", f"{number} {titles[number]}")
             section += self.table([self.row(entry) for entry in entries])
@@ -90,7 +104,8 @@ class EquationMap(Map):
         return nodes.table("", group, classes=["equation-map", "colwidths-given"])
 
     def row(self, entry: dict[str, str]) -> nodes.row:
-        place = self.reference("place", entry["number"], nodes.Text(short(entry["number"])))
+        here, number = self.env.docname, entry["number"]
+        place = reference("place", number, nodes.Text(short(number)), here)
         what = self.parse_inline(entry["what"], lineno=self.lineno)[0]
         row = nodes.row("", cell(place), cell(*what))
         if "why_not" in entry:
@@ -98,26 +113,22 @@ class EquationMap(Map):
             row += cell(*reason, morecols=1, classes=["why-not"])
             return row
         module, name = entry["function"].rsplit(".", 1)
-        function = self.reference("obj", f"{module}.{name}", nodes.literal("", name), "py")
-        page = self.env.app.builder.get_relative_uri(self.env.docname, TESTS_PAGE)
+        function = reference("obj", f"{module}.{name}", nodes.literal("", name), here, "py")
+        page = self.env.app.builder.get_relative_uri(here, TESTS_PAGE)
         test = nodes.reference(
             "", in_words(entry["test"]), refuri=f"{page}#{test_anchor(entry['test'])}"
         )
         row += [cell(function), cell(test)]
         return row
 
-    def reference(self, kind: str, target: str, words: nodes.Node, domain: str = "") -> nodes.Node:
-        return pending_xref(
-            "", words, refdomain=domain, reftype=kind, reftarget=target,
-            refdoc=self.env.docname, refexplicit=True, refwarn=True,
-        )  # fmt: skip
 
-
-class EquationTests(Map):
+class EquationTests(SphinxDirective):
     """The source of each test that the map names, by file."""
 
     def run(self) -> list[nodes.Node]:
-        named = sorted({entry["test"] for entry in self.entries() if "test" in entry})
+        self.env.note_dependency(MAP)
+        entries = read_map(self.env)["equation"]
+        named = sorted({entry["test"] for entry in entries if "test" in entry})
         sections: list[nodes.Node] = []
         for file, tests in groupby(named, key=lambda test: test.split("::")[0]):
             self.env.note_dependency(str(ROOT / file))
@@ -166,6 +177,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_role("place", Place())
     app.add_directive("equation-map", EquationMap)
     app.add_directive("equation-tests", EquationTests)
-    app.connect("env-updated", numbers_as_in_the_text)
+    app.connect("doctree-read", link_numbers)
     app.connect("missing-reference", to_the_place)
     return {"parallel_read_safe": True}
