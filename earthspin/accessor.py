@@ -30,6 +30,13 @@ class Answer:
         The question that made it, complete with every number.
     plan : Plan
         What ran for it and what was left out and why; with seconds if it ran in this process.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> answer = earthspin.precession(perturbers="sun")
+    >>> print(answer.earthspin.scene.word, answer.earthspin.plan.left_out["seasons"], sep=": ")
+    precession: the moon is not among the perturbers
     """
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
@@ -62,6 +69,16 @@ class Answer:
         Returns
         -------
         DataFrame
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> frame = earthspin.precession().earthspin.to_frame()
+        >>> print(frame[["perturber", "precession_period"]].round(1).to_string(index=False))
+        perturber  precession_period
+              sun            81259.1
+             moon            37613.9
+            total            25712.1
         """
         spread = _spread(self._dataset)
         names: list[str] = []
@@ -83,6 +100,12 @@ class Answer:
         ------
         SceneError
             If it is a part of an answer that cannot be drawn alone.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
+        >>> year.earthspin.plot()[0].savefig("torque.png")
         """
         from earthspin.errors import SceneError
         from earthspin.views.of_question import figures_of

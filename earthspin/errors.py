@@ -25,6 +25,15 @@ class EarthspinError(Exception):
     """Anything that a user can put right; the command line prints it and exits with 2.
 
     The message is one line, whatever was given.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.precession(body="pluto")
+    ... except earthspin.EarthspinError as error:
+    ...     print(type(error).__name__, "on", len(str(error).splitlines()), "line")
+    SceneError on 1 line
     """
 
     def __init__(self, message: str = "") -> None:
@@ -48,6 +57,15 @@ class SceneError(EarthspinError, ValueError):
         The offending key.
     given : object
         What was read.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.load_scene("precession", {"perturber": "sun"})
+    ... except earthspin.SceneError as error:
+    ...     print(error.key, error.given)
+    perturber sun
     """
 
     def __init__(
@@ -97,6 +115,15 @@ class BodyError(EarthspinError, ValueError):
         The field that is wrong.
     given : object
         The value of that field.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.EARTH.replace(dynamical_flattening=0.6)
+    ... except earthspin.BodyError as error:
+    ...     print(error.field, error.given, error.allowed)
+    dynamical_flattening 0.6 C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)
     """
 
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
@@ -135,6 +162,15 @@ class UnitsError(EarthspinError, ValueError):
         The value as it was read.
     wanted : str
         The unit that it must convert to.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.EARTH.replace(spin_period="12 km")
+    ... except earthspin.UnitsError as error:
+    ...     print(error.given, "is not in", error.wanted)
+    12 km is not in s
     """
 
     def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
@@ -152,6 +188,15 @@ class KernelError(EarthspinError, OSError):
     ----------
     path : str
         The kernel, as named.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.precession(ephemeris="nowhere.bsp")
+    ... except earthspin.KernelError as error:
+    ...     print(error.path)
+    nowhere.bsp
     """
 
     def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
@@ -168,6 +213,15 @@ class CoverageError(EarthspinError, ValueError):
         Name of the kernel.
     asked, coverage : tuple of str
         First and last date, TDB.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.torque_series("1800-01-01", "1801-01-01", "1 d")
+    ... except earthspin.CoverageError as error:
+    ...     print(error.kernel, *error.coverage)
+    de421 1899-07-29T00:00:00 2053-10-09T00:00:00
     """
 
     def __init__(self, kernel: str, asked: tuple[str, str], coverage: tuple[str, str]) -> None:
@@ -179,7 +233,18 @@ class CoverageError(EarthspinError, ValueError):
 
 
 class UndefinedError(EarthspinError, ValueError):
-    """A quantity that has no value here, with the reason."""
+    """A quantity that has no value here, with the reason.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> mars = earthspin.MARS.replace(orbit_pole=None)
+    >>> try:
+    ...     earthspin.precession(body=mars, perturbers="sun")
+    ... except earthspin.UndefinedError as error:
+    ...     print(error)
+    precession is counted along the orbit; set the body's orbit_pole
+    """
 
 
 class SeriesError(EarthspinError, ValueError):
@@ -191,6 +256,17 @@ class SeriesError(EarthspinError, ValueError):
         The file, as named.
     line : int or None
         The first offending line, counted from 1.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import earthspin
+    >>> _ = Path("pole.txt").write_text("no table of the pole")
+    >>> try:
+    ...     earthspin.polar_motion(file="pole.txt")
+    ... except earthspin.SeriesError as error:
+    ...     print(error)
+    file 'pole.txt': it is none of the known tables; name its kind: c04, c01, finals2000A
     """
 
     def __init__(self, path: Any, problem: str, remedy: str = "", line: int | None = None) -> None:
@@ -206,6 +282,15 @@ class AccuracyError(EarthspinError, ValueError):
     ----------
     asked, best : float
         Half-widths, in the same unit.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.precession(accuracy=1e-15)
+    ... except earthspin.AccuracyError as error:
+    ...     print(error.best > error.asked)
+    True
     """
 
     def __init__(self, asked: float, best: float, unit: str, remedy: str) -> None:
@@ -223,6 +308,15 @@ class OutputError(EarthspinError, OSError):
     ----------
     path : str
         Where it should have gone.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.open("nowhere.nc")
+    ... except earthspin.OutputError as error:
+    ...     print(error.path)
+    nowhere.nc
     """
 
     def __init__(self, path: Any, problem: str, remedy: str = "") -> None:
@@ -231,7 +325,14 @@ class OutputError(EarthspinError, OSError):
 
 
 class MissingExtraError(EarthspinError, ImportError):
-    """An optional package that this question needs is not installed."""
+    """An optional package that this question needs is not installed.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> print(earthspin.MissingExtraError("zarr", "zarr", "writing a Zarr store"))
+    writing a Zarr store needs the package 'zarr'; install it with pip install 'earthspin[zarr]'
+    """
 
     def __init__(self, package: str, extra: str | None, purpose: str) -> None:
         self.package, self.extra = package, extra

@@ -49,7 +49,21 @@ VERSIONS = (
 
 
 class VersionWarning(UserWarning):
-    """An answer is run again with other versions than those that made it."""
+    """An answer is run again with other versions than those that made it.
+
+    Examples
+    --------
+    An answer that another version made still runs, and says so:
+
+    >>> import warnings
+    >>> import earthspin
+    >>> old = earthspin.precession(perturbers="sun").assign_attrs(earthspin_version="0.0")
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
+    ...     _ = earthspin.run(old)
+    >>> print(said[0].category.__name__)
+    VersionWarning
+    """
 
 
 def Scene(*, compute: str, **keys: Any) -> Question:
@@ -66,6 +80,13 @@ def Scene(*, compute: str, **keys: Any) -> Question:
     ------
     SceneError, UnitsError, BodyError
         If a key is unknown, missing or wrong.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> question = earthspin.Scene(compute="precession", perturbers="sun")
+    >>> print(earthspin.run(question).precession_period.sel(perturber="sun").round(1).values)
+    81259.1
     """
     return question_named(compute).from_table(keys)
 
@@ -98,6 +119,13 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     ------
     SceneError
         If there is no such scene, it is not TOML, or a key is unknown or wrong.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> question = earthspin.load_scene("precession", {"perturbers": "sun"})
+    >>> print(question)
+    Precession(title='Precession of the equinoxes', perturbers='sun')
     """
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
@@ -163,6 +191,15 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
     ------
     SceneError
         If nothing that answers the question can run; it gives the reason.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> chosen = earthspin.plan("sun-only")
+    >>> print(chosen.parts[-1].title)
+    precession-rates
+    >>> print(chosen.left_out["seasons"])
+    the moon is not among the perturbers
     """
     return planning.plan(load_scene(scene), sections)
 
@@ -186,6 +223,15 @@ def run(scene: Any) -> xr.Dataset:
     ------
     EarthspinError
         Whatever is wrong with the scene, the kernel or the body, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> answer = earthspin.run("sun-only")
+    >>> print(answer.precession_period.sel(perturber="sun").round(1).values)
+    81259.1
+    >>> print(earthspin.run(answer).identical(answer))
+    True
     """
     answer = running.run(load_scene(scene))
     _say_what_differs(scene, answer)
@@ -211,6 +257,15 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     ------
     EarthspinError
         Whatever is wrong, in one line; among it a section that the question does not have.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> tree = earthspin.run_tree("precession", sections="seasons")
+    >>> print(list(tree.children))
+    ['seasons', 'plan']
+    >>> print(tree["seasons"].time_per_degree.round(2).values)
+    71.56
     """
     tree = running.run_tree(load_scene(scene), sections)
     _say_what_differs(scene, tree)
@@ -254,6 +309,15 @@ def write_series(scene: Any, path: str | Path) -> Path:
     ------
     EarthspinError
         Whatever is wrong, in one line; nothing is left behind then.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> decade = {"span": ["2000-01-01", "2010-01-01"], "step": "1 h"}
+    >>> scene = earthspin.load_scene("torque", decade)
+    >>> path = earthspin.write_series(scene, "decade.zarr")
+    >>> print(earthspin.open(path).sizes["time"])
+    87673
     """
     from earthspin.engine import drafts, store
     from earthspin.progress import progress

@@ -98,6 +98,14 @@ class Body:
     ------
     BodyError
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> slow = earthspin.EARTH.replace(spin_period="48 h")
+    >>> period = earthspin.precession(body=slow).precession_period.sel(perturber="total")
+    >>> print(period.round().values, "years")
+    12821.0 years
     """
 
     name: Annotated[str, Text()]
@@ -475,6 +483,13 @@ class Body:
             If the changes contradict each other or make an impossible body.
         UnitsError
             If a unit is missing, unknown, or of another kind.
+
+        Examples
+        --------
+        >>> from earthspin import EARTH
+        >>> rounder = EARTH.replace(j2=EARTH.j2 / 2)
+        >>> print(rounder.dynamical_flattening / EARTH.dynamical_flattening)
+        0.5
         """
         for key, value in changes.items():
             if key not in _READ_AS:

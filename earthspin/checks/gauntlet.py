@@ -71,6 +71,13 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
     ------
     SceneError
         If no case has that word.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> found = earthspin.stability(only="sleeping top")
+    >>> print(sorted(set(found.verdict.values.tolist())))
+    ['holds']
     """
     cases = chosen_cases(quick=quick, only=only, long=long)
     outcomes = []

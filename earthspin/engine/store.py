@@ -60,6 +60,14 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
         If `path` is no path.
     MissingExtraError
         If zarr is asked for and not installed.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> tree = earthspin.run_tree("precession", sections="seasons")
+    >>> path = earthspin.write(tree, "precession.nc")
+    >>> print(earthspin.open(path).identical(tree))
+    True
     """
     place = as_path(path)
     if not hasattr(result, "data_vars"):
@@ -241,6 +249,15 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
         later, where a chunk is missing or the store was replaced since.
     TypeError
         If `path` is no path.
+
+    Examples
+    --------
+    ``read`` is the same call, for those who import names one by one.
+
+    >>> import earthspin
+    >>> _ = earthspin.write(earthspin.precession(), "precession.nc")
+    >>> print(earthspin.open("precession.nc").identical(earthspin.read("precession.nc")))
+    True
     """
     import xarray as xr
 
@@ -276,6 +293,13 @@ def verify(path: str | Path) -> Path:
         If something in it is not what was written or cannot be read, or it carries no checksum.
     TypeError
         If `path` is no path.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> _ = earthspin.write(earthspin.precession(), "precession.nc")
+    >>> print(earthspin.verify("precession.nc"))
+    precession.nc
     """
     place = as_path(path)
     if not _hold_to_checksums(_read(place), place, data=True):

@@ -420,6 +420,14 @@ def fit_chandler(
     EarthspinError
         If the series is uneven, has no numbers, or is too short (it says how long is needed), or if
         there is no wobble in it.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> seen = earthspin.polar_motion(span=("1990-01-01", "2005-01-01"))
+    >>> found = earthspin.fit_chandler(seen)
+    >>> print(f"{found.chandler_period:.0f} ± {found.chandler_period_error:.0f} d")
+    434 ± 6 d
     """
     length = None if window is None else _DAYS.read(window, Where("window"))
     if excitation is None:
@@ -512,6 +520,14 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     ------
     EarthspinError
         If the series is uneven or has no numbers.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> seen = earthspin.polar_motion(span=("2000-01-01", "2005-01-01"))
+    >>> chi = earthspin.excitation(seen, period="433 d", quality_factor=100)
+    >>> print(seen.time.size, chi.time.size)
+    1828 1827
     """
     from earthspin.wobble import resonance as ex
 
@@ -573,6 +589,14 @@ def polar_motion_from(
     ------
     EarthspinError
         If the series is uneven or has no numbers, or the free wobble is not known.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> seen = earthspin.polar_motion(span=("2000-01-01", "2005-01-01"))
+    >>> again = earthspin.polar_motion_from(earthspin.excitation(seen))
+    >>> print(abs(again.x - seen.x).max().values < 1e-12)
+    True
     """
     from earthspin.wobble import resonance as ex
 
@@ -634,7 +658,7 @@ def read_excitation(
     terms: Sequence[str] = ("mass", "motion"),
     daily: bool = False,
 ) -> xr.Dataset:
-    """Read effective angular momentum functions in the common ASCII layout.
+    r"""Read effective angular momentum functions in the common ASCII layout.
 
     Parameters
     ----------
@@ -658,6 +682,18 @@ def read_excitation(
     ------
     SeriesError
         If a file cannot be used; it names the line.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import earthspin
+    >>> rows = [
+    ...     f"2000 1 {day + 1} 0 {51544 + day} 1e-7 2e-7 0 1e-8 -2e-8 0" for day in range(3)
+    ... ]
+    >>> _ = Path("AAM_2000.asc").write_text("\n".join(rows))
+    >>> chi = earthspin.read_excitation("AAM_2000.asc")
+    >>> print(chi.chi1.round(2).values)
+    [22.69 22.69 22.69]
     """
     from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 

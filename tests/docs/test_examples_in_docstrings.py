@@ -1,0 +1,68 @@
+"""Every public call has an example in its docstring, and it prints what it says.
+
+The examples run where nothing stands; what they write is gone with the folder.
+"""
+
+import doctest
+import inspect
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import earthspin
+from earthspin.accessor import Answer
+from earthspin.bodies import Body
+from earthspin.scenes import QUESTIONS
+
+
+def public() -> Iterator[tuple[str, Any]]:
+    """Whatever can be called by a public name."""
+    for name in earthspin.__all__:
+        if callable(value := getattr(earthspin, name)):
+            yield name, value
+    yield "Body.replace", Body.replace
+    yield "Answer", Answer
+    yield "Answer.to_frame", Answer.to_frame
+    yield "Answer.plot", Answer.plot
+
+
+PUBLIC = dict(public())
+
+
+def run(name: str, text: str) -> tuple[doctest.DocTest, str]:
+    """An example, and what is wrong with it; nothing, if it prints what it says."""
+    test = doctest.DocTestParser().get_doctest(text, {}, name, None, None)
+    told: list[str] = []
+    doctest.DocTestRunner().run(test, out=told.append)
+    return test, "".join(told)
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_it_has_an_example_that_prints_what_it_says(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = inspect.getdoc(PUBLIC[name]) or ""
+    test, wrong = run(name, text)
+    assert len(test.examples) >= 2, "no example"
+    assert wrong == ""
+    assert "+SKIP" not in text
+    last = name.split(".")[-1]
+    shown = "".join(example.source for example in test.examples)
+    assert re.search(rf"\b{last.lower()}\b", shown.lower()) or last in ("Answer", "VersionWarning")
+    seen = any(example.want for example in test.examples) or list(tmp_path.iterdir())
+    assert seen, "an example prints or writes something"
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_the_example_of_a_question_stands_in_its_class(word: str) -> None:
+    question = QUESTIONS[word]
+    text = inspect.getdoc(getattr(earthspin, question.call)) or ""
+    assert inspect.cleandoc(question.__doc__ or "").split("Examples")[1].strip() in text
+
+
+def test_a_wrong_example_is_seen() -> None:
+    assert "Expected" in run("sum", ">>> 1 + 1\n3\n")[1]
