@@ -22,7 +22,7 @@ from matplotlib.axis import Axis
 from matplotlib.dates import AutoDateFormatter
 from matplotlib.figure import Figure
 
-from earthspin.views.drawing import CYCLE, STYLE
+from earthspin.views.drawing import STYLE
 
 #: The package's own style, and what a figure on a page of a journal needs beside it.
 JOURNAL: dict[str, Any] = {
@@ -31,7 +31,6 @@ JOURNAL: dict[str, Any] = {
     "figure.constrained_layout.use": True,
     "figure.dpi": 110,
     "lines.linewidth": 1.3,
-    "axes.prop_cycle": f"cycler(color={list(CYCLE)})",
     "axes.titlelocation": "left",
     "legend.fontsize": 8,
 }

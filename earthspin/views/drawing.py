@@ -32,6 +32,7 @@ STYLE: Any = {
     "axes.spines.right": False,
     "axes.titlesize": 10,
     "axes.grid": True,
+    "axes.prop_cycle": f"cycler(color={list(CYCLE)})",
     "grid.alpha": 0.25,
     "grid.linewidth": 0.6,
     "legend.frameon": False,

@@ -136,8 +136,8 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     x, y = poinsot.herpolhode.transpose("in_plane", ...).values
     ax.plot(x, y, color=RED, lw=1.0)
     ax.set_aspect("equal")
-    ax.set_xlabel("rad/s")
-    ax.set_ylabel("rad/s")
+    ax.set_xlabel("in the invariable plane (rad/s)")
+    ax.set_ylabel("in the invariable plane (rad/s)")
     return ax
 
 

@@ -276,14 +276,17 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
         figure = figure or empty(8, 6.4)
         rows = np.atleast_1d(figure.subplots(series.sizes["model"], 1, sharex=True))
         for ax, (model, of) in zip(rows, along(series, "model"), strict=True):
+            sizes_there = []
             for name, words, colour in directions:
                 rms = float(sizes.residual_rms.sel(model=model, direction=name))
-                label = f"{words}: {rms:.2f} mas rms"
-                ax.plot(of.time, of[f"{name}_by_model"], color=colour, lw=0.6, label=label)
-            ax.set_title(MODELS[model], loc="left")
-            ax.set_ylabel("mas")
-            ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.1)
-        ax.set_xlabel("TDB")
+                ax.plot(of.time, of[f"{name}_by_model"], color=colour, lw=0.6, label=words)
+                sizes_there.append(f"{rms:.2f}")
+            ax.set_title(MODELS[model], loc="left", fontsize=9)
+            ax.set_title(f"rms {' and '.join(sizes_there)} mas", loc="right", fontsize=8)
+            ax.set_ylabel("residual (mas)")
+        ax.set_xlabel("time (TDB)")
+        # above the titles, so that neither meets the other on a narrow figure
+        rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
         return figure
 
 
@@ -316,7 +319,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_xscale("symlog", linthresh=0.1)
     ax.set_xticks([-27, -13, -2, -1, -0.2, -0.05, 0.05, 0.2, 1, 2, 13, 27])
     ax.set_xticklabels([f"{t:g}" for t in ax.get_xticks()], fontsize=7)
-    ax.set_xlabel("cycles per year in space (negative: retrograde)")
-    ax.set_ylabel("ratio, in phase")
+    ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
+    ax.set_ylabel("IAU 2000A over ours, in phase (ratio)")
     ax.legend(loc="upper right")
     return ax

@@ -217,9 +217,9 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     ax.set_ylabel("x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if metres := _metres(answer):
-        ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("m")
-        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
-    bar = ax.figure.colorbar(dots, ax=ax, pad=0.05, aspect=35, format="%.0f")
+        ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("y (m)")
+        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("x (m)")
+    bar = ax.figure.colorbar(dots, ax=ax, pad=0.05, aspect=35, format="%.0f", label="time (years)")
     bar.locator = MaxNLocator(8, integer=True)
     return ax
 
@@ -274,7 +274,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_ylim(0, 235)
     ax.set_ylabel("amplitude (mas)")
     if metres := _metres(answer_of(result)):
-        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("m")
+        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("amplitude (m)")
     ax.legend(loc="lower left", ncols=2)
     return ax
 

@@ -72,9 +72,9 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     line = np.linalg.lstsq(design, angles, rcond=None)[0]
     x, y = (angles - design[:, :2] @ line[:2]).T
     dots = ax.scatter(x, y, c=days / 365.25, s=2, cmap="viridis")
-    ax.figure.colorbar(dots, ax=ax, label="years from the start")
+    ax.figure.colorbar(dots, ax=ax, label="time from the start (years)")
     ax.set_aspect("equal")
-    ax.set_xlabel("psi sin(eps), arcsec, straight line removed")
-    ax.set_ylabel("eps, arcsec, straight line removed")
+    ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
+    ax.set_ylabel("eps, straight line removed (arcsec)")
     ax.set_title(f"{axis.replace('_', ' ')} axis")
     return ax

@@ -24,9 +24,15 @@ from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured,
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[np.float64]
 
 #: Sections that the figures stand on.
 DRAWN = ("convergence", "seasons")
+
+#: How far the label of a year stands from its point of the circle, degrees of the chart.
+LABEL = 3.0
 
 
 def lead(tree: Result) -> str:
@@ -287,32 +293,42 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.plot(radius * np.sin(turn), radius * np.cos(turn), color=RED, lw=1.4)
     ax.plot(0, 0, marker="+", color="0.3", ms=9)
     note(ax, "pole of the ecliptic", (0, 0), (6, 6))
-    _draw_stars(ax, obliquity)
+    stars = _draw_stars(ax, obliquity)
     rate = float(si(total.precession_rate))
     for year in (*range(-9999, 1, 2000), 1, *range(2000, 14001, 2000)):
         back = rate * (year - 2000) * JULIAN_YEAR  # the pole's longitude falls: to the left
-        at = -radius * np.sin(back), radius * np.cos(back)
+        at = radius * np.array([-np.sin(back), np.cos(back)])
         ax.plot(*at, "o", color=RED, ms=4)
         label = f"{year}" if year > 0 else f"{1 - year} BC"
-        by = 20 * np.sin(back), -11 * np.cos(back)
-        note(ax, label, at, by, ha="center", va="center", color=RED)
+        inward = np.array([np.sin(back), -np.cos(back)])
+        side = 1 if _room(at + inward * LABEL, stars) > _room(at - inward * LABEL, stars) else -1
+        by = side * inward * (12 + 2.2 * len(label), 11)  # points: clear of the dot, however long
+        note(ax, label, (at[0], at[1]), (by[0], by[1]), ha="center", va="center", color=RED)
     ax.set_title(f"once round in {float(total.precession_period):,.0f} years")
     ax.set_aspect("equal")
     ax.set_xlim(-34, 34)
     ax.set_ylim(-34, 34)
-    ax.set_xlabel("degrees from the pole of the ecliptic")
-    ax.set_ylabel("degrees")
+    ax.set_xlabel("from the pole of the ecliptic towards longitude 180° (deg)")
+    ax.set_ylabel("towards longitude 90° (deg)")
     return ax
 
 
-def _draw_stars(ax: Axes, obliquity: float) -> None:
-    """Stars, labelled on the side away from the circle."""
+def _draw_stars(ax: Axes, obliquity: float) -> FloatArray:
+    """Draw stars, labelled on the side away from the circle; give their places, shape (n, 2)."""
+    places = []
     for name, ra, dec, magnitude in STARS:
         x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
         ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
         outside = np.hypot(x, y) > np.degrees(obliquity)
         by, side = ((5, 3), "left") if (x > -1) == outside else ((-5, 3), "right")
         note(ax, name, (x, y), by, ha=side, color=GREY)
+        places.append((x, y))
+    return np.array(places)
+
+
+def _room(place: FloatArray, stars: FloatArray) -> float:
+    """Distance to the nearest star, degrees of the chart."""
+    return float(np.min(np.linalg.norm(stars - place, axis=1)))
 
 
 def on_the_chart(ra: float, dec: float, obliquity: float) -> tuple[float, float]:

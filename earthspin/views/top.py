@@ -85,7 +85,7 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axhline(level, color="0.4", lw=0.9, ls="--")
     ax.set_ylim(lowest - 0.2 * reach, level + 2 * reach)
     ax.set_xlabel("inclination (deg)")
-    ax.set_ylabel("effective potential (rad$^2$/s$^2$)")
+    ax.set_ylabel("effective potential (rad²/s²)")
     return ax
 
 

@@ -127,7 +127,7 @@ def plot_torque(
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")
     ax.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
-    ax.set_xlabel("TDB")
+    ax.set_xlabel("time (TDB)")
     if smooth_days:
         legend_above(ax)
     return ax
