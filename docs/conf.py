@@ -19,16 +19,18 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "course",
     "equation_map",
+    "gallery_picture",
     "native_math",
+    "page_checks",
     "scene_keys",
 ]
 html_theme = "pydata_sphinx_theme"
 html_theme_options = {
     "secondary_sidebar_items": ["page-toc"],
-    "header_links_before_dropdown": 6,
+    "header_links_before_dropdown": 10,
     "show_toc_level": 2,
 }
-html_sidebars = {"index": []}
+html_sidebars = {"**": ["pages.html"]}
 html_static_path = ["_static"]
 html_css_files = ["earthspin.css"]
 html_math_renderer = "native"

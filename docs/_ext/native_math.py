@@ -1,7 +1,7 @@
 """Formulas as MathML, which browsers draw by themselves: the pages work offline."""
 
 from docutils import nodes
-from latex2mathml.converter import convert
+from mathml import convert
 from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 

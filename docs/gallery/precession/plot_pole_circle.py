@@ -17,4 +17,4 @@ from earthspin.views.precession import plot_pole_circle
 
 fig, ax = plt.subplots(figsize=(6.5, 6.1))
 plot_pole_circle(earthspin.precession(), ax=ax)
-ax.set(xlim=(-33.5, 28), ylim=(-28, 28))
+ax.set(xlim=(-34, 32), ylim=(-28.5, 27.5))

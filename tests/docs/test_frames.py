@@ -1,0 +1,117 @@
+"""What the page on models, times and frames says, held to ERFA and to the definitions."""
+
+import re
+from pathlib import Path
+
+import erfa
+import numpy as np
+import pytest
+from astropy.time import Time
+from scipy.spatial.transform import Rotation
+
+import earthspin
+from earthspin import EARTH, SceneError
+from earthspin.scenes import QUESTIONS
+
+DOCS = Path(__file__).parents[2] / "docs"
+J2000 = 2451545.0
+ARCSEC = np.pi / 180 / 3600
+
+
+def test_every_question_has_a_row() -> None:
+    page = (DOCS / "frames.md").read_text(encoding="utf-8")
+    for word in QUESTIONS:
+        assert re.search(rf"^\| .*`{word}`", page, flags=re.MULTILINE), word
+
+
+@pytest.mark.parametrize("equator", ["mean", "true"])
+def test_directions_stand_on_the_equator_of_date_and_are_geometric(equator: str) -> None:
+    """The Sun of ERFA's own theory (epv00, good to some arcseconds), turned by ERFA's matrices."""
+    seen = earthspin.torque_series(times=["2026-05-01"], perturbers="sun", equator=equator)
+    days = float(Time("2026-05-01", scale="tdb").jd - J2000)
+    away = -erfa.epv00(J2000, days)[0]["p"]
+    turned = (erfa.pmat06 if equator == "mean" else erfa.pnm06a)(J2000, days) @ away
+    ra, dec = np.arctan2(turned[1], turned[0]), np.arcsin(turned[2] / np.linalg.norm(turned))
+    # measured: 2e-7 rad; light time or aberration would be 1e-4, nutation 4e-5, precession 6e-3
+    assert np.radians(seen.right_ascension.item()) == pytest.approx(
+        ra % (2 * np.pi), abs=2e-6, rel=0
+    )
+    assert np.radians(seen.declination.item()) == pytest.approx(dec, abs=2e-6, rel=0)
+
+
+def test_a_plain_date_is_tdb_and_others_are_converted() -> None:
+    def first(date: object) -> np.datetime64:
+        return earthspin.torque_series(times=date, perturbers="sun").time.values[0]
+
+    assert first(["2026-01-01"]) == np.datetime64("2026-01-01")
+    after = (first(["2026-01-01T00:00Z"]) - np.datetime64("2026-01-01")) / np.timedelta64(1, "s")
+    assert after == pytest.approx(69.184, abs=2e-3, rel=0)  # 37 leap seconds and TT - TAI
+    with pytest.raises(SceneError, match="utc"):
+        first(Time([2433282.5], format="jd", scale="utc"))
+
+
+def test_tt_and_tdb_differ_by_less_than_two_milliseconds() -> None:
+    days = np.arange(0.0, 9000.0, 5.0)
+    apart = erfa.dtdb(J2000, days, 0.0, 0.0, 0.0, 0.0)
+    assert 1e-3 < np.max(np.abs(apart)) < 2e-3
+
+
+def test_the_pole_starts_from_the_iau_in_the_gcrs() -> None:
+    path = earthspin.pole("2000-01-01T12:00", "2000-01-01T12:00", "1 d").sel(axis="figure")
+    of_iau = erfa.pnm06a(J2000, 0.0)[2]
+    found = np.array([path[c].item() for c in "XYZ"])
+    assert np.linalg.norm(found - of_iau) < 10e-3 * ARCSEC  # frame bias alone would be 20 mas
+
+
+def test_psi_grows_as_psi_a_and_holds_the_nutation() -> None:
+    path = earthspin.pole("2020-01-01", "2020-01-01", "1 d").sel(axis="figure")
+    days = float(Time("2020-01-01", scale="tdb").jd - J2000)
+    _, psi_a, omega_a, *_ = erfa.p06e(J2000, days)
+    dpsi, deps = erfa.nut06a(J2000, days)
+    # measured: 0.02 arcsec; the rigid body lacks up to 0.06 / sin(eps)
+    assert path.psi.item() == pytest.approx((psi_a + dpsi) / ARCSEC, abs=0.15, rel=0)
+    assert path.eps.item() == pytest.approx((omega_a + deps) / ARCSEC, abs=0.06, rel=0)
+
+
+def test_signs_of_the_rate() -> None:
+    def rate(**changes: float) -> float:
+        body = EARTH.replace(**changes)
+        return earthspin.precession(body=body, perturbers="sun").precession_rate.item()
+
+    assert rate() > 0
+    assert rate(spin_period=-EARTH.spin_period) < 0
+    assert rate(j2=-EARTH.j2) < 0
+
+
+def test_the_torque_of_the_sun_never_turns_back() -> None:
+    year = earthspin.torque_series("2026-01-01", "2027-01-01", "1 d", perturbers="sun")
+    x = year.torque.sel(component="x").values
+    assert x.min() > -1e-4 * x.max()
+    assert x.mean() > 0.4 * x.max()
+
+
+def test_quaternions_turn_the_body_into_inertial_axes() -> None:
+    def turned(answer: object, vectors: np.ndarray) -> np.ndarray:
+        assert answer.quaternion.values.tolist() == ["w", "x", "y", "z"]
+        attitude = answer.attitude.transpose("time", "quaternion").values
+        return Rotation.from_quat(attitude, scalar_first=True).apply(vectors)
+
+    rotor = earthspin.free_rotor([1, 2, 2.5], [0.1, 1, 0.1], [0, 1, 5])
+    body, inertial = (
+        rotor[name].transpose("time", "component").values
+        for name in ("omega_body", "omega_inertial")
+    )
+    assert np.allclose(turned(rotor, body), inertial, atol=1e-13, rtol=0)
+    assert np.allclose(body[0], inertial[0], atol=1e-15, rtol=0)
+    top = earthspin.run("top-loop")
+    up = turned(top, np.tile([0.0, 0.0, 1.0], (top.time.size, 1)))[:, 2]
+    assert np.allclose(up, np.cos(top.theta.values), atol=1e-12, rtol=0)
+
+
+def test_potentials_are_negative() -> None:
+    assert earthspin.spheroid_field([7e6, 0, 0]).potential.item() < 0
+
+
+def test_the_frame_bias_is_two_hundredths_of_an_arcsecond() -> None:
+    bias = Rotation.from_matrix(erfa.bp06(J2000, 0.0)[0]).magnitude() / ARCSEC
+    assert 0.015 < bias < 0.025
