@@ -21,7 +21,9 @@ _ACCENT = re.compile(r'<mover>(.*?)<mo(?: stretchy="true")?>(&#x0*(?:2D9|A8|5E|A
 _OPENS = r"<math[^>]*>|<mrow>|<mtd[^>]*>|</mo>"
 _FUNCTION = re.compile(rf"({_OPENS})?<mi>({FUNCTIONS})</mi>(<mo[^>]*>&#x00028;)?")
 _PRIME = re.compile(r"<msup>(<m[in][^>]*>[^<]*</m[in]>)<mi>&#x02032;</mi></msup>")
-_SIGN = re.compile(r"(<mo[^>]*>(?:[=(,\[]|&#x0*(?:3D|28|2C|5B|2248|2264|2265);)</mo>)<mo>(&#x02212;|−)")
+_SIGN = re.compile(
+    r"(<mo[^>]*>(?:[=(,\[]|&#x0*(?:3D|28|2C|5B|2248|2264|2265);)</mo>)<mo>(&#x02212;|−)"
+)
 
 
 def convert(tex: str, display: str = "inline") -> str:

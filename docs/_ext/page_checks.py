@@ -59,9 +59,8 @@ def faults_of_links(folder: Path) -> Iterator[str]:
             there = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             if not there.exists():
                 yield f"{path.relative_to(folder)}: there is no {link}"
-            elif there.suffix == ".html" and parts.fragment:
-                if unquote(parts.fragment) not in page_of(there).anchors:
-                    yield f"{path.relative_to(folder)}: no such place on its page: {link}"
+            elif there.suffix == ".html" and unquote(parts.fragment) not in page_of(there).anchors:
+                yield f"{path.relative_to(folder)}: no such place on its page: {link}"
 
 
 def faults_of_pages(folder: Path) -> Iterator[str]:

@@ -32,11 +32,11 @@ def test_directions_stand_on_the_equator_of_date_and_are_geometric(equator: str)
     away = -erfa.epv00(J2000, days)[0]["p"]
     turned = (erfa.pmat06 if equator == "mean" else erfa.pnm06a)(J2000, days) @ away
     ra, dec = np.arctan2(turned[1], turned[0]), np.arcsin(turned[2] / np.linalg.norm(turned))
-    # measured: 2e-7 rad; light time or aberration would be 1e-4, nutation 4e-5, precession 6e-3
+    # measured: 2.1e-8 rad; light time or aberration would be 1e-4, nutation 4e-5, precession 6e-3
     assert np.radians(seen.right_ascension.item()) == pytest.approx(
-        ra % (2 * np.pi), abs=2e-6, rel=0
+        ra % (2 * np.pi), abs=1e-7, rel=0
     )
-    assert np.radians(seen.declination.item()) == pytest.approx(dec, abs=2e-6, rel=0)
+    assert np.radians(seen.declination.item()) == pytest.approx(dec, abs=1e-7, rel=0)
 
 
 def test_a_plain_date_is_tdb_and_others_are_converted() -> None:
@@ -45,7 +45,8 @@ def test_a_plain_date_is_tdb_and_others_are_converted() -> None:
 
     assert first(["2026-01-01"]) == np.datetime64("2026-01-01")
     after = (first(["2026-01-01T00:00Z"]) - np.datetime64("2026-01-01")) / np.timedelta64(1, "s")
-    assert after == pytest.approx(69.184, abs=2e-3, rel=0)  # 37 leap seconds and TT - TAI
+    # 37 leap seconds and TT - TAI; measured: 8e-5 from TDB - TT
+    assert after == pytest.approx(69.184, abs=8e-4, rel=0)
     with pytest.raises(SceneError, match="utc"):
         first(Time([2433282.5], format="jd", scale="utc"))
 
@@ -60,7 +61,8 @@ def test_the_pole_starts_from_the_iau_in_the_gcrs() -> None:
     path = earthspin.pole("2000-01-01T12:00", "2000-01-01T12:00", "1 d").sel(axis="figure")
     of_iau = erfa.pnm06a(J2000, 0.0)[2]
     found = np.array([path[c].item() for c in "XYZ"])
-    assert np.linalg.norm(found - of_iau) < 10e-3 * ARCSEC  # frame bias alone would be 20 mas
+    # measured: 0.016 mas; without the frame bias it would be 17 mas
+    assert np.linalg.norm(found - of_iau) < 1e-4 * ARCSEC
 
 
 def test_psi_grows_as_psi_a_and_holds_the_nutation() -> None:
@@ -68,8 +70,8 @@ def test_psi_grows_as_psi_a_and_holds_the_nutation() -> None:
     days = float(Time("2020-01-01", scale="tdb").jd - J2000)
     _, psi_a, omega_a, *_ = erfa.p06e(J2000, days)
     dpsi, deps = erfa.nut06a(J2000, days)
-    # measured: 0.02 arcsec; the rigid body lacks up to 0.06 / sin(eps)
-    assert path.psi.item() == pytest.approx((psi_a + dpsi) / ARCSEC, abs=0.15, rel=0)
+    # measured: 0.013 and 0.009 arcsec; the Earth is not rigid
+    assert path.psi.item() == pytest.approx((psi_a + dpsi) / ARCSEC, abs=0.06, rel=0)
     assert path.eps.item() == pytest.approx((omega_a + deps) / ARCSEC, abs=0.06, rel=0)
 
 
@@ -86,7 +88,7 @@ def test_signs_of_the_rate() -> None:
 def test_the_torque_of_the_sun_never_turns_back() -> None:
     year = earthspin.torque_series("2026-01-01", "2027-01-01", "1 d", perturbers="sun")
     x = year.torque.sel(component="x").values
-    assert x.min() > -1e-4 * x.max()
+    assert x.min() > -1e-6 * x.max()
     assert x.mean() > 0.4 * x.max()
 
 
@@ -101,11 +103,12 @@ def test_quaternions_turn_the_body_into_inertial_axes() -> None:
         rotor[name].transpose("time", "component").values
         for name in ("omega_body", "omega_inertial")
     )
-    assert np.allclose(turned(rotor, body), inertial, atol=1e-13, rtol=0)
+    # measured: 2.2e-16, and 3.3e-16 for the top
+    assert np.allclose(turned(rotor, body), inertial, atol=2e-15, rtol=0)
     assert np.allclose(body[0], inertial[0], atol=1e-15, rtol=0)
     top = earthspin.run("top-loop")
     up = turned(top, np.tile([0.0, 0.0, 1.0], (top.time.size, 1)))[:, 2]
-    assert np.allclose(up, np.cos(top.theta.values), atol=1e-12, rtol=0)
+    assert np.allclose(up, np.cos(top.theta.values), atol=3e-15, rtol=0)
 
 
 def test_potentials_are_negative() -> None:

@@ -15,7 +15,7 @@ def marked(text: str) -> set[str]:
 
 def entries() -> dict[str, str]:
     """Terms of the glossary with their lines."""
-    body = (DOCS / "glossary.md").read_text(encoding="utf-8").split("```{glossary}\n")[1]
+    body = (DOCS / "glossary.md").read_text(encoding="utf-8").split(":sorted:\n\n")[1]
     found: dict[str, str] = {}
     for entry in body.split("\n```")[0].split("\n\n"):
         head, _, words = entry.partition("\n")
