@@ -308,7 +308,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_aspect("equal")
     ax.set_xlim(-34, 34)
     ax.set_ylim(-34, 34)
-    ax.set_xlabel("from the pole of the ecliptic towards longitude 180° (deg)")
+    ax.set_xlabel("towards longitude 180° (deg)")
     ax.set_ylabel("towards longitude 90° (deg)")
     return ax
 
