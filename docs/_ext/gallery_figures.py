@@ -62,6 +62,8 @@ def _faults_of(ax: Axes) -> Iterator[str]:
         words = axis.get_label_text()
         if not UNIT.search(words):
             yield f"the label of {name}, {words!r}, has no unit"
+        elif not words.endswith(")") and "relative" not in words:
+            yield f"the label of {name}, {words!r}, has its unit not in brackets at its end"
     for line in ax.lines:
         if not np.all(np.isfinite(np.asarray(line.get_xydata(), dtype=float))):
             yield f"the line {line.get_label()!r} has NaN"

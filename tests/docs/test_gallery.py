@@ -95,9 +95,13 @@ def test_the_rules_see_what_is_wrong(tmp_path: Path) -> None:
         "import matplotlib.pyplot as plt\n"
         "figure, ax = plt.subplots()\n"
         "ax.plot([1.0, 2.0, float('nan')], label='broken')\n"
-        "ax.set(xlabel='time', ylabel='length (m)')\n"
+        "ax.set(xlabel='time', ylabel='length, m')\n"
     )
     assert faults_of(none, poor) == {
         str(none): ["it draws 0 figures, not one"],
-        str(poor): ["the label of x, 'time', has no unit", "the line 'broken' has NaN"],
+        str(poor): [
+            "the label of x, 'time', has no unit",
+            "the label of y, 'length, m', has its unit not in brackets at its end",
+            "the line 'broken' has NaN",
+        ],
     }
