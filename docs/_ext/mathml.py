@@ -17,7 +17,9 @@ LAST = {"A": "Z", "a": "z", "Α": "Ω", "α": "ω"}
 THIN = "0.167em"
 FUNCTIONS = "sin|cos|tan|cot|sec|csc|arcsin|arccos|arctan|sinh|cosh|tanh|exp|log|ln|arg|det|min|max"
 _LETTER = re.compile(r'<mi mathvariant="(bold-italic|bold)">(&#x[0-9A-F]+;|.)</mi>')
-_ACCENT = re.compile(r'<mover>(.*?)<mo(?: stretchy="true")?>(&#x0*(?:2D9|A8|5E|AF|2192|7E);)</mo>')
+_OVER = r'<mover>(.*?)<mo(?: stretchy="true")?>(&#x0*(?:{});)</mo>'
+_DOTS = re.compile(_OVER.format("2D9|A8"))
+_ACCENT = re.compile(_OVER.format("5E|AF|2192|7E"))
 _OPENS = r"<math[^>]*>|<mrow>|<mtd[^>]*>|</mo>"
 _FUNCTION = re.compile(rf"({_OPENS})?<mi>({FUNCTIONS})</mi>(<mo[^>]*>&#x00028;)?")
 _PRIME = re.compile(r"<msup>(<m[in][^>]*>[^<]*</m[in]>)<mi>&#x02032;</mi></msup>")
@@ -37,6 +39,8 @@ def convert(tex: str, display: str = "inline") -> str:
     """
     text = convert_plainly(tex.replace("{aligned}", "{align*}"), display=display)
     text = _LETTER.sub(_letter, text)
+    # as an accent a dot would touch a capital
+    text = _DOTS.sub(r'<mover>\1<mo stretchy="false" mathsize="115%">\2</mo>', text)
     text = _ACCENT.sub(r'<mover accent="true">\1<mo stretchy="false">\2</mo>', text)
     text = _PRIME.sub(r'<mrow>\1<mo lspace="0" rspace="0">&#x02032;</mo></mrow>', text)
     text = _SIGN.sub(r'\1<mo form="prefix">\2', text)
