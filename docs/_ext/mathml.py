@@ -17,7 +17,7 @@ LAST = {"A": "Z", "a": "z", "Α": "Ω", "α": "ω"}
 THIN = "0.167em"
 FUNCTIONS = "sin|cos|tan|cot|sec|csc|arcsin|arccos|arctan|sinh|cosh|tanh|exp|log|ln|arg|det|min|max"
 _LETTER = re.compile(r'<mi mathvariant="(bold-italic|bold)">(&#x[0-9A-F]+;|.)</mi>')
-_OVER = r'<mover>(.*?)<mo(?: stretchy="true")?>(&#x0*(?:{});)</mo>'
+_OVER = r'<mover>((?:(?!<mover).)*?)<mo(?: stretchy="true")?>(&#x0*(?:{});)</mo>'
 _DOTS = re.compile(_OVER.format("2D9|A8"))
 _ACCENT = re.compile(_OVER.format("5E|AF|2192|7E"))
 _OPENS = r"<math[^>]*>|<mrow>|<mtd[^>]*>|</mo>"
