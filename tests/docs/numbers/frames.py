@@ -1,0 +1,69 @@
+"""Numbers of the page on models, times and frames, and of the first hour that was tried."""
+
+from __future__ import annotations
+
+import erfa
+import numpy as np
+from astropy.time import Time
+from scipy.spatial.transform import Rotation
+
+import earthspin
+from earthspin.constants import ARCSEC, DAY, J2000_JD, JULIAN_YEAR
+from tests import shipped
+from tests.docs.numbers.sentence import Part, Sentence, Told
+
+FRAMES, TESTING = "docs/frames.md", "docs/testing.md"
+
+
+def residual(model: str) -> float:
+    """Largest residual of a model, mas."""
+    sizes = shipped.tree("iau")["residual_sizes"]
+    return float(sizes.residual_maximum.sel(model=model).max())
+
+
+def triaxial_share() -> float:
+    """What B - A adds to the torque, over the largest torque, %."""
+    year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
+    more = float(year.attrs["neglected"].split()[1])
+    return 100 * more / float(year.torque_magnitude.max())
+
+
+def apart_of_tt() -> float:
+    """Largest TDB - TT, ms."""
+    return float(1e3 * np.abs(erfa.dtdb(J2000_JD, np.arange(0.0, 9000.0, 5.0), 0, 0, 0, 0)).max())
+
+
+def zero_hours_utc() -> float:
+    """Length from 0h TDB to 0h UTC, s, to the millisecond of TT."""
+    midnight = Time("2026-01-01", scale="utc")
+    return round(float((midnight.tt.jd2 - midnight.jd2) * DAY), 3)
+
+
+def frame_bias() -> float:
+    return float(Rotation.from_matrix(erfa.bp06(J2000_JD, 0.0)[0]).magnitude() / ARCSEC)
+
+
+MEASURED = [
+    Sentence(FRAMES, "what $B - A$ adds is {} %", triaxial_share),
+    Sentence(FRAMES, "up to {} mas from the real pole", lambda: residual("rigid")),
+    Sentence(
+        FRAMES, "with the response fitted to IAU 2000A | {} mas", lambda: residual("nonrigid"), 0.05
+    ),
+    Sentence(FRAMES, "is 0h TDB, {} s before 0h UTC", zero_hours_utc),
+    Sentence(FRAMES, "they differ by {} ms at most", apart_of_tt, bound=True),
+    Sentence(FRAMES, "by the frame\nbias, {} arcsec", frame_bias, 0.005),
+    Sentence(FRAMES, "a Julian year of {} d,", lambda: JULIAN_YEAR / DAY),
+    Sentence(FRAMES, "a day {} s.", lambda: DAY),
+    Sentence(
+        FRAMES,
+        "ecliptic of J2000.0, about {} arcsec",
+        lambda: float(erfa.obl06(J2000_JD, 0) / ARCSEC),
+    ),
+]
+
+TOLD = [
+    Told(FRAMES, "the {term}`Chandler wobble` to {} %", "the error that the last rung claims"),
+    Told(FRAMES, "towards {}° west", "the axes of the IERS, by definition"),
+    Told(FRAMES, "half-widths of {} %", "what an error is, by definition"),
+    Part(TESTING, "## The pages", "run times of the first hour, tried once"),
+]
