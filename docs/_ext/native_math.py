@@ -16,7 +16,7 @@ def inline(translator: HTML5Translator, node: nodes.math) -> None:
 
 def block(translator: HTML5Translator, node: nodes.math_block) -> None:
     tex = " ".join(node.astext().split())
-    formula = convert(tex.replace("{aligned}", "{align*}"), display="block")
+    formula = convert(tex, display="block")
     if node.get("label"):
         formula = NUMBERED.format(formula, node["label"])
     translator.body.append(f'<div style="{CENTRED}" class="formula">{formula}</div>')
