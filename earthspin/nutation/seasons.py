@@ -2,8 +2,8 @@
 
 Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic itself.
 The seasons slide by the sum, the general precession. The calendar drifts against the
-*tropical* year, which already contains it: one day in 128 years, where the source text's
-129.4 divides the sidereal turn by the days of the year.
+*tropical* year, which already contains it: one day in 128 years, where the source text
+has 129.4 and does not say from what.
 """
 
 from __future__ import annotations

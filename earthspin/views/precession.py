@@ -114,8 +114,7 @@ def sky_and_calendar(tree: Result) -> Table:
         "General precession is the precession of the equator computed here minus the motion of "
         "the ecliptic, which is taken from IAU 2006. A calendar of 365.25 days drifts against the "
         "tropical year, which already contains the precession; the source text (Appendix I, "
-        '"Rigid Body Dynamics") finds 129.4 years because it divides the period of precession by '
-        "the number of days in a year.",
+        '"Rigid Body Dynamics") has 129.4 years and does not say from what.',
     )
 
 
