@@ -19,7 +19,8 @@ def block(translator: HTML5Translator, node: nodes.math_block) -> None:
     formula = convert(tex, display="block")
     if node.get("label"):
         formula = NUMBERED.format(formula, node["label"])
-    translator.body.append(f'<div style="{CENTRED}" class="formula">{formula}</div>')
+    place = f' id="{node["ids"][0]}"' if node["ids"] else ""
+    translator.body.append(f'<div{place} style="{CENTRED}" class="formula">{formula}</div>')
     raise nodes.SkipNode
 
 
