@@ -1,22 +1,25 @@
 """TeX to the MathML that browsers draw well: MathML Core, with what a converter leaves undone.
 
-`latex2mathml` does not know ``aligned``, writes bold letters as a ``mathvariant`` that browsers
-ignore, gives accents the gap of a limit, sets names of functions without space and a sign as if
-it stood between two numbers, and shrinks a prime twice.
+`latex2mathml` does not know ``aligned``, writes letters of a style as a ``mathvariant`` that
+browsers ignore, gives accents the gap of a limit, sets names of functions without space and a sign
+as if it stood between two numbers, and shrinks a prime twice.
 """
 
 import re
 
 from latex2mathml.converter import convert as convert_plainly
 
-#: The first of each block of bold letters of Unicode, by what a letter is counted from.
-BOLD_ITALIC = {"A": 0x1D468, "a": 0x1D482, "Α": 0x1D71C, "α": 0x1D736}
-BOLD = {"A": 0x1D400, "a": 0x1D41A, "Α": 0x1D6A8, "α": 0x1D6C2}
+#: The first of each block of letters of Unicode, by its style and what a letter is counted from.
+BLOCKS = {
+    "bold-italic": {"A": 0x1D468, "a": 0x1D482, "Α": 0x1D71C, "α": 0x1D736},
+    "bold": {"A": 0x1D400, "a": 0x1D41A, "Α": 0x1D6A8, "α": 0x1D6C2},
+    "sans-serif": {"A": 0x1D5A0, "a": 0x1D5BA},
+}
 #: Where each block ends.
 LAST = {"A": "Z", "a": "z", "Α": "Ω", "α": "ω"}
 THIN = "0.167em"
 FUNCTIONS = "sin|cos|tan|cot|sec|csc|arcsin|arccos|arctan|sinh|cosh|tanh|exp|log|ln|arg|det|min|max"
-_LETTER = re.compile(r'<mi mathvariant="(bold-italic|bold)">(&#x[0-9A-F]+;|.)</mi>')
+_LETTER = re.compile(r'<mi mathvariant="(bold-italic|bold|sans-serif)">(&#x[0-9A-F]+;|.)</mi>')
 _OVER = r'<mover>((?:(?!<mover).)*?)<mo(?: stretchy="true")?>(&#x0*(?:{});)</mo>'
 _DOTS = re.compile(_OVER.format("2D9|A8"))
 _ACCENT = re.compile(_OVER.format("5E|AF|2192|7E"))
@@ -48,14 +51,13 @@ def convert(tex: str, display: str = "inline") -> str:
 
 
 def _letter(found: re.Match[str]) -> str:
-    """A bold letter as the character that it is."""
+    """A bold or upright letter as the character that it is."""
     code = found[2]
     letter = chr(int(code[3:-1], 16)) if code.startswith("&#x") else code
-    blocks = BOLD_ITALIC if found[1] == "bold-italic" else BOLD
-    for first, place in blocks.items():
+    for first, place in BLOCKS[found[1]].items():
         if first <= letter <= LAST[first]:
             return f"<mi>&#x{place + ord(letter) - ord(first):X};</mi>"
-    return f'<mi style="font-weight: bold">{letter}</mi>'
+    return f"<mi>{letter}</mi>"
 
 
 def _function(found: re.Match[str]) -> str:
