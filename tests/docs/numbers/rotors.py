@@ -189,7 +189,7 @@ MEASURED = [
     Sentence(THEORY, "stays within {} degrees in others", lambda: extremes()[1]),
 ]
 TOLD = [
-    Told(THEORY, "text finds {} years", "the source text"),
+    Told(THEORY, "The source text has\n{} years", "the source text"),
     Told(THEORY, "extreme declinations of {} and {} degrees, that is {} ± {}", "the source text"),
     Told(ROTORS, "with\nattitude, takes {} ms", "run time: python -m tests.rotor.accuracy"),
 ]
