@@ -31,11 +31,15 @@ from skyfield.jpllib import SpiceKernel
 from skyfield.timelib import Time as SkyfieldTime
 from skyfield.vectorlib import VectorFunction
 
+from earthspin.sky.orbit_table import OrbitTable
+
 Value = str | float | Quantity | dt.timedelta | np.timedelta64
 Pure = float | Quantity
 Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
 Date = str | dt.date | np.datetime64 | Time | SkyfieldTime
 Dates = Time | SkyfieldTime | ArrayLike | xr.DataArray | Sequence[Date]
+Epoch = str | Quantity | Date
+Epochs = Quantity | Dates | Sequence[Epoch]
 '''
 
 

@@ -16,6 +16,7 @@ _HOME = {
     "earthspin.questions.torque": ("torque_series",),
     "earthspin.questions.pole": ("pole",),
     "earthspin.questions.iau": ("compare_iau",),
+    "earthspin.questions.long_term": ("long_term",),
     "earthspin.questions.wobble": ("wobble_ladder",),
     "earthspin.questions.polar_motion": (
         "excitation",

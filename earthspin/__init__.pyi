@@ -14,11 +14,15 @@ from skyfield.jpllib import SpiceKernel
 from skyfield.timelib import Time as SkyfieldTime
 from skyfield.vectorlib import VectorFunction
 
+from earthspin.sky.orbit_table import OrbitTable
+
 Value = str | float | Quantity | dt.timedelta | np.timedelta64
 Pure = float | Quantity
 Values = ArrayLike | Quantity | xr.DataArray | Sequence[Value] | Sequence[Sequence[Value]]
 Date = str | dt.date | np.datetime64 | Time | SkyfieldTime
 Dates = Time | SkyfieldTime | ArrayLike | xr.DataArray | Sequence[Date]
+Epoch = str | Quantity | Date
+Epochs = Quantity | Dates | Sequence[Epoch]
 
 from earthspin.bodies import BODIES as BODIES
 from earthspin.bodies import EARTH as EARTH
@@ -139,6 +143,27 @@ def compare_iau(
     ]
     | None = ...,
 ) -> xr.Dataset: ...
+def long_term(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Epochs | None = ...,
+    orbit: str | PathLike[str] | OrbitTable | None = ...,
+    tides: Value | None = ...,
+    ellipticity: Value | None = ...,
+    j2_rate: Value | None = ...,
+    accuracy: Value | None = ...,
+) -> xr.Dataset: ...
 def wobble_ladder(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
@@ -215,6 +240,7 @@ __all__ = [
     "free_rotor",
     "heavy_top",
     "load_scene",
+    "long_term",
     "open",
     "plan",
     "polar_motion",

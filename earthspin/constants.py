@@ -91,6 +91,7 @@ PREM_MEAN_MOMENT = Constant(
 PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981")
 
 # --- conversions -----------------------------------------------------------------------------
+AU = 149597870700.0  # m, exact: IAU 2012 resolution B2
 DAY = 86400.0
 JULIAN_YEAR = 365.25 * DAY
 DAYS_PER_CENTURY = 36525.0

@@ -19,6 +19,7 @@ from earthspin.engine.question import Question
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.iau import IAU
+from earthspin.questions.long_term import LongTerm
 from earthspin.questions.polar_motion import PolarMotion
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 QUESTIONS: dict[str, type[Question]] = {
     question.word: question
     for question in (
-        Precession, Torque, Pole, IAU, Wobble, PolarMotion, FreeRotor, Top, Spheroid,
+        Precession, Torque, Pole, IAU, LongTerm, Wobble, PolarMotion, FreeRotor, Top, Spheroid,
     )
 }  # fmt: skip
 

@@ -21,17 +21,13 @@ from earthspin.choosing.nutation import nutation_choices
 from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
+from earthspin.parts.averages import mean_rates, torque_samples
 from earthspin.parts.choices import averages_on_offer, chosen_average, windows_on_offer
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
 from earthspin.parts.sky import Pulled, Sky, places, sky, stretch
 from earthspin.parts.times import epochs
 from earthspin.questions.pole import Pole
-from earthspin.questions.precession import (
-    Precession,
-    mean_rates,
-    rate_accuracy,
-    torque_samples,
-)
+from earthspin.questions.precession import Precession, rate_accuracy
 from earthspin.questions.torque import Torque
 from earthspin.sky.equator import rotate
 from earthspin.sky.iau import Nutation
@@ -189,16 +185,14 @@ def rate_outcome(rng: Generator) -> Outcome:
 
     choice = chosen_average(body, pulling, within, asked)
     fewer = torque_samples(above, within, body, pulling, choice)
-    rates = mean_rates(fewer, body, pulling, asked, choice)
+    rates = mean_rates(fewer, body, pulling, choice)
     report = rate_accuracy(rates, asked)
     cost = cheapest = int(report.evaluations)
     menu = averages_on_offer(body, pulling, within)
     for one in sorted(menu, key=lambda c: c.evaluations):
         if one.evaluations < cheapest and off(one.settings.cycles, one.settings.step) <= asked:
             cheapest = one.evaluations
-    rate, best = (
-        float(of.rate.value[-1]) for of in (rates, mean_rates(samples, body, pulling, None))
-    )
+    rate, best = (float(of.rate.value[-1]) for of in (rates, mean_rates(samples, body, pulling)))
     return Outcome(
         str(report.method_chosen.values),
         asked,

@@ -24,6 +24,10 @@ VALUES: dict[str, Any] = {
     "accuracy": 1e-3,
     "equator": "mean",
     "effects": ["j3"],
+    "orbit": "own",
+    "tides": 1.0,
+    "ellipticity": 1.0,
+    "j2_rate": "0 1/s",
 }
 #: Every key at the head of a scene that some question has.
 HEADS = {n for q in QUESTIONS.values() for n, one in keys_of(q).items() if not one.setting}

@@ -15,8 +15,8 @@ from earthspin.views.report import write_report
 from tests import shipped
 
 FIGURES = {
-    "precession": 2, "torque": 1, "pole": 1, "iau": 3, "wobble": 1, "polar-motion": 3,
-    "free-rotor": 2, "top-loop": 1, "spheroid": 0,
+    "precession": 2, "torque": 1, "pole": 1, "iau": 3, "long-term": 4, "wobble": 1,
+    "polar-motion": 3,    "free-rotor": 2, "top-loop": 1, "spheroid": 0,
 }  # fmt: skip
 
 

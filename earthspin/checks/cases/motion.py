@@ -23,9 +23,9 @@ from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.nutation.angles import on_fixed_ecliptic
+from earthspin.parts.averages import Samples, torque_samples
 from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
-from earthspin.questions.precession import Samples, torque_samples
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 

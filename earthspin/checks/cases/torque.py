@@ -15,14 +15,10 @@ from earthspin.bodies import MOON, SUN, Body
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import DAY, JULIAN_YEAR, G
+from earthspin.parts.averages import mean_rates, torque_samples
 from earthspin.parts.sky import places, sky, stretch
 from earthspin.questions.pole import pole
-from earthspin.questions.precession import (
-    mean_rates,
-    precession,
-    precession_rates,
-    torque_samples,
-)
+from earthspin.questions.precession import precession, precession_rates
 from earthspin.questions.torque import torque_series
 from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
@@ -44,7 +40,7 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     both = body, (perturber,)
     above = sky("de421", places(*both), "jplephem")
     samples = torque_samples(above, stretch(above, None), *both)
-    return precession_rates(mean_rates(samples, *both, None), samples)
+    return precession_rates(mean_rates(samples, *both), samples)
 
 
 @lru_cache

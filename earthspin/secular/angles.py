@@ -1,0 +1,80 @@
+r"""What people read off an axis s and an orbit (normal n, eccentricity vector e).
+
+The equinox of date lies along s x n, where the Sun crosses the equator northward. The obliquity is
+the angle from n to s; the longitude of perihelion is counted along the orbit from the equinox of
+date, and with it
+
+    e sin(longitude) = (e.s)/sin(obliquity),     e cos(longitude) = e.(s x n)/sin(obliquity),
+
+climatic precession and coprecession, without a trigonometric function of it. It is where the *body*
+is closest to the Sun; seen from the Earth, the Sun then stands 180 degrees away.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+class Seasons(NamedTuple):
+    """Obliquity, and what depends on where the equinox is; shape (n,) each.
+
+    Attributes
+    ----------
+    obliquity : ndarray
+        rad.
+    eccentricity : ndarray
+    climatic_precession, coprecession : ndarray
+        Eccentricity times sine and cosine of the longitude of perihelion.
+    """
+
+    obliquity: FloatArray
+    eccentricity: FloatArray
+    climatic_precession: FloatArray
+    coprecession: FloatArray
+
+
+def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> Seasons:
+    """Obliquity, eccentricity, climatic precession and coprecession.
+
+    Parameters
+    ----------
+    axis, normal, eccentricity : ndarray, shape (3, n)
+        Spin axis, orbit normal, eccentricity vector.
+    """
+    equinox = np.cross(axis, normal, axis=0)
+    sine = np.sqrt(np.sum(equinox**2, axis=0))
+    upright = np.where(sine > 0, sine, np.nan)
+    return Seasons(
+        np.arctan2(sine, np.sum(axis * normal, axis=0)),
+        np.sqrt(np.sum(eccentricity**2, axis=0)),
+        np.sum(eccentricity * axis, axis=0) / upright,
+        np.sum(eccentricity * equinox, axis=0) / upright,
+    )
+
+
+def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
+    """Matrices from the GCRS to mean equator and equinox of date, shape (n, 3, 3)."""
+    equinox = np.cross(axis, normal, axis=0)
+    equinox = equinox / np.sqrt(np.sum(equinox**2, axis=0))
+    return np.moveaxis(np.stack([equinox, np.cross(axis, equinox, axis=0), axis]), 2, 0)
+
+
+def unwrapped(angle: FloatArray, coarse: FloatArray, which: FloatArray) -> FloatArray:
+    """An angle without jumps, at some times among others that leave no doubt.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        rad, in any turn.
+    coarse : ndarray, shape (m,)
+        The same angle at times so close that it moves by less than half a turn, unwrapped.
+    which : ndarray, shape (n,)
+        The nearest of those times to each, as places in `coarse`.
+    """
+    turn = 2 * np.pi
+    return np.asarray(angle + turn * np.rint((coarse[which] - angle) / turn))

@@ -1,0 +1,203 @@
+r"""Many axes over millions of years, side by side: a Runge-Kutta method in a frame that turns.
+
+Seen from axes that turn about the mean normal as fast as the spin axis precesses, the axis hardly
+moves: steps of five thousand years then do, of which a fixed frame would need ten. Members stand
+side by side in one array, and every stage of the method of Dormand and Prince (order 8, scipy's
+`DOP853`) is a few operations on whole rows. An orbit is common to all members; constants, tides,
+figures and starts are their own.
+
+Method and frame are others than those of `trajectory`: each is the other's check.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import DOP853
+
+from earthspin.constants import JULIAN_YEAR
+from earthspin.errors import UndefinedError
+from earthspin.secular.orbit import Orbit, pull, reference_axes
+from earthspin.secular.strength import Strength, Tides
+
+FloatArray = NDArray[np.float64]
+
+#: Step, s: the default keeps 0.1 arcsec over a million years (docs/long_term.md).
+STEP = 4000 * JULIAN_YEAR
+#: Members are padded to a multiple of this, so that sums do not hang on how many there are.
+PAD = 64
+_STAGES = 12
+#: By what share of a step its ends are taken from inside it: there a series of the orbit may end.
+INSIDE = 1e-9
+#: By how much members may differ in their precession from that of the frame, as a share.
+SPREAD = 0.3
+
+
+def solve_many(
+    strength: Strength,
+    orbit: Orbit,
+    starts: FloatArray,
+    times: FloatArray,
+    step: float = STEP,
+) -> FloatArray:
+    """Follow the axes of many members from J2000.0.
+
+    Parameters
+    ----------
+    strength : Strength
+        Numbers, or arrays with one value for each member.
+    orbit : Orbit
+    starts : ndarray, shape (3, m)
+        Unit vectors of the axes at J2000.0, GCRS.
+    times : ndarray, shape (n,)
+        s, ascending.
+    step : float
+        Longest step, s.
+
+    Returns
+    -------
+    ndarray, shape (3, n, m)
+        Unit vectors, GCRS.
+    """
+    members = starts.shape[1]
+    found = np.empty((3, times.size, members))
+    width = -(-members // PAD) * PAD
+    padded = np.concatenate([starts, np.repeat(starts[:, -1:], width - members, axis=1)], axis=1)
+    lanes = _Lanes(_padded(strength, width, members), orbit, padded, times)
+    for wanted in (times[times < 0][::-1], times[times >= 0]):
+        places = np.searchsorted(times, wanted)
+        for place, axis in zip(places, lanes.run(wanted, step), strict=True):
+            found[:, place] = axis[:, :members]
+    return found
+
+
+def _padded(strength: Strength, width: int, members: int) -> Strength:
+    """The same with every array as long as there are lanes."""
+
+    def long(value: FloatArray | float) -> FloatArray:
+        row = np.broadcast_to(np.asarray(value, dtype=float), (members,))
+        return np.append(row, np.repeat(row[-1:], width - members))
+
+    tides = replace(strength.tides, moon=long(strength.tides.moon), spin=long(strength.tides.spin))
+    return replace(
+        strength,
+        sun=long(strength.sun),
+        moon=long(strength.moon),
+        ellipticity=long(strength.ellipticity),
+        j2_rate=long(strength.j2_rate),
+        tides=tides,
+    )
+
+
+class _Lanes:
+    """Members in a frame that turns with their mean precession."""
+
+    def __init__(
+        self, strength: Strength, orbit: Orbit, starts: FloatArray, times: FloatArray
+    ) -> None:
+        self.strength, self.orbit = strength, orbit
+        sampled = np.linspace(min(times[0], 0.0), max(times[-1], 0.0), 101)
+        # what the Moon lags behind is the same for all: an arcsecond, times the share of the Moon
+        self.mean = replace(
+            strength,
+            sun=np.mean(strength.sun),
+            moon=np.mean(strength.moon),
+            tides=Tides(),
+            ellipticity=1.0,
+            j2_rate=0.0,
+        )
+        self.axes = reference_axes(np.mean(orbit.at(sampled)[0], axis=1))
+        self.start = self.axes @ starts
+        now = np.zeros(1)
+        on = pull(strength, orbit.at(now), now)
+        turning = -on.constant * (on.axis[:, 0] @ starts)
+        self.turn = float(np.mean(turning))
+        if np.max(np.abs(turning - self.turn)) > SPREAD * np.max(np.abs(turning)):
+            raise UndefinedError(
+                "members precess at rates too far apart to be followed side by side; put those of "
+                "like obliquity together"
+            )
+
+    def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
+        """Axes at times that lead away from J2000.0, shape (3, lanes) each, GCRS."""
+        if not times.size or times[-1] == 0.0:
+            yield from (self.axes.T @ self.start for _ in times)
+            return
+        count = math.ceil(abs(times[-1]) / longest)
+        step = times[-1] / count
+        shares = np.concatenate([DOP853.C, [1.0], DOP853.C_EXTRA])
+        inside = shares * (1 - 2 * INSIDE) + INSIDE
+        state, due = self.start, 0
+        stages = np.empty((shares.size, *state.shape))
+        flat = stages.reshape(shares.size, -1)
+
+        def sum_of(weights: FloatArray) -> FloatArray:
+            return np.asarray(step * (weights @ flat[: weights.shape[-1]])).reshape(
+                -1, *state.shape
+            )
+
+        for number in range(count):
+            begin, end = number * step, (number + 1) * step
+            slopes = self._slopes(begin + step * inside)
+            for stage in range(_STAGES):
+                stages[stage] = slopes(stage, state + sum_of(DOP853.A[stage, :stage])[0])
+            change = sum_of(DOP853.B)[0]
+            wanted = int(np.count_nonzero(np.abs(times[due:]) <= abs(end) * (1 + 1e-12)))
+            if wanted:
+                stages[_STAGES] = slopes(_STAGES, state + change)
+                for stage, weights in enumerate(DOP853.A_EXTRA, _STAGES + 1):
+                    stages[stage] = slopes(stage, state + sum_of(weights[:stage])[0])
+                rise, fall = step * stages[0], step * stages[_STAGES]
+                terms = [change, rise - change, 2 * change - rise - fall, *sum_of(DOP853.D)]
+                for time in times[due : due + wanted]:
+                    u = state + _between((time - begin) / step, terms)
+                    yield self._still(u / np.sqrt(np.sum(u * u, axis=0)), time)
+                due += wanted
+            state = state + change
+
+    def _still(self, u: FloatArray, time: float) -> FloatArray:
+        """From the turning frame to the GCRS."""
+        c, s = math.cos(self.turn * time), math.sin(self.turn * time)
+        return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
+
+    def _slopes(self, times: FloatArray) -> Callable[[int, FloatArray], FloatArray]:
+        """Rates in the turning frame at some times, as a function of which of them and the axes."""
+        normal, eccentricity, turning = self.orbit.at(times)
+        e2 = np.sum(eccentricity**2, axis=0)
+        constant = self.strength.constant(times[:, np.newaxis], e2[:, np.newaxis])
+        on = pull(self.mean, (normal, eccentricity, turning), times)
+        c, s = np.cos(self.turn * times), np.sin(self.turn * times)
+
+        def turned(vector: FloatArray) -> FloatArray:
+            x, y, z = self.axes @ vector
+            return np.stack([c * x + s * y, c * y - s * x, z])
+
+        axis, drift = turned(on.axis), turned(on.geodesic)
+        drift[2] -= self.turn
+        rows = np.concatenate([_crossing(drift), _crossing(axis), axis[np.newaxis]])
+
+        def slope(which: int, u: FloatArray) -> FloatArray:
+            out = np.ascontiguousarray(rows[:, :, which]) @ u
+            return np.asarray(out[:3] - constant[which] * out[6] * out[3:6])
+
+        return slope
+
+
+def _crossing(vector: FloatArray) -> FloatArray:
+    """Matrices of the cross product with vectors, shape (3, 3, n)."""
+    x, y, z = vector
+    nought = np.zeros_like(x)
+    return np.stack([[nought, -z, y], [z, nought, -x], [-y, x, nought]])
+
+
+def _between(x: float, terms: Sequence[FloatArray]) -> FloatArray:
+    """Interpolation of order 7, at a share of the step (Hairer, Norsett & Wanner 1993, II.6)."""
+    u = np.zeros_like(terms[0])
+    for number, term in enumerate(reversed(terms)):
+        u += term
+        u *= x if number % 2 == 0 else 1 - x
+    return u

@@ -1,0 +1,75 @@
+"""An orbit that changes over millennia, as what turns an axis needs it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.secular.strength import Strength
+
+FloatArray = NDArray[np.float64]
+
+
+#: Of an orbit at some times: unit normal in the sense of the motion, vector to the pericentre as
+#: long as the eccentricity, and rate of the normal (s-1); each of shape (3, n), along the GCRS.
+Shape: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
+
+
+class Orbit(Protocol):
+    """Whatever gives an orbit at any time that it covers."""
+
+    @property
+    def coverage(self) -> tuple[float, float]:
+        """First and last time, s from J2000.0 TDB."""
+
+    @property
+    def edges(self) -> FloatArray:
+        """Where its pieces meet, s, ascending, J2000.0 among them: smooth in between."""
+
+    def at(self, times: FloatArray) -> Shape:
+        """The orbit at times, s from J2000.0 TDB."""
+
+
+def reference_axes(normal: FloatArray) -> FloatArray:
+    """Right-handed unit vectors, as rows: two across a normal, and the normal."""
+    third = normal / np.linalg.norm(normal)
+    first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(third, first), third])
+
+
+class Pull(NamedTuple):
+    """What turns an axis s at some times: ds/dt = (g n - a (m.s) m) x s.
+
+    Attributes
+    ----------
+    axis : ndarray, shape (3, n)
+        m: the normal, and a little of what the Moon lags behind it.
+    constant : ndarray, shape (n,)
+        a, rad/s.
+    geodesic : ndarray, shape (3, n)
+        g n, rad/s.
+    """
+
+    axis: FloatArray
+    constant: FloatArray
+    geodesic: FloatArray
+
+
+def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
+    """Averaged torque of Sun and Moon on an axis.
+
+    The node of the Moon regresses about an orbit that moves; its mean torque acts about
+    n + (n x dn/dt)/|node rate|, 1.4 arcsec aside for the Earth. To first order in that, the two
+    together act about one axis with the Moon's share of it.
+    """
+    normal, eccentricity, turning = shape
+    e2 = np.sum(eccentricity**2, axis=0)
+    aside = np.cross(normal, turning, axis=0) / strength.node_rate
+    return Pull(
+        normal + strength.moons_share * aside,
+        strength.constant(times, e2),
+        strength.geodesic_rate(e2) * normal,
+    )

@@ -1,0 +1,227 @@
+"""Orbits that change over millions of years, as tables: read, kept and evaluated.
+
+An orbit is kept as its unit normal n and its eccentricity vector e (to the pericentre, as long as
+the eccentricity), two components of each along axes of its own; the third follows from n.n = 1 and
+n.e = 0. In windows of some twenty thousand years each is a Legendre series, so that values and
+rates at any time cost a few products.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from earthspin.constants import JULIAN_YEAR
+from earthspin.errors import CoverageError
+
+FloatArray = NDArray[np.float64]
+
+#: Length of a window, s, and terms in it.
+WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16
+#: Samples a window must hold for each term to be fitted; with fewer, samples are joined by splines.
+DENSE = 3
+#: Smallest unit in which coefficients are stored.
+UNIT = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitTable:
+    """An orbit through time.
+
+    Attributes
+    ----------
+    name : str
+        Of the body that goes round.
+    edges : ndarray, shape (w + 1,)
+        Where windows meet, s from J2000.0 TDB, ascending.
+    coefficients : ndarray, shape (4, w, m)
+        Legendre coefficients of n_1, n_2, e_1, e_2.
+    axes : ndarray, shape (3, 3)
+        Rows: the axes of the table in the GCRS.
+    source : str
+        Where it comes from.
+    errors : ndarray, shape (2, w)
+        95 % half-widths of n (rad) and of e in each window: what half the step changes, and what
+        the series leave out. Of a table that was given, the last alone.
+    sha256 : str
+        Of the file it was read from.
+    """
+
+    name: str
+    edges: FloatArray
+    coefficients: FloatArray
+    axes: FloatArray
+    source: str
+    errors: FloatArray
+    sha256: str = ""
+
+    @property
+    def coverage(self) -> tuple[float, float]:
+        """First and last time, s from J2000.0 TDB."""
+        return float(self.edges[0]), float(self.edges[-1])
+
+    @cached_property
+    def _rates(self) -> FloatArray:
+        """Legendre coefficients of the rates of n_1 and n_2, s-1."""
+        half = np.diff(self.edges)[:, np.newaxis] / 2
+        return np.asarray(legendre.legder(self.coefficients[:2], axis=-1) / half)
+
+    def check_times(self, times: FloatArray) -> None:
+        """Refuse, with a CoverageError, times outside the table."""
+        first, last = self.coverage
+        low, high = float(np.min(times)), float(np.max(times))
+        if not (first <= low and high <= last):
+            asked, coverage = ((_words(low), _words(high)), (_words(first), _words(last)))
+            raise CoverageError(f"orbit of {self.name}", asked, coverage)
+
+    def error(self, times: FloatArray) -> FloatArray:
+        """95 % half-widths of normal (rad) and eccentricity vector at times in s, shape (2, n)."""
+        middle = (self.edges[:-1] + self.edges[1:]) / 2
+        return np.stack([np.interp(times, middle, of) for of in self.errors])
+
+    def at(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Unit normal, eccentricity vector and rate of the normal (s-1) in the GCRS, (3, n) each.
+
+        Parameters
+        ----------
+        times : ndarray, shape (n,)
+            s from J2000.0 TDB.
+
+        Raises
+        ------
+        CoverageError
+            If a time lies outside the table.
+        """
+        self.check_times(times)
+        window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(self.edges) - 2)
+        middle, half = (self.edges[:-1] + self.edges[1:]) / 2, np.diff(self.edges) / 2
+        basis = legendre.legvander((times - middle[window]) / half[window], TERMS - 1)
+        n1, n2, e1, e2 = np.einsum("kwm,wm->kw", self.coefficients[:, window], basis)
+        r1, r2 = np.einsum("kwm,wm->kw", self._rates[:, window], basis[:, :-1])
+        n3 = np.sqrt(1 - n1 * n1 - n2 * n2)
+        parts = (
+            (n1, n2, n3),
+            (e1, e2, -(n1 * e1 + n2 * e2) / n3),
+            (r1, r2, -(n1 * r1 + n2 * r2) / n3),
+        )
+        normal, eccentricity, turning = (self.axes.T @ np.stack(part) for part in parts)
+        return normal, eccentricity, turning
+
+
+def _words(time: float) -> str:
+    """A time in thousands of years from J2000.0, as one would give it."""
+    return f"{time / JULIAN_YEAR / 1000:.15g} kyr"
+
+
+def fitted(
+    name: str,
+    times: FloatArray,
+    normal: FloatArray,
+    eccentricity: FloatArray,
+    axes: FloatArray,
+    source: str,
+) -> OrbitTable:
+    """A table from samples of an orbit.
+
+    Where a window holds many samples its series are fitted by least squares, which leaves out what
+    varies faster than the series can; where it holds few, quintic splines join them.
+
+    Parameters
+    ----------
+    name, source : str
+    times : ndarray, shape (n,)
+        s from J2000.0 TDB, ascending.
+    normal, eccentricity : ndarray, shape (n, 3)
+        In the GCRS.
+    axes : ndarray, shape (3, 3)
+        Of the table; the third is near the normal.
+    """
+    from scipy.interpolate import make_interp_spline
+
+    first = np.floor(round(times[0] / WINDOW, 6)) * WINDOW
+    edges = np.arange(first, times[-1] + 0.5 * WINDOW, WINDOW)
+    edges = np.clip(edges, times[0], times[-1])
+    edges = np.unique(np.append(edges, times[-1]))
+    samples = np.concatenate([normal @ axes[:2].T, eccentricity @ axes[:2].T], axis=1)
+    nodes, weights = legendre.leggauss(TERMS)
+    project = legendre.legvander(nodes, TERMS - 1) * weights[:, np.newaxis]
+    project *= np.arange(TERMS) + 0.5
+    spline = None
+    coefficients = np.empty((4, len(edges) - 1, TERMS))
+    for window, (start, end) in enumerate(pairwise(edges)):
+        inside = slice(*np.searchsorted(times, [start, end + 1.0]))  # the sample at the end, too
+        middle, half = (start + end) / 2, (end - start) / 2
+        x = (times[inside] - middle) / half
+        if x.size >= DENSE * TERMS:
+            series = legendre.legfit(x, samples[inside], TERMS - 1)
+            series[-2:] += _to_meet(legendre.legval(x[[0, -1]], series).T, samples[inside][[0, -1]])
+        else:
+            spline = spline or make_interp_spline(times, samples, k=5)
+            series = project.T @ spline(middle + half * nodes)
+        coefficients[:, window] = series.T
+    table = OrbitTable(name, edges, coefficients, axes, source, np.zeros((2, len(edges) - 1)))
+    return replace(table, errors=_left_out(table, times, normal, eccentricity))
+
+
+def _left_out(
+    table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
+) -> FloatArray:
+    """Twice the scatter of samples about the series, window by window, shape (2, w)."""
+    n, e, _ = table.at(times)
+    many = len(table.edges) - 1
+    window = np.clip(np.searchsorted(table.edges, times) - 1, 0, many - 1)
+    count = np.maximum(np.bincount(window, minlength=many), 1)
+    squares = (
+        np.sum((of.T - given) ** 2, axis=1) for of, given in ((n, normal), (e, eccentricity))
+    )
+    return np.stack([2 * np.sqrt(np.bincount(window, of, many) / count) for of in squares])
+
+
+def _to_meet(ends: FloatArray, wanted: FloatArray) -> FloatArray:
+    """What the last two terms add so that a series ends on its samples, and meets the next one.
+
+    They are 1 at the end, plus and minus 1 at the start, and small in between.
+    """
+    before, after = wanted - ends
+    return np.stack([(after + before) / 2, (after - before) / 2])
+
+
+def write(path: Path, table: OrbitTable) -> None:
+    """Write a table: whole numbers of `UNIT`, compressed."""
+    np.savez_compressed(
+        path,
+        name=table.name,
+        source=table.source,
+        errors=table.errors.astype(np.float32),
+        axes=table.axes,
+        edges=table.edges / JULIAN_YEAR,
+        coefficients=np.rint(table.coefficients / UNIT).astype(np.int32),
+    )
+
+
+def load(path: Path) -> OrbitTable:
+    """Read a table that `write` wrote."""
+    with np.load(path, allow_pickle=False) as file:
+        return OrbitTable(
+            name=str(file["name"]),
+            edges=file["edges"] * JULIAN_YEAR,
+            coefficients=file["coefficients"] * UNIT,
+            axes=file["axes"],
+            source=str(file["source"]),
+            errors=file["errors"].astype(float),
+            sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        )
+
+
+@cache
+def shipped(name: str) -> OrbitTable | None:
+    """The table of a body that is shipped with the library, or nothing."""
+    path = Path(__file__).parent / "orbits" / f"{name}.npz"
+    return load(path) if name.isidentifier() and path.exists() else None
