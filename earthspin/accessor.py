@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
 if TYPE_CHECKING:
     import pandas as pd
+    from astropy.coordinates import SkyCoord
 
     from earthspin.engine.plan import Plan
     from earthspin.engine.question import Question
@@ -89,6 +91,50 @@ class Answer:
         index = list(frame.index.names) if spread.sizes else []
         return frame.reset_index()[[*map(str, index), *names]]
 
+    def to_skycoord(self, name: str = "") -> SkyCoord:
+        """Give unit vectors as coordinates of astropy, in the ICRS.
+
+        The axes of the GCRS are those of the ICRS; no aberration is added.
+
+        Parameters
+        ----------
+        name : str
+            A variable along `component`, such as ``"pole"`` of `long_term`; not needed where
+            `X`, `Y` and `Z` are the answer, as of `pole`.
+
+        Raises
+        ------
+        SceneError
+            If that is no vector along the axes of the GCRS.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> past = earthspin.long_term("-3000-01-01", "0 kyr", "1 kyr")
+        >>> pole = past.earthspin.to_skycoord("pole")
+        >>> print(f"{pole[0].ra.deg:.1f} {pole[0].dec.deg:.1f}")
+        212.4 63.3
+        """
+        from astropy.coordinates import SkyCoord
+
+        from earthspin.errors import SceneError
+
+        data = self._dataset
+        if not name and {"X", "Y", "Z"} <= set(data.data_vars):
+            x, y, z = (data[axis] for axis in "XYZ")
+        elif name in data.data_vars and "component" in data[name].dims:
+            x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
+        else:
+            vectors = [str(n) for n, of in data.data_vars.items() if "component" in of.dims]
+            raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors) or 'none'}")
+        if x.attrs.get("frame") != "GCRS":
+            raise SceneError("to_skycoord", name, "it does not stand along the axes of the GCRS")
+        there = SkyCoord(
+            x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
+        )
+        there.representation_type = "unitspherical"
+        return there
+
     def plot(self) -> Any:
         """Draw the figures that belong to the question.
 
@@ -122,13 +168,10 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     """Vectors as one variable for each component."""
     columns: dict[str, xr.DataArray] = {}
     for name, array in dataset.data_vars.items():
-        along = [dim for dim in array.dims if dim in ("component", "quaternion", "axis")]
-        if not along:
-            columns[str(name)] = array
-            continue
-        (dim,) = along
-        for label in array[dim].values:
-            columns[f"{name}_{label}"] = array.sel({dim: label}, drop=True)
+        along = [str(dim) for dim in array.dims if dim in ("component", "quaternion", "axis")]
+        for labels in product(*(array[dim].values for dim in along)):
+            one = array.sel(dict(zip(along, labels, strict=True)), drop=True)
+            columns["_".join([str(name), *map(str, labels)])] = one
     return xr.Dataset(columns)
 
 
