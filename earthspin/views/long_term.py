@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import EPSILON_0
+from earthspin.errors import UndefinedError
 from earthspin.views.drawing import (
     BLUE,
     CYCLE,
@@ -19,11 +20,10 @@ from earthspin.views.drawing import (
     drawn,
     empty,
     legend_above,
-    note,
     style,
 )  # fmt: skip
 from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.stars import STARS
+from earthspin.views.stars import YEARS, Label, on_the_chart, plot_path, year_words
 from earthspin.views.table import Table, with_error
 
 if TYPE_CHECKING:
@@ -36,11 +36,12 @@ FloatArray = NDArray[np.float64]
 DRAWN = ("budget",)
 #: Rows of the table, about.
 ROWS = 11
+TIME = "time from J2000.0 (1000 years)"
 
 
 def tables(tree: Result) -> list[Table]:
     """Obliquity, eccentricity, climatic precession and period at a dozen epochs."""
-    answer = answer_of(tree)
+    answer = in_order(answer_of(tree))
     shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
     rows = []
     for place in range(shown.epoch.size):
@@ -65,39 +66,46 @@ def tables(tree: Result) -> list[Table]:
 
 @style()
 def drawings(tree: Result) -> list[Drawing]:
-    """What a palaeoclimatologist draws, the pole among the stars, periods, and the errors."""
-    answer = answer_of(tree)
-    first, last = float(answer.epoch[0]) / 1000, float(answer.epoch[-1]) / 1000
-    span = f"{first:g} to {last:g} kyr from J2000.0"
-    found = [
+    """The pole among the stars, what a palaeoclimatologist draws, periods, and the errors."""
+    years = in_order(answer_of(tree)).epoch.values
+    span = f"{years[0] / 1000:g} to {years[-1] / 1000:g} kyr from J2000.0"
+    found = []
+    if path_is_there(years):
+        caption = (
+            "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
+            "the present. It would not close: the ecliptic moves, too. The cross is the pole of "
+            "the ecliptic of J2000.0; stars stand where they stood then."
+        )
+        found.append(drawn("The pole among the stars", caption, plot_pole(tree), square=True))
+    found += [
         drawn(
             "Obliquity, eccentricity and climatic precession",
             f"From {span}. Climatic precession is the eccentricity times the sine of the longitude "
-            "of perihelion from the moving equinox: where it is large, northern summer falls far "
-            "from the Sun now and near it half a cycle later. Bands are 95 % half-widths.",
+            "of the Earth's perihelion from the moving equinox: where it is positive, as today, "
+            "northern summer falls in the half of the orbit that is far from the Sun; where it is "
+            "negative, in the near half. Bands are 95 % half-widths.",
             plot_climate(tree),
         ),
         drawn(
             "Period of precession",
-            "Period of one full turn at the rate of each epoch, by Sun and Moon together and with "
-            "what is published of other effects.",
+            "Time of one full turn at the rate of each epoch: by Sun and Moon together with what "
+            "is published of other effects, and by each alone.",
             plot_periods(tree),
         ),
     ]
-    if np.any(np.abs(answer.epoch) < PATH):
-        caption = (
-            "Path of the celestial pole among the stars, seen from inside, 13,000 years before and "
-            "after the present: it does not close, because the ecliptic moves, too."
-        )
-        found.insert(0, drawn("The pole among the stars", caption, plot_pole(tree), square=True))
     if section(tree, "budget") is not None:
         caption = (
-            "Shares of the 95 % half-width of the longitude of perihelion, by what they come from. "
-            "Past ten thousand years the unknown Earth, its tides and its figure, counts for more "
-            "than any method."
+            "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
+            "largest up to that distance from J2000.0, past or future. Far out the unknown Earth, "
+            "its tides and its figure, counts for more than any method."
         )
         found.append(drawn("How well the perihelion is known", caption, plot_budget(tree)))
     return found
+
+
+def in_order(of: xr.Dataset) -> xr.Dataset:
+    """The same by ascending epoch, each once: `times` may be given in any order."""
+    return of.isel(epoch=np.unique(of.epoch.values, return_index=True)[1])
 
 
 def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -110,50 +118,75 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         For the obliquity alone.
     """
-    of = answer_of(result)
-    kyr = of.epoch / 1000
+    of = in_order(answer_of(result))
     panels = (
         ("obliquity", "obliquity (deg)", BLUE),
-        ("eccentricity", "eccentricity", RED),
-        ("climatic_precession", "climatic precession", GREEN),
+        ("eccentricity", "eccentricity (ratio)", RED),
+        ("climatic_precession", "climatic precession (ratio)", GREEN),
     )
-    rows = [ax] if ax is not None else list(empty(8.0, 5.6).subplots(3, sharex=True))
+    rows = _rows(ax, len(panels), 5.6)
     for row, (name, label, colour) in zip(rows, panels, strict=False):
-        value, error = of[name], of[f"{name}_error"]
-        row.fill_between(kyr, value - error, value + error, color=colour, alpha=0.3, lw=0)
-        row.plot(kyr, value, color=colour, lw=1.0)
+        _with_band(row, of.epoch.values, of[name].values, of[f"{name}_error"].values, colour)
         row.set_ylabel(label)
-    rows[-1].set_xlabel("time from J2000.0 (kyr)")
-    rows[0].set_xlim(float(kyr.min()), float(kyr.max()))
+    rows[-1].set_xlabel(TIME)
     return rows[0]
 
 
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Period of precession by perturber, against time.
+    """Period of precession, of all together and by perturber, one above the other.
 
     Parameters
     ----------
     result : Dataset or DataTree
         Of the question ``long-term``.
     ax : Axes, optional
+        For that of all together alone.
     """
-    of = answer_of(result)
-    ax = axes(ax, 8.0, 3.2)
-    for label, colour in zip(of.perturber.values, CYCLE, strict=False):
-        period = of.precession_period.sel(perturber=label)
-        ax.plot(of.epoch / 1000, period / 1000, color=colour, lw=1.0, label=str(label))
-    ax.set_yscale("log")
-    ax.yaxis.set_major_formatter("{x:g}")
-    ax.yaxis.set_minor_formatter("{x:g}")
-    ax.tick_params(axis="y", which="minor", labelsize=8)
-    ax.set_xlabel("time from J2000.0 (kyr)")
-    ax.set_ylabel("period (kyr)")
-    legend_above(ax)
-    return ax
+    of = in_order(answer_of(result))
+    labels = [str(label) for label in of.perturber.values[::-1]]
+    rows = _rows(ax, len(labels), 1.2 + 1.4 * len(labels))
+    for row, label, colour in zip(rows, labels, CYCLE, strict=False):
+        by = of.sel(perturber=label)
+        error = by.precession_period_error.values / 1000
+        _with_band(row, of.epoch.values, by.precession_period.values / 1000, error, colour)
+        row.set_ylabel(f"{label} (1000 years)")
+    rows[-1].set_xlabel(TIME)
+    return rows[0]
 
 
-#: How far the path of the pole is drawn, yr: half a turn either way.
-PATH = 13_000.0
+def _rows(ax: Axes | None, count: int, height: float) -> list[Axes]:
+    """Axes one above the other with one axis of time, or those that are given."""
+    if ax is not None:
+        return [ax]
+    figure = empty(8.0, height)
+    rows = list(figure.subplots(count, sharex=True))
+    figure.align_ylabels(rows)
+    return rows
+
+
+def _with_band(
+    ax: Axes, years: FloatArray, value: FloatArray, error: FloatArray, colour: str
+) -> None:
+    """A curve over time with its 95 % half-width."""
+    kyr = years / 1000
+    marker = "o" if kyr.size == 1 else None
+    ax.fill_between(kyr, value - error, value + error, color=colour, alpha=0.3, lw=0)
+    ax.plot(kyr, value, color=colour, lw=1.0, marker=marker)
+    if kyr.size > 1:
+        ax.set_xlim(kyr[0], kyr[-1])
+
+
+#: How far the path of the pole is drawn, yr: half a turn either way. Epochs further apart than
+#: `WIDEST` are not joined: a cubic through them would leave the path by more than the line is wide.
+PATH, WIDEST = 13_000.0, 2_500.0
+#: Points that a cubic needs, and distance between two points of the line that is drawn, yr.
+FEWEST, FINE = 4, 50.0
+
+
+def path_is_there(years: FloatArray) -> bool:
+    """Whether ascending epochs lie close enough together near the present to draw the path."""
+    near = years[np.abs(years) <= PATH]
+    return near.size >= FEWEST and bool(np.max(np.diff(near)) <= WIDEST)
 
 
 def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -164,55 +197,43 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; of its span what lies within 13,000 years is drawn.
+        Of the question ``long-term``; of its span what lies within 13,000 years is drawn. Epochs
+        of every thousand years are joined by a cubic.
     ax : Axes, optional
     """
-    of = answer_of(result)
-    of = of.isel(epoch=np.flatnonzero(np.abs(of.epoch.values) <= PATH))
+    from scipy.interpolate import CubicSpline
+
+    of = in_order(answer_of(result))
+    years = of.epoch.values
+    if not path_is_there(years):
+        raise UndefinedError(
+            "no path to draw: give epochs within 13,000 years of J2000.0, at most 2,500 years apart"
+        )
+    near = np.abs(years) <= PATH
+    joined = CubicSpline(years[near], of.pole.values[near])
     obliquity = np.radians(EPSILON_0.value / 3600)
-    ax = axes(ax, 6.4, 6.4)
-    ax.grid(visible=False)
-    x, y = _on_chart(of.pole.values, obliquity)
-    ax.plot(x, y, color=RED, lw=1.4)
-    ax.plot(0, 0, marker="+", color="0.3", ms=9)
-    note(ax, "pole of the ecliptic", (0, 0), (6, 6))
-    for name, ra, dec, magnitude in STARS:
-        a, d = np.radians(ra), np.radians(dec)
-        star = np.array([[np.cos(d) * np.cos(a), np.cos(d) * np.sin(a), np.sin(d)]])
-        sx, sy = (float(one[0]) for one in _on_chart(star, obliquity))
-        ax.plot(sx, sy, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
-        outside = np.hypot(sx, sy) > np.degrees(obliquity)
-        by, side = ((5, 3), "left") if (sx > -1) == outside else ((-5, 3), "right")
-        note(ax, name, (sx, sy), by, ha=side, color=GREY)
-    for place in range(of.epoch.size):
-        year = round(2000 + float(of.epoch[place]))
-        if year % 2000 == 0:
-            ax.plot(x[place], y[place], "o", color=RED, ms=4)
-            away = np.hypot(x[place], y[place])
-            by = -16 * x[place] / away, -11 * y[place] / away
-            label = f"{year}" if year > 0 else f"{1 - year} BC"
-            note(ax, label, (x[place], y[place]), by, ha="center", va="center", color=RED)
-    ax.set_aspect("equal")
-    ax.set_xlim(-34, 34)
-    ax.set_ylim(-34, 34)
-    ax.set_xlabel("distance from the pole of the ecliptic (deg)")
-    ax.set_ylabel("distance (deg)")
-    return ax
+
+    def on(times: FloatArray) -> FloatArray:
+        poles = joined(times)
+        return on_the_chart(poles / np.linalg.norm(poles, axis=1, keepdims=True), obliquity)
+
+    first, last = years[near][[0, -1]]
+    marked = [year for year in YEARS if first <= year - 2000 <= last]
+    at = on(np.array(marked, dtype=float) - 2000).tolist()
+    dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in zip(marked, at, strict=True)]
+    count = int((last - first) / FINE) + 2
+    return plot_path(on(np.linspace(first, last, count)), dates, obliquity, ax)
 
 
-def _on_chart(vectors: FloatArray, obliquity: float) -> tuple[FloatArray, FloatArray]:
-    """Distance from the pole of the ecliptic of J2000.0 along two directions, degrees."""
-    x, y, z = vectors.T
-    c, s = np.cos(obliquity), np.sin(obliquity)
-    y, z = c * y + s * z, c * z - s * y
-    away, longitude = np.degrees(np.arctan2(np.hypot(x, y), z)), np.arctan2(y, x)
-    # the present pole has longitude 90 degrees; longitude grows clockwise, seen from inside
-    turned = longitude - np.pi / 2
-    return away * np.sin(turned), away * np.cos(turned)
+#: Share below which nothing is drawn, as a part of the largest.
+LEAST = 1e-6
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """Error of the longitude of perihelion by cause, against the distance from J2000.0.
+
+    Drawn is the largest up to that distance, past or future: a share that passes through zero is
+    not known better there.
 
     Parameters
     ----------
@@ -222,14 +243,23 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     shares: xr.Dataset = needed(result, "budget")
     ax = axes(ax, 8.0, 3.6)
-    apart = np.abs(shares.epoch.values) / 1000
-    later = apart > 0
-    for cause, colour in zip(shares.cause.values, (*CYCLE, GREY), strict=False):
-        share = shares.longitude_share.sel(cause=cause).values
-        ax.plot(apart[later], share[later], color=colour, lw=1.2, label=str(cause))
+    away = np.abs(shares.epoch.values) / 1000
+    order = np.argsort(away, kind="stable")[np.count_nonzero(away == 0) :]
+    away = away[order]
+    found = {
+        str(cause): np.maximum.accumulate(shares.longitude_share.sel(cause=cause).values[order])
+        for cause in shares.cause.values
+    }
+    together = np.sqrt(sum(share**2 for share in found.values()))
+    ax.plot(away, together, color="black", lw=2.0, label="together")
+    for (cause, share), colour in zip(found.items(), (*CYCLE, GREY), strict=False):
+        ax.plot(away, share, color=colour, lw=1.2, label=cause)
     ax.set_xscale("log")
     ax.set_yscale("log")
-    ax.set_xlabel("distance from J2000.0 (kyr)")
+    if away.size > 1:
+        ax.set_xlim(away[0], away[-1])
+        ax.set_ylim(LEAST * together[-1], 2 * together[-1])
+    ax.set_xlabel("distance from J2000.0 (1000 years)")
     ax.set_ylabel("share of the half-width (deg)")
     legend_above(ax)
     return ax

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
-from earthspin.views.drawing import CYCLE, GREY, RED, Drawing, axes, drawn, note, style
+from earthspin.views.drawing import CYCLE, RED, Drawing, axes, drawn, note, style
 from earthspin.views.reading import (
     Result,
     answer_of,
@@ -19,14 +21,13 @@ from earthspin.views.reading import (
     perturbers_of,
     section,
 )
-from earthspin.views.stars import STARS
+from earthspin.views.stars import YEARS, Label, plot_path, year_words
 from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured, two_digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
-    FloatArray = NDArray[np.float64]
+FloatArray = NDArray[np.float64]
 
 #: Sections that the figures stand on.
 DRAWN = ("convergence", "seasons")
@@ -285,56 +286,16 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     total = answer_of(result).isel(perturber=-1)
     obliquity = float(np.radians(total.obliquity))
-    radius = np.degrees(obliquity)
-    ax = axes(ax, 6.4, 6.4)
-    ax.grid(visible=False)
-    turn = np.linspace(0, 2 * np.pi, 361)
-    ax.plot(radius * np.sin(turn), radius * np.cos(turn), color=RED, lw=1.4)
-    ax.plot(0, 0, marker="+", color="0.3", ms=9)
-    note(ax, "pole of the ecliptic", (0, 0), (6, 6))
-    stars = _draw_stars(ax, obliquity)
-    rate = float(si(total.precession_rate))
-    for year in (*range(-9999, 1, 2000), 1, *range(2000, 14001, 2000)):
-        back = rate * (year - 2000) * JULIAN_YEAR  # the pole's longitude falls: to the left
-        at = radius * np.array([-np.sin(back), np.cos(back)])
-        ax.plot(*at, "o", color=RED, ms=4)
-        label = f"{year}" if year > 0 else f"{1 - year} BC"
-        inward = np.array([np.sin(back), -np.cos(back)])
-        side = 1 if _room(at + inward * LABEL, stars) > _room(at - inward * LABEL, stars) else -1
-        by = side * inward * (12 + 2.2 * len(label), 11)  # points: clear of the dot, however long
-        note(ax, label, (at[0], at[1]), (by[0], by[1]), ha="center", va="center", color=RED)
+    radius, rate = np.degrees(obliquity), float(si(total.precession_rate))
+
+    def pole(years: Sequence[float] | FloatArray) -> FloatArray:
+        back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
+        return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
+
+    years = [year for year in YEARS if abs(year - 2000) <= 12_000]
+    marks = zip(years, pole(years).tolist(), strict=True)
+    dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in marks]
+    turn = float(total.precession_period)
+    ax = plot_path(pole(np.linspace(2000 - turn / 2, 2000 + turn / 2, 361)), dates, obliquity, ax)
     ax.set_title(f"once round in {float(total.precession_period):,.0f} years")
-    ax.set_aspect("equal")
-    ax.set_xlim(-34, 34)
-    ax.set_ylim(-34, 34)
-    ax.set_xlabel("towards longitude 180° (deg)")
-    ax.set_ylabel("towards longitude 90° (deg)")
     return ax
-
-
-def _draw_stars(ax: Axes, obliquity: float) -> FloatArray:
-    """Draw stars, labelled on the side away from the circle; give their places, shape (n, 2)."""
-    places = []
-    for name, ra, dec, magnitude in STARS:
-        x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
-        ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
-        outside = np.hypot(x, y) > np.degrees(obliquity)
-        by, side = ((5, 3), "left") if (x > -1) == outside else ((-5, 3), "right")
-        note(ax, name, (x, y), by, ha=side, color=GREY)
-        places.append((x, y))
-    return np.array(places)
-
-
-def _room(place: FloatArray, stars: FloatArray) -> float:
-    """Distance to the nearest star, degrees of the chart."""
-    return float(np.min(np.linalg.norm(stars - place, axis=1)))
-
-
-def on_the_chart(ra: float, dec: float, obliquity: float) -> tuple[float, float]:
-    """Place of a star on the chart, degrees: distance from the ecliptic pole, longitude."""
-    x = np.cos(dec) * np.cos(ra)
-    y = np.cos(obliquity) * np.cos(dec) * np.sin(ra) + np.sin(obliquity) * np.sin(dec)
-    z = -np.sin(obliquity) * np.cos(dec) * np.sin(ra) + np.cos(obliquity) * np.sin(dec)
-    away, longitude = np.degrees(np.arctan2(np.hypot(x, y), z)), np.arctan2(y, x)
-    # The present pole has longitude 90 degrees. Longitude grows clockwise, seen from inside.
-    return float(away * np.sin(longitude - np.pi / 2)), float(away * np.cos(longitude - np.pi / 2))

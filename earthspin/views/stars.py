@@ -1,13 +1,22 @@
-"""Bright stars near the path of the pole, for drawing.
-
-Right ascension and declination (ICRF, J2000.0, degrees) and visual magnitude, rounded from
-the Hipparcos catalogue (ESA 1997, SP-1200). Proper motion is left out: it moves the nearest of
-them by a few degrees in a whole turn.
-"""
+"""The northern sky about the pole of the ecliptic, and a path of the celestial pole through it."""
 
 from __future__ import annotations
 
-#: Name, right ascension, declination, magnitude.
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.views.drawing import GREY, RED, axes, note
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FloatArray = NDArray[np.float64]
+
+#: Bright stars near the path of the pole: name, right ascension and declination (ICRF, J2000.0,
+#: degrees) and visual magnitude, rounded from the Hipparcos catalogue (ESA 1997, SP-1200). Proper
+#: motion is left out: in half a turn it moves the fastest of them, Vega and Alderamin, by a degree.
 STARS: tuple[tuple[str, float, float, float], ...] = (
     ("Polaris", 37.95, 89.26, 2.0),
     ("Kochab", 222.68, 74.16, 2.1),
@@ -27,3 +36,132 @@ STARS: tuple[tuple[str, float, float, float], ...] = (
     ("Alioth", 193.51, 55.96, 1.8),
     ("Dubhe", 165.93, 61.75, 1.8),
 )
+#: Years at which a path is marked, counted astronomically: 2000 BC is the year -1999.
+YEARS = (*range(-11999, 1, 2000), 1, *range(2000, 14001, 2000))
+#: How far the chart reaches from its middle, degrees.
+REACH = 34.0
+#: Size of the text, in points; width of a letter and height of a line in parts of it.
+TEXT, LETTER, LINE = 8.0, 0.6, 1.15
+#: Distance of a label from its dot, points; what a point of the path under a label counts for.
+GAP, CROSSED = 7.0, 60.0
+#: Where a label may stand about its dot, what is liked best first.
+SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
+
+
+class Label(NamedTuple):
+    """Text that belongs to a point of the chart (degrees), and its colour."""
+
+    text: str
+    at: tuple[float, float]
+    colour: str
+
+
+def year_words(year: int) -> str:
+    """A year counted astronomically, as historians write it."""
+    return str(year) if year > 0 else f"{1 - year} BC"
+
+
+def star_vectors() -> FloatArray:
+    """Directions of the stars, ICRF, shape (n, 3)."""
+    ra, dec = np.radians([star[1:3] for star in STARS]).T
+    return np.stack([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)], axis=-1)
+
+
+def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
+    """Places on the chart, degrees, shape (n, 2): the distance from the ecliptic's pole is true.
+
+    The sky is seen from inside, with the pole of J2000.0 on top.
+
+    Parameters
+    ----------
+    vectors : ndarray, shape (n, 3)
+        Unit vectors, ICRF.
+    obliquity : float
+        rad, of the equator of J2000.0 to the ecliptic of which the pole is the middle.
+    """
+    x, y, z = vectors.T
+    c, s = np.cos(obliquity), np.sin(obliquity)
+    y, z = c * y + s * z, c * z - s * y
+    away, longitude = np.degrees(np.arctan2(np.hypot(x, y), z)), np.arctan2(y, x)
+    # the pole of J2000.0 has longitude 90 degrees; longitude grows clockwise, seen from inside
+    turned = longitude - np.pi / 2
+    return np.stack([away * np.sin(turned), away * np.cos(turned)], axis=-1)
+
+
+def plot_path(
+    path: FloatArray, dates: list[Label], obliquity: float, ax: Axes | None = None
+) -> Axes:
+    """Draw a path of the pole among the stars, with labels that cover neither it nor one another.
+
+    Parameters
+    ----------
+    path : ndarray, shape (n, 2)
+        Places on the chart.
+    dates : list of Label
+        Points of it to be marked.
+    obliquity : float
+        rad, as of `on_the_chart`.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 6.4, 6.4)
+    ax.grid(visible=False)
+    ax.set_aspect("equal")
+    ax.set_xlim(-REACH, REACH)
+    ax.set_ylim(-REACH, REACH)
+    ax.set_xlabel("degrees from the pole of the ecliptic")
+    ax.set_ylabel("degrees")
+    ax.plot(*path.T, color=RED, lw=1.4)
+    ax.plot(0, 0, marker="+", color="0.3", ms=9)
+    stars = on_the_chart(star_vectors(), obliquity)
+    names = [Label("pole of the ecliptic", (0.0, 0.0), "0.3")]
+    for (name, _, _, magnitude), (x, y) in zip(STARS, stars.tolist(), strict=True):
+        ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
+        names.append(Label(name, (x, y), GREY))
+    for _, (x, y), colour in dates:
+        ax.plot(x, y, "o", color=colour, ms=4)
+    _put(ax, [*dates, *names], path)
+    return ax
+
+
+def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
+    """Write labels one after another, each where it covers least of dots, path and text."""
+    window = ax.get_window_extent()
+    points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
+    line = _even(path * points)
+    dots = np.array([label.at for label in labels]) * points
+    boxes = [(*(dot - 2), *(dot + 2)) for dot in dots]
+    for label, dot in zip(labels, dots, strict=True):
+        half = np.array([LETTER * len(label.text), LINE]) * TEXT / 2
+        shifts = [np.array(side) * (half + GAP / np.hypot(*side)) for side in SIDES]
+        covered = [_covered(dot + shift, half, boxes, line) for shift in shifts]
+        shift = shifts[int(np.argmin(covered))]
+        boxes.append((*(dot + shift - half), *(dot + shift + half)))
+        place = float(shift[0]), float(shift[1])
+        note(
+            ax, label.text, label.at, place, ha="center", va="center", color=label.colour,
+            fontsize=TEXT,
+        )  # fmt: skip
+
+
+def _even(path: FloatArray) -> FloatArray:
+    """A path as points two apart, so that its length under a label can be counted."""
+    along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
+    wanted = np.arange(0.0, along[-1], 2.0)
+    return np.stack([np.interp(wanted, along, of) for of in path.T], axis=-1)
+
+
+def _covered(
+    middle: FloatArray,
+    half: FloatArray,
+    boxes: list[tuple[float, float, float, float]],
+    line: FloatArray,
+) -> float:
+    """Area of boxes (points squared) and length of path that a label would cover."""
+    low, high = middle - half, middle + half
+    others = np.array(boxes)
+    wide, tall = (
+        np.minimum(high[k], others[:, k + 2]) - np.maximum(low[k], others[:, k]) for k in (0, 1)
+    )
+    on_line = np.all(np.abs(line - middle) < half + 1, axis=1)
+    area = np.sum(np.where((wide > 0) & (tall > 0), wide * tall, 0.0))
+    return float(area + CROSSED * np.count_nonzero(on_line))

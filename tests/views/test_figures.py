@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.views import precession, torque
-from earthspin.views.stars import STARS
+from earthspin.views.stars import STARS, on_the_chart, star_vectors
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +43,8 @@ def test_the_pole_passes_the_stars_that_it_should(precession_tree: xr.DataTree) 
         back = np.radians(rate * (year - 2000))
         return radius * np.array([-np.sin(back), np.cos(back)])
 
-    stars = {
-        name: np.array(precession.on_the_chart(np.radians(ra), np.radians(dec), obliquity))
-        for name, ra, dec, _ in STARS
-    }
+    places = on_the_chart(star_vectors(), obliquity)
+    stars = {name: place for (name, *_), place in zip(STARS, places, strict=True)}
     assert abs(np.linalg.norm(pole(2000) - stars["Polaris"]) - 0.74) < 0.05
     years = np.arange(-4000, 14001, 10)
 
