@@ -44,6 +44,8 @@ J2_RATE = -3.001e-9 / 1.0826358e-3 / (100 * JULIAN_YEAR)
 
 #: Sine of the obliquity below which there is no equinox.
 UPRIGHT = 1e-9
+#: Step of an angle that is halved where it is followed, rad, and how often at most.
+WIDE, MOST_HALVINGS = np.pi / 4, 30
 
 
 class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", "stop", "step")):
@@ -298,9 +300,8 @@ def read_off(path: Trajectory, setting: Setting, times: FloatArray, fixed: Float
     """
     from earthspin.secular.angles import seasons, unwrapped
 
-    # at the nodes, which are close enough to follow an angle from one to the next
-    nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
-    followed = np.unwrap(_turns(path, setting, nodes, fixed), axis=1)
+    nodes, turns = _followed(path, setting, fixed)
+    followed = np.unwrap(turns, axis=1)
     origin = int(np.searchsorted(nodes, 0.0))
     turn = 2 * np.pi
     followed -= turn * np.floor(followed[:, origin : origin + 1] / turn + [[0.0], [0.5], [0.5]])
@@ -336,6 +337,27 @@ def read_off(path: Trajectory, setting: Setting, times: FloatArray, fixed: Float
     )
 
 
+def _followed(
+    path: Trajectory, setting: Setting, fixed: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Times close enough to follow angles from one to the next, and the angles in any turn.
+
+    The nodes will do for an axis. Where the orbit is all but a circle its perihelion goes half
+    round within a few centuries: steps by more than `WIDE` are halved until there are none.
+    """
+    nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
+    turns = _turns(path, setting, nodes, fixed)
+    for _ in range(MOST_HALVINGS):
+        steps = np.abs(np.remainder(np.diff(turns, axis=1) + np.pi, 2 * np.pi) - np.pi)
+        wide = np.flatnonzero(np.max(steps, axis=0) > WIDE)
+        if not wide.size:
+            break
+        between = (nodes[wide] + nodes[wide + 1]) / 2
+        nodes = np.insert(nodes, wide + 1, between)
+        turns = np.insert(turns, wide + 1, _turns(path, setting, between, fixed), axis=1)
+    return nodes, turns
+
+
 def _turns(path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray) -> FloatArray:
     """Longitude of perihelion, p_A and psi_A in any turn, rad, shape (3, n)."""
     from earthspin.nutation.angles import on_fixed_ecliptic, precession_angles
@@ -357,7 +379,18 @@ def readings(solved: Solved, wanted: FloatArray, body: Body) -> dict[str, Read]:
     _refuse_upright(found[""].values["obliquity"], wanted)
     for name, (path, setting) in solved.others.items():
         found[name] = read_off(path, setting, wanted, fixed)
+        _on_the_same_side(found[name].values, found[""].values)
     return found
+
+
+def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray]) -> None:
+    """Bring a longitude of perihelion into the turn of the answer's.
+
+    Where the orbit is all but a circle, one that is a little other goes round the other side of
+    it: from then on it would be a turn off, in an orbit that is hardly another.
+    """
+    own, true = (of["longitude_of_perihelion"] - of["general_precession"] for of in (moved, mine))
+    moved["longitude_of_perihelion"] += 2 * np.pi * np.rint((true - own) / (2 * np.pi))
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:

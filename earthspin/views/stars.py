@@ -58,7 +58,9 @@ class Label(NamedTuple):
 
 def year_words(year: int) -> str:
     """A year counted astronomically, as historians write it."""
-    return str(year) if year > 0 else f"{1 - year} BC"
+    if year > 0:
+        return f"{year}" if year >= 1000 else f"AD {year}"
+    return f"{1 - year} BC"
 
 
 def star_vectors() -> FloatArray:

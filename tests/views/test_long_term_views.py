@@ -139,4 +139,4 @@ def test_the_budget_never_falls_and_fills_its_axis() -> None:
 
 
 def test_years_are_those_of_historians() -> None:
-    assert [year_words(year) for year in (-1999, 0, 1, 2000)] == ["2000 BC", "1 BC", "1", "2000"]
+    assert [year_words(year) for year in (-1999, 0, 1, 2000)] == ["2000 BC", "1 BC", "AD 1", "2000"]
