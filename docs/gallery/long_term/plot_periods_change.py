@@ -3,8 +3,9 @@ Twenty-six thousand years, more or less
 =======================================
 
 One turn of precession at the rate of each epoch, by Sun and Moon together, and by each alone. The
-rate goes as the cosine of the obliquity, and the Sun's share with the eccentricity, too; slowly, tides
-take the Moon away and slow the spin, and turns grow longer (Quinn, Tremaine & Duncan 1991). The band is the half-width of all that is not known.
+rate goes as the cosine of the obliquity, and the Sun's share with the eccentricity, too; slowly,
+tides take the Moon away and slow the spin, and turns grow longer (Quinn, Tremaine & Duncan 1991).
+The band is the half-width of all that is not known.
 
 *Next:* Mars, whose obliquity swings far more: ``earthspin.long_term(body="mars")``.
 """
