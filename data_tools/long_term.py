@@ -130,9 +130,9 @@ def beside() -> dict[int, tuple[float, float, float, float]]:
     for place, year in enumerate(NEAR):
         ours = of.pole.values[place]
         iau, series = erfa.pmat06(J2000_JD, 365.25 * year)[2], erfa.ltpb(2000.0 + year)[2]
-        found[year] = (
-            _apart(ours, iau), _apart(ours, series), _apart(iau, series), float(of.pole_error[place]),
-        )  # fmt: skip
+        pairs = (ours, iau), (ours, series), (iau, series)
+        to_iau, to_series, between = (_apart(one, other) for one, other in pairs)
+        found[year] = to_iau, to_series, between, float(of.pole_error[place])
     return found
 
 

@@ -45,7 +45,7 @@ sphinx_gallery_conf = {
     "subsection_order": [
         f"gallery/{section}"
         for section in (
-            "bodies", "free_rotors", "top", "torques", "precession", "pole", "wobble", "accuracy",
+            "bodies", "free_rotors", "top", "torques", "precession", "long_term", "pole", "wobble", "accuracy",
             "many",
         )
     ],

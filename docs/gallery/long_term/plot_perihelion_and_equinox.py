@@ -4,9 +4,9 @@ Where the longitude of perihelion is counted from
 
 The orbit from the north, its eccentricity much enlarged. The longitude of perihelion
 :math:`\varpi` runs with the Earth's motion, from the equinox of date to the place where the
-*Earth* is nearest to the Sun (Laskar et al. 2004). Seen from that place, the Sun stands in the
-opposite direction: the Sun's perigee is half a turn away, and with it the sign of
-:math:`e\sin\varpi`, climatic precession, would change (Berger 1978).
+*Earth* is nearest to the Sun, as in (Berger 1978) and (Laskar et al. 2004). Seen from that place,
+the Sun stands in the opposite direction: who counts to the Sun's perigee is half a turn away, and
+has :math:`e\sin\varpi`, climatic precession, with the other sign.
 
 *Next:* eleven thousand years ago, ``sel(epoch=-11000)``: which season was nearest to the Sun?
 """
