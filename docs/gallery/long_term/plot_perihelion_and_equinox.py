@@ -25,7 +25,7 @@ def orbit(longitude):
     return (1 - e**2) / (1 + e * np.cos(longitude - perihelion)) * np.exp(1j * longitude)
 
 
-fig, ax = plt.subplots(figsize=(6.4, 5.8))
+fig, ax = plt.subplots(figsize=(6.4, 5.4))
 for line in (orbit(np.linspace(0, 2 * np.pi, 361)), np.array([0, 1.45])):
     ax.plot(line.real, line.imag, color="0.3", lw=1)
 ax.plot(0, 0, "o", color="C4", ms=12)
@@ -33,7 +33,7 @@ note(ax, "equinox of date", (1.45, 0), (0, 6), ha="right")
 for quarter, season in enumerate(("September", "December", "March", "June")):
     at = orbit(quarter * np.pi / 2)
     ax.plot(at.real, at.imag, "o", color="C0")
-    note(ax, f"Earth in {season}", (at.real, at.imag), (7, -12))
+    note(ax, f"Earth in {season}", (at.real, at.imag), (7, 7 if season == "December" else -12))
 nearest = orbit(perihelion)
 for line in (0.3 * np.exp(1j * np.linspace(0, perihelion)), np.array([nearest, 0, -0.5 * nearest])):
     ax.plot(line.real, line.imag, color=RED)
