@@ -30,6 +30,8 @@ from earthspin.bodies import MARS as MARS
 from earthspin.bodies import MOON as MOON
 from earthspin.bodies import SUN as SUN
 from earthspin.bodies import Body as Body
+from earthspin.sky.orbit_files import read_orbit as read_orbit
+from earthspin.parts.insolation import daily_insolation as daily_insolation
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
@@ -235,6 +237,7 @@ __all__ = [
     "VersionWarning",
     "accuracy",
     "compare_iau",
+    "daily_insolation",
     "excitation",
     "fit_chandler",
     "free_rotor",
@@ -249,6 +252,7 @@ __all__ = [
     "precession",
     "read",
     "read_excitation",
+    "read_orbit",
     "run",
     "run_tree",
     "spheroid_field",

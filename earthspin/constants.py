@@ -53,12 +53,25 @@ SIDEREAL_YEAR = Constant(
     365.256363004 * 86400.0, "s", 0.0, "Simon et al. 1994, A&A 282, 663 (J2000.0)"
 )
 
+# 1296000" over the rate of the mean longitude W1, 1732559343.73604" a century: 27.321662 d
+SIDEREAL_MONTH = Constant(
+    1296000.0 / 1732559343.73604 * 36525.0 * 86400.0,
+    "s",
+    0.0,
+    "Chapront-Touze & Chapront 1983, A&A 124, 50 (ELP 2000), rate of W1, recalled",
+)
+
 TROPICAL_YEAR = Constant(
     365.242190402 * 86400.0, "s", 0.0, "Simon et al. 1994, A&A 282, 663 (J2000.0)"
 )
 
 JUPITER_ORBITAL_PERIOD = Constant(
     4332.59 * 86400.0, "s", None, "Standish & Williams, approximate elements, sidereal"
+)
+
+# --- light ----------------------------------------------------------------------------------
+SOLAR_CONSTANT = Constant(
+    1361.0, "W m-2", 0.0, "IAU 2015 Resolution B3: nominal total solar irradiance at 1 au"
 )
 
 # --- what the IAU adopted, and what others found --------------------------------------------

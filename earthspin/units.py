@@ -39,7 +39,8 @@ _DEGREE, _ARCSEC = math.pi / 180, math.pi / 180 * (1 / 3600)
 #: Every other unit is read by astropy; a test holds these to it, bit for bit.
 COMMON: dict[str, tuple[str, float]] = {
     "s": ("s", 1.0), "min": ("s", 60.0), "h": ("s", 3600.0), "d": ("s", 86400.0),
-    "yr": ("s", 31557600.0), "m": ("m", 1.0), "km": ("m", 1000.0), "kg": ("kg", 1.0),
+    "yr": ("s", 31557600.0), "kyr": ("s", 31557600e3), "Myr": ("s", 31557600e6),
+    "m": ("m", 1.0), "km": ("m", 1000.0), "kg": ("kg", 1.0),
     "kg m2": ("kg m2", 1.0), "N m": ("N m", 1.0), "rad": ("rad", 1.0), "deg": ("rad", _DEGREE),
     "rad/s": ("rad/s", 1.0), "m3/s2": ("m3/s2", 1.0), "1/s": ("1/s", 1.0),
     "arcsec": ("rad", _ARCSEC), "mas": ("rad", _ARCSEC * 0.001),

@@ -35,6 +35,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
         *("parts/sky.py", "questions/wobble.py", "questions/spheroid.py"),
         *("questions/polar_motion.py", "checks/sky.py"),
         "sky/kernel_differences.py",  # what was measured, by the codes of the bodies
+        "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
         "sky/kernel_checks.py",  # where Sun, Moon and planets can be, likewise
     }
     paths = {str(path.relative_to(PACKAGE)): path for path in PACKAGE.rglob("*.py*")}
@@ -81,7 +82,7 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
     assert all(n.startswith(("earthspin/", f"earthspin-{earthspin.__version__}")) for n in names)
     assert "earthspin/py.typed" in names
     scenes = {f"earthspin/shipped/{path.name}" for path in (PACKAGE / "shipped").glob("*.toml")}
-    assert len(scenes) == 15
+    assert len(scenes) == 16
     assert scenes <= set(names)
     program = (
         f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from earthspin.bodies import Body
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError, Where
-from earthspin.units import Plain
-
-if TYPE_CHECKING:
-    from earthspin.sky.orbit_table import OrbitTable
+from earthspin.sky.orbit_table import OrbitTable, shipped
+from earthspin.units import Plain, pack, unpack
 
 #: Word for the table that is shipped with a body.
 OWN = "own"
+
+
+#: Numbers of a table, as a scene holds them.
+_ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
 @dataclass(frozen=True)
@@ -26,28 +28,53 @@ class OrbitChoice:
     words = '"own", the path of a table, or what read_orbit gives'
     hint = "str | PathLike[str] | OrbitTable"
 
-    def read(self, given: object, where: Where) -> Any:
-        """Take the word, a path, or a table."""
-        if hasattr(given, "coefficients") and hasattr(given, "edges"):
+    def read(self, given: object, where: Where) -> str | OrbitTable:
+        """Take the word, a path, a table, or a table as `write` gives it."""
+        if isinstance(given, OrbitTable):
             return given
+        if isinstance(given, Mapping):
+            return _table_of(given, where)
         if not isinstance(given, (str, os.PathLike)) or not os.fspath(given).strip():
             raise where.error(given, f"it is {self.words}")
         return os.fspath(given)
 
-    def write(self, value: Any) -> Plain:
-        """Give the word or the path; a table by the file it came from."""
-        return value if isinstance(value, str) else str(value.path)
+    def write(self, value: str | OrbitTable) -> Plain:
+        """Give the word or the path; of a table every number."""
+        if isinstance(value, str):
+            return value
+        numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
+        return {"name": value.name, "source": value.source} | numbers
+
+
+def _table_of(given: Mapping[str, Any], where: Where) -> OrbitTable:
+    """The table that a scene holds."""
+    wanted = {"name", "source", *_ARRAYS}
+    if set(given) != wanted:
+        raise where.error(sorted(given), f"the table of an orbit holds {', '.join(sorted(wanted))}")
+    edges, coefficients, axes, errors = (unpack(given[name], where) for name in _ARRAYS)
+    windows = len(edges) - 1
+    shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
+    if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
+        raise where.error("a table", "its arrays do not fit together")
+    return OrbitTable(
+        name=str(given["name"]),
+        edges=edges,
+        coefficients=coefficients,
+        axes=axes,
+        source=str(given["source"]),
+        errors=errors,
+    )
 
 
 @part
 def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
     """Orbit of the body over millions of years."""
-    from earthspin.sky.orbit_table import load, shipped
+    from earthspin.sky.orbit_files import read_orbit
 
     if not isinstance(orbit, str):
         return orbit
     if orbit != OWN:
-        return load(Path(orbit))
+        return read_orbit(orbit, body=body.name)
     table = shipped(body.name)
     if table is None:
         raise UndefinedError(

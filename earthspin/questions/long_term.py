@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import MOON, SUN, Body
 from earthspin.choosing.promises import promise, refuse_unkept, report
-from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, SPEED_OF_LIGHT
+from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS, SPEED_OF_LIGHT
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by, with_error, without_error
 from earthspin.engine.neglected import Neglected
@@ -22,6 +22,7 @@ from earthspin.parts.averages import MeanRates, Samples, mean_rates, torque_samp
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_the_iaus_earth
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
+from earthspin.sky.orbit_table import OrbitTable
 from earthspin.units import AngleError, Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
@@ -33,14 +34,9 @@ if TYPE_CHECKING:
     from earthspin.secular.budget import Setting
     from earthspin.secular.strength import Strength
     from earthspin.secular.trajectory import Trajectory
-    from earthspin.sky.orbit_table import OrbitTable
 
 FloatArray = NDArray[np.float64]
 Factor = Annotated[float, Number("", "1.0", low=-10.0, high=10.0)]
-
-#: Relative rate of J2 at J2000.0: -3.001e-9 a century over J2 (Capitaine et al. 2003, sect. 4.1).
-J2_RATE = -3.001e-9 / 1.0826358e-3 / (100 * JULIAN_YEAR)
-
 
 #: Sine of the obliquity below which there is no equinox.
 UPRIGHT = 1e-9
@@ -89,7 +85,7 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     )
     step: YearStep = key("1 kyr", doc="time between two epochs")
     times: YearList | None = key(None, doc="instead of span and step, the very times wanted")
-    orbit: Annotated[Any, OrbitChoice()] = key(
+    orbit: Annotated[str | OrbitTable, OrbitChoice()] = key(
         "own", doc="table of the orbit: the body's own, a file, or what read_orbit gives"
     )
     tides: Factor = key(1.0, doc="factor on the tides that slow Moon and spin; 0 is off")
@@ -99,7 +95,7 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
         None,
         doc="relative rate of J2 at J2000.0, which fades from 2 to 10 kyr on; 0 is off, and if "
-        "it is not given the published one is taken",
+        "it is not given that of the body is taken",
     )
     accuracy: AngleError | None = key(None, doc="largest error of the direction of the pole")
 
@@ -167,7 +163,7 @@ def strength(
     motion = 2 * math.pi / body.number("orbital_period")
     a = (SUN.gm / motion**2) ** (1 / 3)
     with_moon = "moon" in rates
-    moon_motion = 2 * math.pi / (27.321661 * DAY)
+    moon_motion = 2 * math.pi / MOON.number("orbital_period")
     return of.Strength(
         sun=rates["sun"] / cosine,
         moon=(rates["moon"] + more) / cosine if with_moon else 0.0,
@@ -177,9 +173,14 @@ def strength(
         tides=of.Tides.of_the_earth(tides, body.spin_rate, moon_motion)
         if with_moon
         else of.Tides(),
-        j2_rate=(J2_RATE if as_published else 0.0) if j2_rate is None else j2_rate,
+        j2_rate=_relative_j2_rate(body) if j2_rate is None else j2_rate,
         node_rate=2 * math.pi / MOON.cycle if with_moon else math.inf,
     )
+
+
+def _relative_j2_rate(body: Body) -> float:
+    """Rate of J2 over J2, s-1; none where the body has none."""
+    return float(body.j2_rate / body.j2) if body.j2 else 0.0
 
 
 @dataclass(frozen=True)
@@ -471,7 +472,7 @@ def series(
         },
         frame="GCRS",
     )
-    result["obliquity"].attrs["orbit"] = orbit_table.source
+    result["obliquity"].attrs |= {"orbit": orbit_table.source, "orbit_of": orbit_table.name}
     result["pole_error"].attrs |= {
         "method": f"Newton's method in time, {solved.path.windows.order} nodes in each window of "
         f"{np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR:.0f} yr",

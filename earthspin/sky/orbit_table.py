@@ -9,6 +9,7 @@ rates at any time cost a few products.
 from __future__ import annotations
 
 import hashlib
+import os
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import pairwise
@@ -19,7 +20,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
-from earthspin.errors import CoverageError
+from earthspin.errors import CoverageError, OutputError, one_line
 
 FloatArray = NDArray[np.float64]
 
@@ -102,7 +103,8 @@ class OrbitTable:
         self.check_times(times)
         window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(self.edges) - 2)
         middle, half = (self.edges[:-1] + self.edges[1:]) / 2, np.diff(self.edges) / 2
-        basis = legendre.legvander((times - middle[window]) / half[window], TERMS - 1)
+        degree = self.coefficients.shape[-1] - 1
+        basis = legendre.legvander((times - middle[window]) / half[window], degree)
         n1, n2, e1, e2 = np.einsum("kwm,wm->kw", self.coefficients[:, window], basis)
         r1, r2 = np.einsum("kwm,wm->kw", self._rates[:, window], basis[:, :-1])
         n3 = np.sqrt(1 - n1 * n1 - n2 * n2)
@@ -113,6 +115,30 @@ class OrbitTable:
         )
         normal, eccentricity, turning = (self.axes.T @ np.stack(part) for part in parts)
         return normal, eccentricity, turning
+
+    def to_file(self, path: str | os.PathLike[str]) -> None:
+        """Write the table to a file, which `earthspin.read_orbit` reads.
+
+        Coefficients are kept as whole numbers of 1e-9 (0.2 mas), so that a table that was read
+        from such a file is written to the same numbers.
+
+        Parameters
+        ----------
+        path : str or Path
+            It ends in ``.npz``.
+
+        Raises
+        ------
+        OutputError
+            If it does not, or cannot be written.
+        """
+        file = Path(path)
+        if file.suffix != ".npz":
+            raise OutputError(file, "the table of an orbit ends in .npz", "name it so")
+        try:
+            write(file, self)
+        except OSError as error:
+            raise OutputError(file, f"it cannot be written: {one_line(error)}") from None
 
 
 def _words(time: float) -> str:

@@ -1,0 +1,184 @@
+"""Daily insolation from an answer of `long_term`, labelled."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from earthspin.bodies import BODIES, SUN
+from earthspin.constants import AU, DAY, SOLAR_CONSTANT
+from earthspin.engine.labels import si
+from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.secular.insolation import Season, daily, over_days, true_longitude
+from earthspin.units import quantity
+
+FloatArray = NDArray[np.float64]
+
+_NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
+_TURN = 2 * np.pi
+_CALL = "daily_insolation"
+
+
+def daily_insolation(
+    result: xr.Dataset,
+    latitude: Any,
+    solar_longitude: Any,
+    true_longitude: bool = True,
+    *,
+    days: Any = None,
+    solar_constant: Any = None,
+) -> xr.DataArray:
+    """Sunlight at the top of the atmosphere, averaged over a day (Berger 1978).
+
+    Longitudes are those of the Sun as seen from the body, along the orbit from the moving equinox:
+    0 is the March equinox, 90 degrees the June solstice. (The `longitude_of_perihelion` of an
+    answer is that of the body, 180 degrees from where the Sun then stands.)
+
+    Parameters
+    ----------
+    result : Dataset
+        An answer of `long_term`.
+    latitude : str, Quantity, DataArray or list of them
+        Like ``"65 deg"``; plain numbers are radians.
+    solar_longitude : str, Quantity, DataArray or list of them
+        Like ``"90 deg"``.
+    true_longitude : bool
+        Whether longitudes are true ones. Mean ones grow evenly with time from the March equinox
+        on, so that 90 degrees lie a quarter of a year after it.
+    days : str, Quantity or float, optional
+        Length of a window of time, like ``"30 d"``, about the instant of that longitude, over which
+        to average; without it, one day with the Sun at that longitude.
+    solar_constant : str, Quantity or float, optional
+        W/m2 at the mean distance of the body; if not given, 1361 W/m2 at an astronomical unit (IAU
+        2015 Resolution B3). Many published tables stand on 1365 or more.
+
+    Returns
+    -------
+    DataArray
+        W/m2 over `epoch`, and over `latitude` and `solar_longitude` where several are given, with
+        the 95 % half-width as the coordinate `daily_insolation_error`: from those of obliquity,
+        eccentricity and perihelion, taken as independent.
+
+    Raises
+    ------
+    SceneError, UnitsError, UndefinedError
+        In one line: another sort of result, a latitude beyond a pole, a body without a solar
+        constant.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> past = earthspin.long_term("-20 kyr", "0 kyr", "10 kyr")
+    >>> june = earthspin.daily_insolation(past, "65 deg", "90 deg", solar_constant="1365 W/m2")
+    >>> print(june.round(1).values)
+    [476.4 527.3 479.3]
+    """
+    missing = [name for name in _NEEDED if name not in getattr(result, "data_vars", ())]
+    if missing:
+        raise SceneError(
+            "result", type(result).__name__, "give an answer of long_term", source=_CALL
+        )
+    body = str(result["obliquity"].attrs.get("orbit_of", ""))
+    phi = _angle(latitude, "latitude", np.pi / 2)
+    sun = _angle(solar_longitude, "solar_longitude", _TURN)
+    of = partial(
+        _insolation, latitude=phi, longitude=sun, true=true_longitude, share=_share(days, body)
+    )
+    middle = [si(result[name]) for name in _NEEDED]
+    value = of(*middle)
+    squares = xr.zeros_like(value)
+    for place, name in enumerate(_NEEDED):
+        half = si(result[f"{name}_error"])
+        ends = []
+        for sign in (-1, 1):
+            moved = list(middle)
+            moved[place] = moved[place] + sign * half
+            ends.append(of(*moved))
+        squares = squares + ((ends[1] - ends[0]) / 2) ** 2
+    constant = _constant(solar_constant, body)
+    error: xr.DataArray = constant * squares**0.5
+    error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
+    found = (constant * value).rename("daily_insolation")
+    kind = "true" if true_longitude else "mean"
+    found.attrs = {
+        "units": "W m-2",
+        "long_name": "sunlight at the top of the atmosphere, mean over a day",
+        "solar_constant": constant,
+        "comment": f"{kind} longitude of the Sun from the moving equinox",
+        "references": "Berger 1978, J. Atmos. Sci. 35, 2362",
+    }
+    return found.assign_coords(daily_insolation_error=error)
+
+
+def _insolation(
+    obliquity: xr.DataArray,
+    eccentricity: xr.DataArray,
+    perihelion: xr.DataArray,
+    *,
+    latitude: xr.DataArray,
+    longitude: xr.DataArray,
+    true: bool,
+    share: float | None,
+) -> xr.DataArray:
+    """As a share of the solar constant; plain arithmetic on labelled arrays."""
+    arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
+    eps, e, w, phi, sun = (one.values for one in arrays)
+    season = Season(eps, e, w)
+    sun = sun if true else true_longitude(season, sun)
+    found = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
+    return arrays[0].copy(data=found)
+
+
+def _angle(given: Any, name: str, most: float) -> xr.DataArray:
+    """An angle, rad, labelled in degrees along a dimension of its name if there are several."""
+    where = Where(name, _CALL)
+    value = quantity(given, "rad", where, "65 deg")
+    if np.max(np.abs(np.asarray(value))) > most * (1 + 1e-12):
+        raise where.error(
+            given, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
+        )
+    if isinstance(value, xr.DataArray):
+        return value
+    if np.ndim(value) > 1:
+        raise where.error(given, "give one, or one list")
+    dims = (name,) if np.ndim(value) else ()
+    label = (dims, np.degrees(value), {"units": "degree"})
+    return xr.DataArray(value, dims=dims, coords={name: label})
+
+
+def _share(days: Any, body: str) -> float | None:
+    """A window of days as a share of the year."""
+    if days is None:
+        return None
+    where = Where("days", _CALL)
+    length, year = quantity(days, "d", where, "30 d"), _year(body)
+    if np.ndim(length) or not 0 < length * DAY <= year:
+        raise where.error(days, "give one length of time, at most a year")
+    return float(length * DAY / year)
+
+
+def _year(body: str) -> float:
+    """Sidereal year of a body, s."""
+    year = BODIES[body].orbital_period if body in BODIES else None
+    if year is None:
+        raise UndefinedError(
+            f"{_CALL}: the year of {body or 'this body'} is not known; give solar_constant, and no "
+            "days"
+        )
+    return year
+
+
+def _constant(given: Any, body: str) -> float:
+    """Solar constant at the mean distance, W/m2."""
+    if given is None:
+        distance = (SUN.gm * (_year(body) / _TURN) ** 2) ** (1 / 3)
+        return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)
+    where = Where("solar_constant", _CALL)
+    value = quantity(given, "W/m2", where, "1361 W/m2")
+    if np.ndim(value) or not value > 0:
+        raise where.error(given, "give one number above zero")
+    return float(value)

@@ -1,0 +1,483 @@
+"""Orbits over millions of years from files and frames, as their makers publish them.
+
+Two layouts are common, by names of columns or, where a file has none, by how many there are:
+
+- elements, as HNBody writes them and snvec reads them: t (d), a, e, inc, then the longitude of
+  perihelion (varpi, lph) or its argument (omega, arp), and the longitude of the node (Omega, lan);
+- as La2010 (Laskar et al. 2011, A&A 532, A89): t (kyr), a, l, k, h, q, p, where
+  k + i h = e exp(i varpi) and q + i p = sin(inc/2) exp(i Omega).
+
+Neither says in which axes it stands, and most who misread such a file take the wrong ones. That of
+the Earth is therefore held to the ecliptic at J2000.0.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
+from earthspin.errors import SeriesError, Where, nearest, no_plain_file
+from earthspin.sky.columns import is_number, lines_of, numbers
+from earthspin.sky.equator import direction
+from earthspin.sky.orbit_table import OrbitTable, fitted, load
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+FloatArray = NDArray[np.float64]
+
+#: Units of time, s, and of angles, rad.
+TIMES = {"d": DAY, "yr": JULIAN_YEAR, "kyr": 1000 * JULIAN_YEAR}
+ANGLES = {"deg": math.pi / 180, "rad": 1.0}
+#: Names of columns, by what they are called here.
+NAMES: dict[str, tuple[str, ...]] = {
+    "t": ("t", "time"),
+    "e": ("e", "ee", "ecc", "eccentricity"),
+    "inc": ("inc", "i", "incl", "inclination"),
+    "varpi": ("varpi", "lph", "pomega", "longitude_of_perihelion"),
+    "argument": ("omega", "arp", "argp", "argument", "argument_of_perihelion"),
+    "node": ("Omega", "lan", "node", "longitude_of_node"),
+    "k": ("k",), "h": ("h",), "q": ("q",), "p": ("p",),
+}  # fmt: skip
+LA2010 = ("t", "k", "h", "q", "p")
+#: Columns of files without names, by how many there are.
+NAMELESS: dict[int, tuple[str, ...]] = {
+    6: ("t", "a", "e", "inc", "varpi", "Omega"),
+    7: ("t", "a", "l", "k", "h", "q", "p"),
+    8: ("t", "a", "e", "inc", "lph", "lan", "arp", "mna"),
+}
+#: Fewest rows that can be joined, and how far apart they may be, s.
+FEWEST, CLOSEST, FARTHEST = 16, JULIAN_YEAR, 5000 * JULIAN_YEAR
+#: A step longer than so many usual ones is a gap.
+GAP = 1.5
+#: How far normal or eccentricity vector may move from one row to the next.
+LARGEST_MOVE = 0.1
+#: How far the Earth's orbit may lean on the ecliptic at J2000.0, rad: short periods reach 3 arcsec,
+#: and the axes that are taken for one another differ by a degree and more.
+NEAR_ECLIPTIC = 60 * ARCSEC
+#: Obliquity of the ecliptic that defines ECLIPJ2000 (SPICE, after IAU 1976), rad.
+OBLIQUITY = 84381.448 * ARCSEC
+#: Pole of the Sun, ICRF, deg (IAU_SUN of SPICE; Archinal et al. 2018, CMDA 130, 22).
+SUN_POLE = (286.13, 63.87)
+#: Node and inclination of the Sun's equator on ECLIPJ2000 of snvec 3.7.5 and of the files of Zeebe
+#: & Lourens 2019, deg: 0.1 degrees from those of SPICE.
+SUN_EQUATOR = (75.5940, 7.155)
+#: Word for what a frame of pandas is called in messages.
+_FRAME = "DataFrame"
+
+Table = Mapping[str, FloatArray]
+
+
+def _ecliptic() -> FloatArray:
+    c, s = math.cos(OBLIQUITY), math.sin(OBLIQUITY)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
+
+def _solar(pole: FloatArray) -> FloatArray:
+    """Equator of the Sun: the first axis where it rises through the ecliptic."""
+    node = np.cross(_ecliptic()[2], pole)
+    node /= np.linalg.norm(node)
+    return np.stack([node, np.cross(pole, node), pole])
+
+
+def axes_of(frame: str) -> FloatArray:
+    """Axes of a frame in the GCRS, as rows.
+
+    Parameters
+    ----------
+    frame : str
+        One of `FRAMES`.
+    """
+    if frame == "HCI":
+        return _solar(direction(*np.radians(SUN_POLE)))
+    if frame == "HCI-snvec":
+        node, tilt = np.radians(SUN_EQUATOR)
+        pole = [math.sin(tilt) * math.sin(node), -math.sin(tilt) * math.cos(node), math.cos(tilt)]
+        return _solar(np.array(pole) @ _ecliptic())
+    return _ecliptic() if frame == "ECLIPJ2000" else np.eye(3)
+
+
+FRAMES = ("ECLIPJ2000", "HCI", "HCI-snvec", "ICRF")
+
+
+def read_orbit(
+    path: str | os.PathLike[str] | pd.DataFrame,
+    *,
+    body: str = "earth",
+    frame: Literal["ECLIPJ2000", "HCI", "HCI-snvec", "ICRF"] | ArrayLike = "ECLIPJ2000",
+    time: Literal["d", "yr", "kyr"] | None = None,
+    angles: Literal["deg", "rad"] | None = None,
+) -> OrbitTable:
+    """Read an orbit over millions of years for `long_term`.
+
+    Parameters
+    ----------
+    path : str, Path or DataFrame
+        A file that `OrbitTable.to_file` wrote (``.npz``), a file of text, or a frame of pandas:
+        elements (t, a, e, inc, varpi or omega, Omega; also under the names lph, arp, lan) or as
+        La2010 has it (t, a, l, k, h, q, p). Files of text without names are told by how many
+        columns there are. Times count from J2000.0 TDB, negative in the past, in either order.
+    body : str
+        Whose orbit it is.
+    frame : str or array_like, shape (3, 3)
+        Its axes: ``"ECLIPJ2000"`` and ``"HCI"`` as in SPICE, ``"HCI-snvec"`` for the Sun's equator
+        as in snvec and the files of Zeebe & Lourens (2019), ``"ICRF"``, or the axes in the GCRS as
+        rows.
+    time : str, optional
+        Unit of the times: days for elements and thousands of years for La2010, if not given.
+    angles : str, optional
+        Unit of inclination, perihelion and node; told from their size if not given.
+
+    Returns
+    -------
+    OrbitTable
+        Whatever changes over less than some thousand years is smoothed where rows are dense.
+
+    Raises
+    ------
+    SeriesError
+        In one line: gaps, rows out of order or twice, wrong units or axes, an eccentricity of 1 or
+        more, missing numbers, too few rows, an unknown layout.
+
+    Examples
+    --------
+    >>> import earthspin, numpy as np, pandas as pd
+    >>> t = np.arange(-100.0, 1.0)
+    >>> rows = pd.DataFrame({"t": t, "k": 0.01 * np.cos(t / 15), "h": 0.01 * np.sin(t / 15)})
+    >>> orbit = earthspin.read_orbit(rows.assign(q=0.0, p=0.0))
+    >>> past = earthspin.long_term("-20 kyr", "0 kyr", "5 kyr", orbit=orbit)
+    >>> print(past.eccentricity.round(6).values)
+    [0.01 0.01 0.01 0.01 0.01]
+    """
+    where = Where("read_orbit")
+    axes = _axes(frame, where)
+    for word, allowed, name in ((time, TIMES, "time"), (angles, ANGLES, "angles")):
+        if word is not None and word not in allowed:
+            raise where.at(name).error(word, nearest(word, allowed))
+    if hasattr(path, "columns"):
+        given = _Rows.of_frame(path)
+    elif not isinstance(path, (str, os.PathLike)) or not os.fspath(path).strip():
+        raise where.at("path").error(path, "give the path of a file, or a DataFrame")
+    elif Path(path).suffix == ".npz":
+        return _load(Path(path))
+    else:
+        given = _Rows.of_text(Path(path))
+    return _table(given, body, axes, frame, time, angles)
+
+
+def _axes(frame: object, where: Where) -> FloatArray:
+    if isinstance(frame, str):
+        if frame not in FRAMES:
+            raise where.at("frame").error(frame, nearest(frame, FRAMES))
+        return axes_of(frame)
+    axes = np.asarray(frame, dtype=float)
+    if axes.shape != (3, 3) or not np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-9):
+        raise where.at("frame").error(frame, "give three unit vectors at right angles, as rows")
+    return axes
+
+
+def _load(file: Path) -> OrbitTable:
+    if problem := no_plain_file(file):
+        raise SeriesError(file, problem)
+    try:
+        return load(file)
+    except OSError as error:
+        raise SeriesError(file, f"it cannot be read: {error.strerror or error}") from None
+    except (ValueError, KeyError, zipfile.BadZipFile, EOFError):
+        raise SeriesError(file, "it is no table that to_file wrote", "write it again") from None
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Columns as they were read, in the order of time.
+
+    Attributes
+    ----------
+    source : object
+        File, or the word for a frame.
+    columns : Table
+        By the names used here.
+    lines : list of int or None
+        Line of each row in the file.
+    """
+
+    source: object
+    columns: Table
+    lines: NDArray[np.int64] | None = None
+
+    @classmethod
+    def of_frame(cls, frame: pd.DataFrame) -> _Rows:
+        """From a frame of pandas."""
+        chosen = _chosen([str(name) for name in frame.columns], _FRAME)
+        columns = {}
+        for name, place in chosen.items():
+            try:
+                columns[name] = np.asarray(frame.iloc[:, place], dtype=float)
+            except (TypeError, ValueError):
+                raise SeriesError(
+                    _FRAME, f"column '{frame.columns[place]}' holds more than numbers"
+                ) from None
+        return cls(_FRAME, columns)
+
+    @classmethod
+    def of_text(cls, file: Path) -> _Rows:
+        """From a file of text: numbers between spaces or commas, names in the last line above."""
+        names: list[str] = []
+        rows: list[list[float]] = []
+        lines: list[int] = []
+        for number, line in enumerate(lines_of(file), start=1):
+            words = re.split(r"[\s,;]+", line.strip(" \t,;"))
+            # Fortran writes 1.5D-03
+            plain = [re.sub(r"(?<=\d)[dD](?=[-+]?\d)", "e", word) for word in words]
+            if not is_number(plain[0]):
+                if not rows and words != [""]:
+                    names = [word for word in words if word.strip("#%!")]
+                continue
+            if rows and len(plain) != len(rows[0]):
+                raise SeriesError(
+                    file, f"{len(plain)} columns after {len(rows[0])}", "is it cut off?", number
+                )
+            rows.append(numbers(file, number, plain))
+            lines.append(number)
+        if not rows:
+            raise SeriesError(file, "it holds no rows of numbers")
+        values = np.array(rows)
+        names = [re.sub(r"^[#%!]+|[(\[].*$", "", name) for name in names]
+        if len(names) != values.shape[1] or not any(n in NAMES["t"] for n in names):
+            names = list(NAMELESS.get(values.shape[1], ()))
+        if not names:
+            raise SeriesError(
+                file,
+                f"{values.shape[1]} columns without names are no known layout",
+                "name them in the first line, or give t, a, e, inc, varpi, Omega or t, a, l, k, "
+                "h, q, p",
+            )
+        chosen = _chosen(names, file)
+        return cls(file, {n: values[:, at] for n, at in chosen.items()}, np.array(lines))
+
+    def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
+        """Make the error that names file and line."""
+        if row is None:
+            return SeriesError(self.source, problem, remedy)
+        if self.lines is None:
+            return SeriesError(self.source, f"row {row}: {problem}", remedy)
+        return SeriesError(self.source, problem, remedy, int(self.lines[row]))
+
+    def in_order(self) -> _Rows:
+        """The same with time ascending; rows out of order, doubled, or missing are refused."""
+        for name, column in self.columns.items():
+            if not np.isfinite(column).all():
+                row = int(np.argmin(np.isfinite(column)))
+                raise self.error(f"{name} is not a number", "fill it, or leave out rows", row)
+        t = self.columns["t"]
+        if t.size < FEWEST:
+            raise self.error(f"{t.size} rows are too few", f"give {FEWEST} or more")
+        steps = np.diff(t) * (1 if t[-1] > t[0] else -1)
+        if np.any(steps == 0):
+            row = int(np.argmax(steps == 0)) + 1
+            raise self.error(f"time {t[row]:g} stands twice", "keep one of the rows", row)
+        if np.any(steps < 0):
+            row = int(np.argmax(steps < 0)) + 1
+            raise self.error(
+                f"time {t[row]:g} comes after {t[row - 1]:g}", "sort the rows by time", row
+            )
+        usual = float(np.median(steps))
+        if np.any(steps > GAP * usual):
+            row = int(np.argmax(steps > GAP * usual)) + 1
+            raise self.error(
+                f"a gap between times {t[row - 1]:g} and {t[row]:g}; rows are {usual:g} apart",
+                "fill it, or give a part without gaps",
+                row,
+            )
+        if t[0] < t[-1]:
+            return self
+        lines = None if self.lines is None else self.lines[::-1]
+        return replace(self, columns={n: c[::-1] for n, c in self.columns.items()}, lines=lines)
+
+
+def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
+    """Places of the columns that are needed, by the names used here."""
+    found = {}
+    for name, words in NAMES.items():
+        exact = [at for at, given in enumerate(names) if given in words]
+        loose = [at for at, given in enumerate(names) if given.lower() in words]
+        if exact or loose:
+            found[name] = (exact or loose)[0]
+    if found.get("node") == found.get("argument") and "node" in found:
+        del found["argument"]
+    if set(LA2010) <= set(found):
+        return {name: found[name] for name in LA2010}
+    perihelion = next((name for name in ("varpi", "argument") if name in found), "varpi")
+    wanted = ("t", "e", "inc", perihelion, "node")
+    missing = [NAMES[name][0] for name in wanted if name not in found]
+    if missing:
+        raise SeriesError(
+            source,
+            f"no column {' and none '.join(missing)} among {', '.join(names[:12])}",
+            "give t, e, inc, varpi, Omega, or t, k, h, q, p",
+        )
+    return {name: found[name] for name in wanted}
+
+
+def _table(
+    given: _Rows,
+    body: str,
+    axes: FloatArray,
+    frame: object,
+    time: str | None,
+    angles: str | None,
+) -> OrbitTable:
+    rows = given.in_order()
+    of_la2010 = "k" in rows.columns
+    times = _seconds(rows, time or ("kyr" if of_la2010 else "d"))
+    n, e = (_from_sines if of_la2010 else _from_elements)(rows, angles)
+    _check_moves(rows, n, e)
+    now = np.array([np.interp(0.0, times, component) for component in n.T])
+    if body == "earth":
+        _check_ecliptic(rows, now, axes, frame)
+    n, e = n @ axes, e @ axes
+    third = np.mean(n, axis=0)
+    third /= np.linalg.norm(third)
+    if np.min(n @ third) < 0.5:
+        raise rows.error("the orbit tips over by more than 60 degrees", "give a shorter part")
+    first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
+    first /= np.linalg.norm(first)
+    own = np.stack([first, np.cross(third, first), third])
+    name = rows.source if rows.source == _FRAME else Path(str(rows.source)).name
+    return fitted(body, times, n, e, own, f"{name}, {'given axes' if frame is axes else frame}")
+
+
+def _seconds(rows: _Rows, unit: str) -> FloatArray:
+    times = rows.columns["t"] * TIMES[unit]
+    step = float(np.median(np.diff(times)))
+    if not CLOSEST <= step <= FARTHEST:
+        raise rows.error(
+            f"with times in {unit} rows are {step / JULIAN_YEAR:.3g} yr apart, where 1 to 5000 yr "
+            "can be used",
+            f"is it another unit? time = {' or '.join(repr(u) for u in TIMES if u != unit)}",
+        )
+    if not times[0] <= 0 <= times[-1]:
+        raise rows.error(
+            f"it covers {times[0] / TIMES['kyr']:g} to {times[-1] / TIMES['kyr']:g} kyr",
+            "J2000.0, from which the axis starts, must be among the times",
+        )
+    return np.asarray(times)
+
+
+def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
+    """Normal and eccentricity vector, shape (n, 3), from k, h, q, p."""
+    k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
+    half = q * q + p * p  # squared sine of half the inclination
+    if np.any(half >= 1):
+        raise rows.error(
+            "sin(inc/2) is 1 or more", "are q and p angles?", int(np.argmax(half >= 1))
+        )
+    _check_eccentricity(rows, np.hypot(k, h))
+    c = 2 * np.sqrt(1 - half)
+    normal = np.stack([c * p, -c * q, 1 - 2 * half], axis=1)
+    # axes in the plane of the orbit from which longitudes count
+    f = np.stack([1 - 2 * p * p, 2 * p * q, -c * p], axis=1)
+    g = np.stack([2 * p * q, 1 - 2 * q * q, c * q], axis=1)
+    return normal, k[:, np.newaxis] * f + h[:, np.newaxis] * g
+
+
+def _from_elements(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
+    """Normal and eccentricity vector, shape (n, 3), from elements."""
+    e = rows.columns["e"]
+    _check_eccentricity(rows, e)
+    unit = ANGLES[angles or _unit_of(rows)]
+    _check_unit(rows, angles)
+    tilt, node = rows.columns["inc"] * unit, rows.columns["node"] * unit
+    if np.any((tilt < 0) | (tilt > math.pi)):
+        row = int(np.argmax((tilt < 0) | (tilt > math.pi)))
+        raise rows.error("an inclination lies between 0 and 180 degrees", "", row)
+    if "argument" in rows.columns:
+        argument = rows.columns["argument"] * unit
+    else:
+        argument = rows.columns["varpi"] * unit - node
+    ci, si, cn, sn = np.cos(tilt), np.sin(tilt), np.cos(node), np.sin(node)
+    cw, sw = np.cos(argument), np.sin(argument)
+    normal = np.stack([si * sn, -si * cn, ci], axis=1)
+    to = np.stack([cn * cw - sn * sw * ci, sn * cw + cn * sw * ci, sw * si], axis=1)
+    return normal, e[:, np.newaxis] * to
+
+
+def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
+    wrong = ~((e >= 0) & (e < 1))
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise rows.error(f"an eccentricity of {e[row]:g}", "it lies between 0 and 1", row)
+
+
+def _turning(rows: _Rows) -> list[FloatArray]:
+    """Columns that go round."""
+    return [of for name, of in rows.columns.items() if name in ("varpi", "argument", "node")]
+
+
+def _unit_of(rows: _Rows) -> str:
+    """Unit of the angles by their size."""
+    largest = max(float(np.max(np.abs(of))) for of in _turning(rows))
+    if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
+        return "deg"
+    if largest <= 2 * math.pi * (1 + 1e-6):
+        return "rad"
+    raise rows.error(
+        f"angles reach {largest:g}: degrees or radians that go on past a turn?",
+        "say which: angles = 'deg' or 'rad'",
+    )
+
+
+def _check_unit(rows: _Rows, angles: str | None) -> None:
+    """Refuse a unit that what was read does not allow."""
+    largest = max(float(np.max(np.abs(of))) for of in _turning(rows))
+    jump = max(float(np.max(np.abs(np.diff(of)))) for of in _turning(rows))
+    steep = float(np.max(rows.columns["inc"]))
+    if angles == "rad" and (steep > math.pi or 180 < jump <= 360.001):
+        raise rows.error(
+            f"angles reach {max(largest, steep):g}: these are degrees, not radians",
+            "give angles = 'deg'",
+        )
+    if angles == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
+        raise rows.error(
+            f"angles go round at {largest:.4g}: these are radians, not degrees",
+            "give angles = 'rad'",
+        )
+
+
+def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:
+    for words, of in (("the orbit's plane", normal), ("its perihelion", eccentricity)):
+        moved = np.linalg.norm(np.diff(of, axis=0), axis=1)
+        if moved.max() > LARGEST_MOVE:
+            raise rows.error(
+                f"{words} jumps by {moved.max():.2g} from one row to the next",
+                "are time or angles in other units? angles = 'deg' or 'rad'",
+                int(np.argmax(moved)) + 1,
+            )
+
+
+def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
+    """At J2000.0 the Earth goes round in the ecliptic; if not, say in which axes it would."""
+
+    def lean(of: FloatArray) -> float:
+        n = normal @ of
+        return math.acos(min(float(n @ _ecliptic()[2] / np.linalg.norm(n)), 1.0))
+
+    if lean(axes) <= NEAR_ECLIPTIC:
+        return
+    fits = [word for word in FRAMES if lean(axes_of(word)) <= NEAR_ECLIPTIC]
+    told = frame if isinstance(frame, str) else "the axes given"
+    raise rows.error(
+        f"in {told} the Earth's orbit leans {math.degrees(lean(axes)):.2g} deg on the ecliptic at "
+        "J2000.0",
+        f"it fits frame = '{fits[0]}'" if fits else "other axes or angles? or another body: body =",
+    )
