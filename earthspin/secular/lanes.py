@@ -75,6 +75,11 @@ def solve_many(
     return found
 
 
+def _mean(values: FloatArray) -> float:
+    """Mean of all members; of equal ones the very value, however many there are."""
+    return float(values[0] + np.mean(values - values[0]))
+
+
 def _padded(strength: Strength, width: int, members: int) -> Strength:
     """The same with every array as long as there are lanes."""
 
@@ -104,8 +109,8 @@ class _Lanes:
         # what the Moon lags behind is the same for all: an arcsecond, times the share of the Moon
         self.mean = replace(
             strength,
-            sun=np.mean(strength.sun),
-            moon=np.mean(strength.moon),
+            sun=_mean(strength.sun),
+            moon=_mean(strength.moon),
             tides=Tides(),
             ellipticity=1.0,
             j2_rate=0.0,
@@ -115,7 +120,7 @@ class _Lanes:
         now = np.zeros(1)
         on = pull(strength, orbit.at(now), now)
         turning = -on.constant * (on.axis[:, 0] @ starts)
-        self.turn = float(np.mean(turning))
+        self.turn = _mean(turning)
         if np.max(np.abs(turning - self.turn)) > SPREAD * np.max(np.abs(turning)):
             raise UndefinedError(
                 "members precess at rates too far apart to be followed side by side; put those of "

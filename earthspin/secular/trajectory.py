@@ -171,7 +171,7 @@ class _Way:
         for _ in range(MOST_STEPS):
             self.steps += 1
             values, change = _newton(windows, on, values, state)
-            if not change < DIVERGES:
+            if not (change < DIVERGES and np.max(np.abs(values[1])) < 1):
                 return None
             if change < SETTLED:
                 self.height = float(np.mean(values[1]))

@@ -234,7 +234,7 @@ def write(path: Path, table: OrbitTable) -> None:
 
 def load(path: Path) -> OrbitTable:
     """Read a table that `write` wrote."""
-    with np.load(path, allow_pickle=False) as file:
+    with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
         return OrbitTable(
             name=str(file["name"]),
             edges=file["edges"] * JULIAN_YEAR,

@@ -1,0 +1,58 @@
+"""Obliquity, climatic precession and the equinox from vectors; angles without jumps."""
+
+import erfa
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.secular.angles import equator_and_equinox, seasons, unwrapped
+
+NORTH = np.array([[0.0], [0.0], [1.0]])
+
+
+@given(st.floats(0.01, 3.13), st.floats(0, 0.9), st.floats(-3.1, 3.1))
+def test_perihelion_counts_from_the_equinox(obliquity: float, e: float, longitude: float) -> None:
+    """The celestial pole stands at ecliptic longitude 90 degrees, the equinox at 0."""
+    axis = np.array([[0.0], [np.sin(obliquity)], [np.cos(obliquity)]])
+    perihelion = np.array([[np.cos(longitude)], [np.sin(longitude)], [0.0]])
+    found = seasons(axis, NORTH, e * perihelion)
+    assert found.obliquity == pytest.approx([obliquity], rel=1e-12, abs=0)
+    assert found.eccentricity == pytest.approx([e], rel=1e-12, abs=1e-100)
+    assert np.allclose(found.climatic_precession, e * np.sin(longitude), rtol=0, atol=1e-13)
+    assert np.allclose(found.coprecession, e * np.cos(longitude), rtol=0, atol=1e-13)
+
+
+def test_an_upright_axis_has_no_perihelion() -> None:
+    found = seasons(NORTH, NORTH, 0.1 * np.array([[1.0], [0.0], [0.0]]))
+    assert found.obliquity == 0
+    assert np.isnan(found.climatic_precession) and np.isnan(found.coprecession)
+
+
+@pytest.mark.parametrize("years", [-2000.0, 0.0, 1000.0])
+def test_the_matrix_of_the_equator_is_that_of_erfa(years: float) -> None:
+    """From the poles of equator and ecliptic of IAU 2006, without a formula of angles."""
+    days = years * 365.25
+    pole = np.asarray(erfa.pmat06(J2000_JD, days)[2])[:, np.newaxis]
+    normal = np.asarray(erfa.ecm06(J2000_JD, days)[2])[:, np.newaxis]
+    (found,) = equator_and_equinox(pole, normal)
+    # erfa puts the equinox where its own angles say; 2e-6 arcsec at 2,000 years
+    assert np.max(np.abs(found - erfa.pmat06(J2000_JD, days))) < 1e-4 * ARCSEC
+
+
+@given(st.lists(st.floats(-1.5, 1.5), min_size=2, max_size=60), st.integers(-3, 3))
+def test_an_angle_is_unwrapped_through_times_that_leave_no_doubt(
+    steps: list[float], turns: int
+) -> None:
+    coarse = np.cumsum(steps) + 2 * np.pi * turns
+    near = coarse + 0.4  # at times near to each
+    wrapped = np.arctan2(np.sin(near), np.cos(near))
+    found = unwrapped(wrapped, coarse, np.arange(len(steps)))
+    assert np.allclose(found, near, rtol=0, atol=1e-12)
+
+
+def test_unwrapping_picks_the_nearest_known_time() -> None:
+    coarse = np.array([0.0, 3.0, 6.0, 9.0])
+    found = unwrapped(np.array([-0.3, 0.1]), coarse, np.array([2, 3]))
+    assert np.allclose(found, [2 * np.pi - 0.3, 2 * np.pi + 0.1 + 0.0], rtol=0, atol=1e-14)

@@ -1,0 +1,89 @@
+"""What each cause of an error moves, and by how much."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
+from earthspin.secular import budget
+from earthspin.secular.budget import Moved, Setting, changes
+from earthspin.secular.trajectory import solve
+from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
+
+SETTING = Setting(earths(), EARTHS, POLE)
+
+
+def causes(constant: float = 1e-6, earth: bool = True) -> dict[str, Setting]:
+    return changes(SETTING, constant=constant, earth=earth, error=EARTHS.error)
+
+
+def test_what_is_known_of_the_earth_alone_is_left_out_elsewhere() -> None:
+    assert set(causes(earth=False)) == {"constant", "start", "orbit"}
+    assert set(causes()) == {"constant", "start", "orbit", "J2 rate", "tides", "ellipticity"}
+
+
+def test_the_start_is_tilted_by_its_half_width_towards_the_orbit_or_away() -> None:
+    start = causes()["start"].start
+    assert np.linalg.norm(start) == pytest.approx(1.0, rel=1e-15, abs=0)
+    normal = EARTHS.at(np.zeros(1))[0][:, 0]
+    moved = np.arccos(start @ normal) - np.arccos(POLE @ normal)
+    assert abs(moved) / ARCSEC == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)
+    assert arcsec(start, POLE) == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)
+
+
+def test_constant_tides_and_ellipticity_change_by_their_half_widths() -> None:
+    found, now, e2 = causes(3e-6), np.zeros(1), np.array([0.0167**2])
+    before = earths().constant(now, e2)
+    constant = found["constant"].strength.constant(now, e2)
+    assert constant / before - 1 == pytest.approx([3e-6], rel=1e-6, abs=0)
+    tides = found["tides"].strength.tides
+    assert tides.moon / earths().tides.moon == pytest.approx(1.2, rel=1e-14, abs=0)
+    assert tides.spin / earths().tides.spin == pytest.approx(1.2, rel=1e-14, abs=0)
+    far = np.array([-10e6 * JULIAN_YEAR])
+    drifted = found["ellipticity"].strength.constant(far, e2) / earths().constant(far, e2) - 1
+    spin = 1 + earths().tides.spin * far
+    assert drifted * spin == pytest.approx([-0.007], rel=1e-9, abs=0)
+
+
+def test_the_j2_band_widens_where_its_rate_has_faded() -> None:
+    found, e2 = causes()["J2 rate"].strength, np.array([0.0167**2])
+    for years, acted in ((-1000, 0.2 * 1000), (-10_000, 10_000)):
+        time = np.array([years * JULIAN_YEAR])
+        more = found.constant(time, e2) / earths().constant(time, e2) - 1
+        expected = earths().j2_rate * -acted * JULIAN_YEAR
+        assert more == pytest.approx([expected], rel=1e-4, abs=0)
+
+
+def test_a_moved_orbit_is_moved_by_its_error_and_still_an_orbit() -> None:
+    times = np.linspace(-900, 900, 37) * KYR
+    moved = causes()["orbit"].orbit
+    assert isinstance(moved, Moved)
+    n, e, turning = moved.at(times)
+    n0, e0, turning0 = EARTHS.at(times)
+    by_normal, by_shape = EARTHS.error(times)
+    assert np.allclose(np.linalg.norm(n, axis=0), 1, rtol=0, atol=1e-15)
+    assert np.allclose(np.linalg.norm(n - n0, axis=0), by_normal, rtol=1e-3, atol=1e-12)
+    assert np.allclose(np.linalg.norm(e - e0, axis=0), np.sqrt(2) * by_shape, rtol=1e-9, atol=1e-15)
+    assert np.array_equal(turning, turning0)
+    assert moved.coverage == EARTHS.coverage
+    assert np.array_equal(moved.edges, EARTHS.edges)
+
+
+def test_past_ten_thousand_years_the_earth_itself_counts_most() -> None:
+    time = np.array([-100 * KYR])
+    mine = solve(earths(), EARTHS, POLE, (time[0], 0.0)).at(time)
+    off = {
+        cause: arcsec(solve(of.strength, of.orbit, of.start, (time[0], 0.0)).at(time), mine)
+        for cause, of in causes().items()
+    }
+    assert max(off, key=lambda cause: off[cause]) in {"tides", "ellipticity", "J2 rate"}
+    assert off["start"] < 0.1
+
+
+def test_a_circular_orbit_can_be_moved() -> None:
+    circle = replace(EARTHS, coefficients=EARTHS.coefficients * [[[1.0]], [[1.0]], [[0.0]], [[0.0]]])
+    moved = Moved(circle, lambda times: np.full((2, times.size), 1e-6))
+    n, e, _ = moved.at(np.array([0.0, KYR]))
+    assert np.isfinite(n).all() and np.isfinite(e).all()
+    assert budget.START < 0.01 * ARCSEC

@@ -1,0 +1,150 @@
+"""Daily insolation: published tables, a quadrature of orbit and day, and Kepler's equation."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from earthspin.secular.insolation import (
+    Season,
+    daily,
+    mean_anomaly,
+    mean_longitude,
+    over_days,
+    true_anomaly,
+    true_longitude,
+)
+
+DEGREE = np.pi / 180
+#: Orbit that climlab takes for today's: its perigee of the Sun is 281.37 degrees.
+CLIMLAB = Season(23.446 * DEGREE, 0.017236, (281.37 - 180) * DEGREE)
+#: Orbit of the PMIP, after Berger 1978.
+PMIP = Season(23.446 * DEGREE, 0.016724, 102.04 * DEGREE)
+#: Monthly means of today, W/m2, of 1365 (Bonfils et al. 1998, documentation of the PMIP models,
+#: appendix: a year of 365 days, equinox on 21.0 March), by latitude.
+TODAY = {
+    60: "40.79 99.47 199.95 320.61 423.31 473.71 449.70 362.23 246.58 135.19 57.36 26.96",
+    0: "419.41 433.45 437.87 424.80 402.22 387.51 392.10 411.28 428.62 431.65 421.40 412.83",
+    -40: "498.65 439.17 351.32 256.36 183.04 149.47 162.86 220.41 306.54 400.06 476.35 513.42",
+    -80: "492.67 308.85 105.78 6.81 .00 .00 .00 .17 47.56 214.03 431.43 542.01",
+}
+MONTHS = np.array([31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
+
+angle = st.floats(-7, 7)
+ellipse = st.floats(0, 0.9)
+season = st.builds(Season, st.floats(0, np.pi), ellipse, angle)
+
+
+@pytest.mark.parametrize("latitude", TODAY)
+def test_monthly_means_of_the_pmip(latitude: int) -> None:
+    """Rounded to 0.01; their 21.0 March is noon in days that count from 1.0 on 1 January."""
+    published = np.array([float(word) for word in TODAY[latitude].split()])
+    ends = np.cumsum(MONTHS)
+    middles = (ends - MONTHS / 2 - 79.5) / 365
+    sun = true_longitude(PMIP, 2 * np.pi * middles)
+    found = [
+        1365 * over_days(PMIP, np.array(latitude * DEGREE), np.array(at), days / 365)
+        for at, days in zip(sun, MONTHS, strict=True)
+    ]
+    assert np.max(np.abs(found - published)) < 0.015  # 0.006 measured
+
+
+def test_the_largest_daily_insolation_and_the_mean_of_climlab() -> None:
+    """562.0333475 and 341.384184481 W/m2 of 1365.2 on its grid of days and latitudes.
+
+    climlab 0.8, tests of insolation; it takes Berger's series from days to longitudes, 1.3e-7 rad
+    from Kepler's equation.
+    """
+    latitude = np.linspace(-90, 90, 500)[:, np.newaxis] * DEGREE
+    mean = (np.linspace(0, 365.2422, 365) - 80) * 2 * np.pi / 365.2422
+    found = 1365.2 * daily(CLIMLAB, latitude, true_longitude(CLIMLAB, mean))
+    assert found.max() == pytest.approx(562.0333475, rel=3e-7, abs=0)
+    weight = np.cos(latitude[:, 0])
+    over_the_globe = np.sum(found.mean(axis=1) * weight) / np.sum(weight)
+    assert over_the_globe == pytest.approx(341.384184481, rel=1e-6, abs=0)
+
+
+@pytest.mark.parametrize("latitude", [-80.0, -30.0, 0.0, 65.0, 89.0])
+@pytest.mark.parametrize("sun", [0.0, 50.0, 90.0, 170.0, 271.0])
+def test_a_day_by_quadrature(latitude: float, sun: float) -> None:
+    """The cosine of the zenith angle over one turn, where it is above zero."""
+    axis = np.array([0.0, -np.sin(0.41), np.cos(0.41)])  # its equinox lies at -x
+    towards = -np.array([np.cos(sun * DEGREE), np.sin(sun * DEGREE), 0.0])
+    sine = axis @ towards
+    e, w = 0.2, 1.0
+    distance = (1 - e * e) / (1 + e * np.cos(sun * DEGREE + np.pi - w))
+
+    def height(turn: float) -> float:
+        level = np.cos(latitude * DEGREE) * np.sqrt(1 - sine * sine) * np.cos(turn)
+        return max(float(np.sin(latitude * DEGREE) * sine + level), 0.0) / distance**2
+
+    whole, _ = quad(height, -np.pi, np.pi, limit=400, epsabs=1e-10, epsrel=1e-10)
+    found = daily(Season(0.41, e, w), np.array(latitude * DEGREE), np.array(sun * DEGREE))
+    assert found == pytest.approx(whole / (2 * np.pi), rel=1e-7, abs=1e-9)
+
+
+@given(st.floats(0, np.pi), st.floats(0, 0.9), angle)
+def test_a_year_over_the_globe_holds_no_season(
+    obliquity: float, e: float, perihelion: float
+) -> None:
+    """A quarter of the solar constant over sqrt(1 - e^2), whatever obliquity and perihelion."""
+    of = Season(obliquity, e, perihelion)
+    latitude, weights = np.polynomial.legendre.leggauss(60)
+    eccentric = 2 * np.pi * np.arange(4000) / 4000
+    true = 2 * np.arctan2(
+        np.sqrt(1 + e) * np.sin(eccentric / 2), np.sqrt(1 - e) * np.cos(eccentric / 2)
+    )
+    sun = true + perihelion + np.pi
+    each = daily(of, np.arcsin(latitude)[:, np.newaxis], sun)
+    over_year = np.mean(each * (1 - e * np.cos(eccentric)), axis=1)  # dM = (1 - e cos E) dE
+    assert over_year @ weights / 2 == pytest.approx(0.25 / np.sqrt(1 - e * e), rel=2e-4, abs=0)
+
+
+@given(angle, ellipse)
+def test_keplers_equation_there_and_back(anomaly: float, e: float) -> None:
+    true = true_anomaly(np.array(anomaly), np.array(e))
+    assert mean_anomaly(true, np.array(e)) == pytest.approx(anomaly, rel=0, abs=1e-12)
+    # areas are swept evenly: dM/dv = (r/a)^2/sqrt(1 - e^2)
+    h = 1e-5
+    rate = (mean_anomaly(true + h, np.array(e)) - mean_anomaly(true - h, np.array(e))) / (2 * h)
+    radius = (1 - e * e) / (1 + e * np.cos(true))
+    assert rate == pytest.approx(radius**2 / np.sqrt(1 - e * e), rel=1e-5, abs=0)
+
+
+@given(season, angle)
+def test_mean_and_true_longitude_agree_at_the_equinox(of: Season, longitude: float) -> None:
+    assert true_longitude(of, np.array(0.0)) == pytest.approx(0.0, rel=0, abs=1e-12)
+    there = mean_longitude(of, np.array(longitude))
+    assert true_longitude(of, there) == pytest.approx(longitude, rel=0, abs=1e-11)
+
+
+@given(season, st.floats(-1.5, 1.5), angle)
+def test_the_other_hemisphere_half_a_turn_later(
+    of: Season, latitude: float, longitude: float
+) -> None:
+    """The Sun half a turn on, and the orbit turned with it, light the other hemisphere alike."""
+    other = Season(of.obliquity, of.eccentricity, of.perihelion + np.pi)
+    found = daily(of, np.array(latitude), np.array(longitude))
+    there = daily(other, np.array(-latitude), np.array(longitude + np.pi))
+    assert found == pytest.approx(there, rel=1e-9, abs=1e-12)
+    assert 0 <= found
+
+
+def test_polar_night_and_midnight_sun() -> None:
+    north, south = np.array(85 * DEGREE), np.array(-85 * DEGREE)
+    of = Season(0.41, 0.0, 0.0)
+    assert daily(of, south, np.array(np.pi / 2)) == 0.0
+    assert daily(of, north, np.array(np.pi / 2)) == pytest.approx(
+        np.sin(85 * DEGREE) * np.sin(0.41), rel=1e-14, abs=0
+    )
+
+
+def test_a_short_window_is_its_day_and_a_year_is_the_year() -> None:
+    latitude, sun = np.array(65 * DEGREE), np.array(1.2)
+    short = over_days(PMIP, latitude, sun, 1e-6)
+    assert short == pytest.approx(daily(PMIP, latitude, sun), rel=1e-9, abs=0)
+    mean = 2 * np.pi * (np.arange(20_000) + 0.5) / 20_000
+    whole = np.mean(daily(PMIP, latitude, true_longitude(PMIP, mean)))
+    # within the year a polar night would be a kink; here there is none
+    assert over_days(PMIP, latitude, sun, 1.0) == pytest.approx(whole, rel=1e-6, abs=0)
