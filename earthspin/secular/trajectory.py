@@ -109,6 +109,8 @@ def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[Fl
     middle = int(np.searchsorted(edges, 0.0))
     first = int(np.searchsorted(edges, min(span[0], 0.0), side="right")) - 1
     last = int(np.searchsorted(edges, max(span[1], 0.0)))
+    if first == last:  # J2000.0 alone: some window it must be
+        first, last = max(first - 1, 0), min(last + 1, len(edges) - 1)
     past, future = edges[max(first, 0) : middle + 1], edges[middle : last + 1]
     return [_cut(past[::-1], pieces), _cut(future, pieces)]
 

@@ -82,7 +82,9 @@ def test_past_ten_thousand_years_the_earth_itself_counts_most() -> None:
 
 
 def test_a_circular_orbit_can_be_moved() -> None:
-    circle = replace(EARTHS, coefficients=EARTHS.coefficients * [[[1.0]], [[1.0]], [[0.0]], [[0.0]]])
+    circle = replace(
+        EARTHS, coefficients=EARTHS.coefficients * [[[1.0]], [[1.0]], [[0.0]], [[0.0]]]
+    )
     moved = Moved(circle, lambda times: np.full((2, times.size), 1e-6))
     n, e, _ = moved.at(np.array([0.0, KYR]))
     assert np.isfinite(n).all() and np.isfinite(e).all()

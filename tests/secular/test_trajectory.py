@@ -137,7 +137,10 @@ def test_the_two_solvers_agree_over_a_million_years(end: int) -> None:
     for step, bound in ((2, 2e-3), (5, 0.2)):  # 4e-4 and 0.03 measured into the past
         many = solve_many(earths(), EARTHS, POLE[:, np.newaxis], times, step * KYR)
         assert arcsec(many[:, :, 0], path.at(times)) < bound
-    assert arcsec(solve(earths(), EARTHS, POLE, (times[0], times[-1])).at(times), path.at(times)) < 0.05
+    assert (
+        arcsec(solve(earths(), EARTHS, POLE, (times[0], times[-1])).at(times), path.at(times))
+        < 0.05
+    )
 
 
 def test_ten_million_years_keep_a_fifth_of_an_arcsecond() -> None:

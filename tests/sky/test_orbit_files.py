@@ -157,9 +157,7 @@ def test_written_and_read_again(tmp_path: Path) -> None:
 
 
 @given(st.floats(0, 3.0), st.floats(0, 6.2), st.floats(0, 6.2), st.floats(0, 0.9))
-def test_both_layouts_are_the_same_orbit(
-    tilt: float, node: float, varpi: float, e: float
-) -> None:
+def test_both_layouts_are_the_same_orbit(tilt: float, node: float, varpi: float, e: float) -> None:
     """q + ip and k + ih against elements, for any fixed ellipse."""
     t = np.arange(-40.0, 1.0)
     of = pd.DataFrame({"t": t}).assign(e=e, inc=tilt, varpi=varpi, Omega=node)
