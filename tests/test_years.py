@@ -161,9 +161,11 @@ def test_what_is_no_list_of_times_is_refused(given: object, words: str) -> None:
 
 def test_a_grid_includes_the_end_that_the_step_meets() -> None:
     thousand = grid(YearSpan(-KYR, 0.0), 100 * JULIAN_YEAR, AT)
-    assert thousand.size == 11 and thousand[-1] == 0.0
+    assert thousand.size == 11
+    assert thousand[-1] == 0.0
     short = grid(YearSpan(-KYR, 0.0), 300 * JULIAN_YEAR, AT)
-    assert short.size == 4 and short[-1] == pytest.approx(-100 * JULIAN_YEAR, rel=1e-12, abs=0)
+    assert short.size == 4
+    assert short[-1] == pytest.approx(-100 * JULIAN_YEAR, rel=1e-12, abs=0)
     with pytest.raises(EarthspinError, match="give a longer step"):
         grid(YearSpan(-1e6 * KYR, 0.0), DAY, AT)
 

@@ -64,7 +64,7 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
     return np.moveaxis(np.stack([equinox, np.cross(axis, equinox, axis=0), axis]), 2, 0)
 
 
-def unwrapped(angle: FloatArray, coarse: FloatArray, which: FloatArray) -> FloatArray:
+def unwrapped(angle: FloatArray, coarse: FloatArray, which: NDArray[np.int_]) -> FloatArray:
     """An angle without jumps, at some times among others that leave no doubt.
 
     Parameters

@@ -27,7 +27,8 @@ def test_perihelion_counts_from_the_equinox(obliquity: float, e: float, longitud
 def test_an_upright_axis_has_no_perihelion() -> None:
     found = seasons(NORTH, NORTH, 0.1 * np.array([[1.0], [0.0], [0.0]]))
     assert found.obliquity == 0
-    assert np.isnan(found.climatic_precession) and np.isnan(found.coprecession)
+    assert np.isnan(found.climatic_precession)
+    assert np.isnan(found.coprecession)
 
 
 @pytest.mark.parametrize("years", [-2000.0, 0.0, 1000.0])

@@ -87,5 +87,6 @@ def test_a_circular_orbit_can_be_moved() -> None:
     )
     moved = Moved(circle, lambda times: np.full((2, times.size), 1e-6))
     n, e, _ = moved.at(np.array([0.0, KYR]))
-    assert np.isfinite(n).all() and np.isfinite(e).all()
+    assert np.isfinite(n).all()
+    assert np.isfinite(e).all()
     assert budget.START < 0.01 * ARCSEC

@@ -1,0 +1,153 @@
+"""Daily insolation from an answer: labels, conventions, errors, and refusals."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from astropy import units as u
+
+import earthspin
+from earthspin import EarthspinError, daily_insolation
+from tests import shipped
+
+KYR = 1000.0
+
+
+@pytest.fixture(scope="module")
+def past() -> xr.Dataset:
+    return shipped.answer("long-term")
+
+
+def test_the_example_prints_what_it_says() -> None:
+    import doctest
+
+    test = doctest.DocTestParser().get_doctest(
+        daily_insolation.__doc__ or "", {}, "daily_insolation", None, None
+    )
+    assert doctest.DocTestRunner().run(test).failed == 0
+
+
+def test_65_north_at_the_june_solstice(past: xr.Dataset) -> None:
+    """The closed form at 90 degrees from the rows of La2004, with 1365 W/m2: 479.3 today."""
+    found = daily_insolation(past, "65 deg", "90 deg", solar_constant=1365.0)
+    assert found.dims == ("epoch",)
+    assert found.attrs["units"] == "W m-2"
+    for kyr, eps, cp in (
+        (0, 0.4090928042223415, 0.01627964595166013),
+        (-100, 0.4130265591582125, -0.0006501053038830341),
+        (-200, 0.4037251011418818, -0.03833572638169867),
+    ):
+        at = past.sel(epoch=kyr * KYR)
+        e = float(at.eccentricity)
+        half = np.arccos(-np.tan(np.radians(65)) * np.tan(eps))
+        day = half * np.sin(np.radians(65)) * np.sin(eps)
+        day += np.cos(np.radians(65)) * np.cos(eps) * np.sin(half)
+        # a/r at 90 degrees: cos v = cos(90 - w - 180) = -sin w
+        true = 1365 / np.pi * day * ((1 - cp) / (1 - e * e)) ** 2
+        assert float(found.sel(epoch=kyr * KYR)) == pytest.approx(true, rel=5e-4, abs=0)
+    assert float(found.sel(epoch=0)) == pytest.approx(479.3, rel=0, abs=0.1)
+
+
+def test_several_latitudes_and_longitudes(past: xr.Dataset) -> None:
+    few = past.isel(epoch=slice(-3, None))
+    found = daily_insolation(few, [-65, 0, 65] * u.deg, ["0 deg", "90 deg"])
+    assert found.dims == ("epoch", "latitude", "solar_longitude")
+    assert found.latitude.values.tolist() == pytest.approx([-65, 0, 65], rel=1e-14, abs=0)
+    one = daily_insolation(few, "65 deg", "90 deg")
+    assert np.allclose(found.isel(latitude=2, solar_longitude=1), one, rtol=1e-14, atol=0)
+    assert found.daily_insolation_error.dims == found.dims
+    labelled = xr.DataArray([0.1, 0.2], dims="place")
+    assert daily_insolation(few, labelled, "90 deg").dims == ("epoch", "place")
+
+
+def test_mean_longitudes_count_days_from_the_equinox(past: xr.Dataset) -> None:
+    """Today spring and summer last 186.4 days, so that 180 degrees of time fall short of it."""
+    today = past.isel(epoch=[-1])
+    at_equinox = [daily_insolation(today, "40 deg", "0 deg", kind).item() for kind in (True, False)]
+    assert at_equinox[0] == pytest.approx(at_equinox[1], rel=1e-12, abs=0)
+    mean = daily_insolation(today, "40 deg", "180 deg", False).item()
+    # 186.4 - 182.6 days before the September equinox, when it falls by 2.8 W/m2 a day
+    true = daily_insolation(today, "40 deg", "180 deg").item()
+    assert 3.0 < (mean - true) / 2.8 < 4.5
+
+
+def test_a_window_of_days_is_a_mean_of_days(past: xr.Dataset) -> None:
+    today = past.isel(epoch=[-1])
+    window = daily_insolation(today, "65 deg", "90 deg", days="30 d").item()
+    share = 360 * 30 / 365.25636
+    e, w = float(today.eccentricity[0]), np.radians(float(today.longitude_of_perihelion[0]))
+
+    def area(true: float) -> float:
+        half = np.arctan(np.sqrt((1 - e) / (1 + e)) * np.tan((true - w - np.pi) / 2))
+        return float(2 * half - e * np.sin(2 * half))
+
+    middle = np.degrees(area(np.pi / 2) - area(0.0)) % 360
+    ends = middle + share * (np.arange(400) + 0.5 - 200) / 400
+    by_days = daily_insolation(today, "65 deg", ends * u.deg, False).mean().item()
+    assert window == pytest.approx(by_days, rel=1e-5, abs=0)
+    year = daily_insolation(today, "0 deg", "0 deg", days="365.256 d").item()
+    assert year == pytest.approx(417.0, rel=0, abs=1.0)  # 1361 of PMIP's mean 418.2 of 1365
+
+
+def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
+    found = daily_insolation(past, "65 deg", "90 deg")
+    error = found.daily_insolation_error
+    assert error.attrs["units"] == "W m-2"
+    assert 0 < float(error[-1]) < 0.05 < float(error[0]) < 20
+    still = past.copy()
+    for name in ("obliquity", "eccentricity", "longitude_of_perihelion"):
+        still[f"{name}_error"] = 0 * still[f"{name}_error"]
+    assert float(daily_insolation(still, "65 deg", "90 deg").daily_insolation_error.max()) == 0
+    one = still.assign(obliquity_error=past.obliquity_error)
+    by_tilt = daily_insolation(one, "65 deg", "90 deg").daily_insolation_error
+    up = past.assign(obliquity=past.obliquity + past.obliquity_error)
+    moved = np.abs(daily_insolation(up, "65 deg", "90 deg") - found)
+    assert np.allclose(by_tilt, moved, rtol=0.02, atol=1e-9)
+
+
+def test_mars_gets_less_by_the_square_of_its_distance() -> None:
+    mars = earthspin.long_term(times=["0 kyr"], body="mars")
+    own = daily_insolation(mars, "0 deg", "90 deg")
+    assert own.attrs["solar_constant"] == pytest.approx(1361 / 1.5237**2, rel=1e-3, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("91 deg", "0 deg"), "latitude = '91 deg': it lies within 90 degrees"),
+        ((65.0, "0 deg"), "within 90 degrees; give it as '65 deg'"),
+        (("65 deg", "400 deg"), "within 360 degrees"),
+        (("65 km", "0 deg"), "not a value in units of rad"),
+        (([[1, 2]] * u.deg, "0 deg"), "one list"),
+    ],
+)
+def test_wrong_angles_are_refused(
+    past: xr.Dataset, arguments: tuple[object, object], words: str
+) -> None:
+    with pytest.raises(EarthspinError, match=words) as told:
+        daily_insolation(past, *arguments)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [
+        ({"days": "2 yr"}, "at most a year"),
+        ({"days": "0 d"}, "at most a year"),
+        ({"solar_constant": -1.0}, "above zero"),
+        ({"solar_constant": "1361 W"}, "W/m2"),
+    ],
+)
+def test_wrong_settings_are_refused(past: xr.Dataset, named: dict[str, object], words: str) -> None:
+    with pytest.raises(EarthspinError, match=words):
+        daily_insolation(past, "65 deg", "90 deg", **named)
+
+
+def test_another_result_is_refused(past: xr.Dataset) -> None:
+    with pytest.raises(EarthspinError, match="give an answer of long_term"):
+        daily_insolation(past.drop_vars("obliquity"), "65 deg", "90 deg")
+    with pytest.raises(EarthspinError, match="give an answer of long_term"):
+        daily_insolation(3, "65 deg", "90 deg")  # type: ignore[arg-type]
+    unknown = past.copy()
+    unknown["obliquity"] = past.obliquity.assign_attrs(orbit_of="vulcan")
+    with pytest.raises(EarthspinError, match="the year of vulcan is not known"):
+        daily_insolation(unknown, "65 deg", "90 deg")
