@@ -23,6 +23,7 @@ PARTS = (
     "top",
     "torque",
     "motion",
+    "secular",
     "wobble",
     "nutation",
     "sky",
