@@ -99,10 +99,11 @@ def effects() -> dict[str, tuple[float, float, float]]:
     settings = without()
     fixed = EARTH.needed("pole").orbit_axes(EARTH.orbit_pole)
     orbit = settings["all"].orbit
+    perihelion = question.followed_perihelion(orbit, np.append(at, 0.0), fixed)
     read = {}
     for name, of in settings.items():
         path = solve(of.strength, of.orbit, of.start, (float(at[0]), 0.0))
-        read[name] = question.read_off(path, replace(of, orbit=orbit), at, fixed)
+        read[name] = question.read_off(path, replace(of, orbit=orbit), at, fixed, perihelion)
     mine = read.pop("all")
     found = {}
     for name, other in read.items():

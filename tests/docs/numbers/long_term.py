@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cache
 
@@ -15,6 +16,8 @@ from tests import shipped
 from tests.docs.numbers.sentence import Sentence, Told
 
 PAGE = "docs/long_term.md"
+#: Of what is smaller than what is printed.
+BOUND = "held by tests/questions/test_long_term.py"
 
 
 @cache
@@ -55,6 +58,16 @@ def of_iau(years: float) -> np.ndarray:
 def of_series(years: float) -> np.ndarray:
     """Pole of the long-term series."""
     return np.asarray(erfa.ltpb(2000.0 + years)[2])
+
+
+def eccentricity_now() -> float:
+    """Of the Earth's orbit at J2000.0."""
+    return float(shipped.answer("long-term").eccentricity[-1])
+
+
+def known_then() -> float:
+    """Half-width of the pole 12,000 years ago, arcsec."""
+    return float(earthspin.long_term(times=["-12 kyr"]).pole_error[0])
 
 
 def _shares(name: str) -> Callable[[], Sequence[float]]:
@@ -143,6 +156,31 @@ MEASURED = [
     ),
 ]
 
+MEASURED += [
+    Sentence(
+        PAGE,
+        "radians, {}° today and {}° at $e = {}$",
+        lambda: [math.degrees(2 * e) for e in (eccentricity_now(), 0.058)] + [0.058],
+    ),
+    Sentence(PAGE, "`matrix_error` is how well the pole is known, {}″ then", known_then),
+]
+
 TOLD = [
     Told(PAGE, "is at most {}″ ({}°)", "the largest nutation in obliquity, IAU 2000A"),
+    Told(PAGE, "Julian years of {} days (TDB)", "by definition"),
+    Told(PAGE, "beyond {}° the\n  spin is retrograde", "by definition"),
+    Told(PAGE, "lies between 0 and {}° at J2000.0", "by definition"),
+    Told(PAGE, "is today's {}°, as in the tables", "rounded; the answer has it"),
+    Told(PAGE, "stands at $\\varpi + {}° = {}°$", "by definition"),
+    Told(PAGE, "wants {}° more", "by definition"),
+    Told(PAGE, "the *true* longitude of the Sun,\n{}° from", "by definition"),
+    Told(PAGE, "point {}° east of it", "by definition"),
+    Told(PAGE, "$H$ larger by {} %", "given"),
+    Told(PAGE, "is a {} % half-width", "what an error is, by definition"),
+    Told(PAGE, "| method | windows half as long | < {} | < {} | < {} | < {} |", BOUND),
+    Told(
+        PAGE,
+        "| start | {}″ (one standard deviation) in the obliquity | < {} | < {} | < {} | {} |",
+        BOUND,
+    ),
 ]
