@@ -321,6 +321,6 @@ def test_what_the_answer_says_of_itself(million: xr.Dataset) -> None:
 
 @pytest.mark.parametrize("years", [1e3, 1e4, 1e5, 1e6])
 def test_method_and_start_are_below_what_the_page_prints(years: float) -> None:
-    shares = shipped.tree("long-term")["budget"].longitude_share.sel(epoch=-years)
+    shares = scenes.tree("long-term")["budget"].longitude_share.sel(epoch=-years)
     assert float(shares.sel(cause="method")) < 1e-5
     assert float(shares.sel(cause="start")) < (1e-5 if years < 1e6 else 6.5e-5)
