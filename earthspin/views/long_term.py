@@ -81,9 +81,9 @@ def drawings(tree: Result) -> list[Drawing]:
         drawn(
             "Obliquity, eccentricity and climatic precession",
             f"From {span}. Climatic precession is the eccentricity times the sine of the longitude "
-            "of the Earth's perihelion from the moving equinox: where it is positive, as today, "
-            "northern summer falls in the half of the orbit that is far from the Sun; where it is "
-            "negative, in the near half. Bands are 95 % half-widths.",
+            "of perihelion from the moving equinox: where it is positive, northern summer falls in "
+            "the half of the orbit that is far from the Sun; where it is negative, in the near "
+            "half. Bands are 95 % half-widths.",
             plot_climate(tree),
         ),
         drawn(
@@ -96,8 +96,8 @@ def drawings(tree: Result) -> list[Drawing]:
     if section(tree, "budget") is not None:
         caption = (
             "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
-            "largest up to that distance from J2000.0, past or future. Far out the unknown Earth, "
-            "its tides and its figure, counts for more than any method."
+            "largest up to that distance from J2000.0, past or future. Far out, what is not "
+            "known of tides and figure counts for more than any method."
         )
         found.append(drawn("How well the perihelion is known", caption, plot_budget(tree)))
     return found
