@@ -73,8 +73,8 @@ def drawings(tree: Result) -> list[Drawing]:
     if path_is_there(years):
         caption = (
             "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
-            "the present. It would not close: the ecliptic moves, too. The cross is the pole of "
-            "the ecliptic of J2000.0; stars stand where they stood then."
+            "the present. It does not close: the plane of the orbit moves, too. The cross is the "
+            "pole of the ecliptic of J2000.0; stars stand where they stood then."
         )
         found.append(drawn("The pole among the stars", caption, plot_pole(tree), square=True))
     found += [
@@ -88,8 +88,8 @@ def drawings(tree: Result) -> list[Drawing]:
         ),
         drawn(
             "Period of precession",
-            "Time of one full turn at the rate of each epoch: by Sun and Moon together with what "
-            "is published of other effects, and by each alone.",
+            "Time of one full turn at the rate of each epoch, and by each alone of those that "
+            "pull. Bands are 95 % half-widths.",
             plot_periods(tree),
         ),
     ]
