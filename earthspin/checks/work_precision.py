@@ -43,6 +43,7 @@ QUANTITIES: dict[str, str] = {
     "precession": "of_precession",
     "torque": "of_torque",
     "pole": "of_pole",
+    "long-term": "of_long_term",
     "free-rotor": "of_free_rotor",
     "top": "of_top",
     "spheroid": "of_spheroid",
@@ -304,7 +305,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     Parameters
     ----------
     quantity : str
-        ``"precession"``, ``"torque"``, ``"pole"``, ``"free-rotor"``, ``"top"``,
+        ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"free-rotor"``, ``"top"``,
         ``"spheroid"``, ``"excitation"`` or ``"chandler"``.
     quick : bool
         A short problem with few settings, in a second or two.
