@@ -1,0 +1,138 @@
+"""A million years of the spin axis: one and many, against scipy's DOP853, as ratios in one run.
+
+Run it with `python tests/benchmarks/long_term.py`. All follow the same equation on the same table,
+which is loaded before the clock runs, and are held to the same reference. A method counts only
+within the error that is named, which is asserted; a time never is. DOP853 is given two forms: the
+equation as one writes it, which asks the table at every slope, and a lean one in plain floats with
+a polynomial for each window, in one go or anew from each corner of the table. Its local errors add
+up: within 0.05 arcsec at the end it needs tolerances of some 1e-11. Only the end is asked for.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from earthspin.bodies import EARTH
+from earthspin.checks.ladders.of_long_term import (
+    KYR,
+    SPAN,
+    STRENGTH,
+    Lean,
+    Motion,
+    Slope,
+    as_it_stands,
+    reference,
+)
+from earthspin.constants import ARCSEC
+from earthspin.secular.lanes import solve_many
+from earthspin.secular.trajectory import solve
+from earthspin.sky.orbit_table import shipped
+
+RUNS = 7
+IMPORTS = "import numpy, scipy, xarray, skyfield.api, astropy.time"
+TABLE = shipped("earth")
+assert TABLE is not None
+START = np.asarray(EARTH.needed("pole").mean(np.zeros(1))[0])
+MOTION = Motion(START, np.linspace(-SPAN, 0.0, 101))
+
+
+def timed(run: Callable[[], np.ndarray], runs: int = RUNS) -> tuple[float, np.ndarray]:
+    """Shortest time of a call after a warm-up, s, and what it gave; others share the machine."""
+    found, times = run(), []
+    for _ in range(runs):
+        begun = time.perf_counter()
+        found = run()
+        times.append(time.perf_counter() - begun)
+    return min(times), found
+
+
+def dop853(slope: Slope, rtol: float) -> np.ndarray:
+    """The end by scipy, from corner to corner of the table."""
+    state, now = START, 0.0
+    inner = TABLE.edges[(TABLE.edges < 0) & (TABLE.edges > -SPAN)][::-1]  # type: ignore[union-attr]
+    for stop in [*inner, -SPAN]:
+        done = solve_ivp(slope, (now, stop), state, "DOP853", rtol=rtol, atol=rtol)
+        state, now = done.y[:, -1], stop
+    return np.asarray(state)
+
+
+def smooth(slope: Slope, rtol: float) -> np.ndarray:
+    """The end by scipy in one go."""
+    return np.asarray(
+        solve_ivp(slope, (0.0, -SPAN), START, "DOP853", rtol=rtol, atol=rtol).y[:, -1]
+    )
+
+
+def process(arguments: list[str]) -> float:
+    """Wall time of one Python process, s."""
+    begun = time.perf_counter()
+    subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
+    return time.perf_counter() - begun
+
+
+def main() -> None:
+    """Print each method's error and time, and the ratios."""
+    true = reference(MOTION, 2 * KYR)
+
+    def off(found: np.ndarray, true: np.ndarray) -> float:
+        found = found / np.linalg.norm(found, axis=0)
+        return float(np.max(np.linalg.norm(found - true, axis=0)) / ARCSEC)
+
+    ours = {}
+    for order in (12, 14, 16):
+        ours[order], _ = timed(lambda n=order: solve(STRENGTH, TABLE, START, (-SPAN, 0.0), n).axes)  # type: ignore[misc]
+        path = solve(STRENGTH, TABLE, START, (-SPAN, 0.0), order)
+        error = off(path.at(MOTION.times), true)
+        print(f"Newton, {order} nodes: {error:.2g} arcsec everywhere, {ours[order] * 1e3:.2f} ms")
+        assert error < 0.05
+    lean = Lean(MOTION)
+    for words, slope, run, tolerances, runs in (
+        ("as it stands", as_it_stands, smooth, (1e-9,), 1),
+        ("lean", lean, smooth, (1e-9, 1e-10, 1e-11), RUNS),
+        ("lean, from corner to corner", lean, dop853, (1e-9, 1e-10), RUNS),
+    ):
+        for rtol in tolerances:
+            seconds, found = timed(lambda f=run, s=slope, r=rtol: f(s, r), runs)  # type: ignore[misc]
+            print(
+                f"DOP853, {words}, rtol {rtol:g}: {off(found, true[:, 0]):.2g} arcsec at the end, "
+                f"{seconds * 1e3:.0f} ms; ratio {seconds / ours[12]:.0f} to 12 nodes"
+            )
+            if words == "lean":
+                alone = seconds
+    times = np.array([-SPAN])
+    for members in (1024, 4096):
+        starts = np.repeat(START[:, np.newaxis], members, axis=1)
+        for step in (4, 5):
+            seconds, found = timed(
+                lambda x=starts, h=step: solve_many(STRENGTH, TABLE, x, times, h * KYR),  # type: ignore[misc]
+                2,
+            )
+            error = off(found[:, 0, 0], true[:, 0])
+            print(
+                f"lanes, {members} members, steps of {step} kyr: {error:.2g} arcsec, "
+                f"{members / seconds:.0f} members a second; ratio {alone * members / seconds:.0f} "
+                "to lean DOP853 in a loop"
+            )
+            assert error < 0.2
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["-m", "earthspin", "run", "long-term", "--out", f"{folder}/answer.nc"]
+        process(command)
+        pairs = [(process(command), process(["-c", IMPORTS])) for _ in range(RUNS)]
+    ratios = [ours / bare for ours, bare in pairs]
+    print(
+        f"earthspin run long-term: {statistics.median(p[0] for p in pairs):.2f} s, bare imports "
+        f"{statistics.median(p[1] for p in pairs):.2f} s, ratio {statistics.median(ratios):.2f} "
+        f"({min(ratios):.2f} to {max(ratios):.2f})"
+    )
+
+
+if __name__ == "__main__":
+    main()
