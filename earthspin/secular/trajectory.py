@@ -29,8 +29,8 @@ FloatArray = NDArray[np.float64]
 ORDER = 16
 #: Windows solved at once: a million years.
 BLOCK = 50
-#: When a block is solved, rad: far below the error of the polynomials.
-SETTLED = 1e-11
+#: When a block is solved, rad: a step of Newton from there would change it by 1e-12.
+SETTLED = 1e-9
 MOST_STEPS, DIVERGES = 25, 10.0
 #: Sweeps that solve a window's linear equations, until they change it by less than this.
 MOST_SWEEPS, SWEPT = 40, 1e-3
