@@ -205,12 +205,12 @@ class KernelError(EarthspinError, OSError):
 
 
 class CoverageError(EarthspinError, ValueError):
-    """Times outside what a kernel covers.
+    """Times outside what a kernel or a table covers.
 
     Attributes
     ----------
     kernel : str
-        Name of the kernel.
+        Name of the kernel or table.
     asked, coverage : tuple of str
         First and last date, TDB.
 
@@ -224,11 +224,13 @@ class CoverageError(EarthspinError, ValueError):
     de421 1899-07-29T00:00:00 2053-10-09T00:00:00
     """
 
-    def __init__(self, kernel: str, asked: tuple[str, str], coverage: tuple[str, str]) -> None:
+    def __init__(
+        self, kernel: str, asked: tuple[str, str], coverage: tuple[str, str], what: str = "kernel"
+    ) -> None:
         self.kernel, self.asked, self.coverage = kernel, asked, coverage
         super().__init__(
-            f"span {asked[0]} to {asked[1]} is outside kernel '{kernel}', which covers "
-            f"{coverage[0]} to {coverage[1]} (TDB); choose a span inside it or a longer kernel"
+            f"span {asked[0]} to {asked[1]} is outside {what} '{kernel}', which covers "
+            f"{coverage[0]} to {coverage[1]} (TDB); choose a span inside it or a longer {what}"
         )
 
 

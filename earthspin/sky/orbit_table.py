@@ -80,7 +80,7 @@ class OrbitTable:
         low, high = float(np.min(times)), float(np.max(times))
         if not (first <= low and high <= last):
             asked, coverage = ((_words(low), _words(high)), (_words(first), _words(last)))
-            raise CoverageError(f"orbit of {self.name}", asked, coverage)
+            raise CoverageError(f"orbit of {self.name}", asked, coverage, "table")
 
     def error(self, times: FloatArray) -> FloatArray:
         """95 % half-widths of normal (rad) and eccentricity vector at times in s, shape (2, n)."""

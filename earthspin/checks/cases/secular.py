@@ -191,7 +191,7 @@ def _upright() -> None:
 
 @CASES.case("a moment beyond the end of the table")
 @hard_because("its last series goes on smoothly")
-@refused("is outside kernel")
+@refused("is outside table")
 def _beyond() -> None:
     long_term(times=["10.0000001 Myr"])
 
