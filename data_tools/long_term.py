@@ -97,23 +97,31 @@ def effects() -> dict[str, tuple[float, float, float]]:
     """By effect: obliquity (arcsec) and p_A (deg) after 1 Myr, and pole (arcsec) at -2 kyr."""
     at = np.append(FAR, -2000 * JULIAN_YEAR)
     settings = without()
-    fixed = EARTH.needed("pole").orbit_axes(EARTH.orbit_pole)
-    orbit = settings["all"].orbit
-    perihelion = question.followed_perihelion(orbit, np.append(at, 0.0), fixed)
-    read = {}
-    for name, of in settings.items():
-        path = solve(of.strength, of.orbit, of.start, (float(at[0]), 0.0))
-        read[name] = question.read_off(path, replace(of, orbit=orbit), at, fixed, perihelion)
-    mine = read.pop("all")
+    normal = settings["all"].orbit.at(at)[0]
+    poles = {
+        name: solve(of.strength, of.orbit, of.start, (float(at[0]), 0.0)).at(at)
+        for name, of in settings.items()
+    }
+    mine = poles.pop("all")
+    equinox = np.cross(mine, normal, axis=0)
     found = {}
-    for name, other in read.items():
-        tilt, along = (
-            float(np.max(np.abs(other.values[of] - mine.values[of])[:-1]))
-            for of in ("obliquity", "general_precession")
+    for name, pole in poles.items():
+        other = np.cross(pole, normal, axis=0)
+        tilt = np.abs(np.arcsin(_length(other)) - np.arcsin(_length(equinox)))
+        # along the orbit of date, from one equinox to the other
+        sine = np.sum(normal * np.cross(equinox, other, axis=0), axis=0)
+        along = np.abs(np.arctan2(sine, np.sum(equinox * other, axis=0)))
+        found[name] = (
+            float(np.max(tilt[:-1])) / ARCSEC,
+            math.degrees(np.max(along[:-1])),
+            float(_length(pole - mine)[-1]) / ARCSEC,
         )
-        pole = float(np.linalg.norm(other.pole[:, -1] - mine.pole[:, -1]))
-        found[name] = tilt / ARCSEC, math.degrees(along), pole / ARCSEC
     return found
+
+
+def _length(vectors: FloatArray) -> FloatArray:
+    """Lengths of vectors, shape (3, n)."""
+    return np.asarray(np.sqrt(np.sum(vectors**2, axis=0)))
 
 
 def _apart(one: FloatArray, other: FloatArray) -> float:
