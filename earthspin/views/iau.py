@@ -19,7 +19,7 @@ from earthspin.views.drawing import (
     style,
 )
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import MAS_PER_CENTURY, Table, along, date
+from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 #: Sections that the figures stand on.
 DRAWN = ("residuals_by_model", "residual_sizes", "nutation", "core")
+
+#: Up to here the axis of the budget is linear, mas per century.
+LINEAR = 1.0
 
 MODELS = {
     "first-order": "first order, angular-momentum axis",
@@ -190,7 +193,8 @@ def flattening(tree: Result) -> Table:
     rows = []
     for origin, of in along(needed(tree, "inferred_flattening"), "origin"):
         error = float(of.flattening_error)
-        shown = f"{float(of.flattening):.10f}" + (f" ± {error:.10f}" if error else "")
+        value = float(of.flattening)
+        shown = with_error(value, error) if error else f"{value:.10f}"
         rows.append((origin, shown, f"{float(of.polar_moment):.7f}"))
     return Table(
         "H and C from the rate of precession",
@@ -210,7 +214,9 @@ def drawings(tree: Result) -> list[Drawing]:
     shown = drawn(
         "The budget",
         "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
-        "and the published contribution. Dashed: the closure.",
+        "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
+        "where the dots of a pair lie at one place, what is computed agrees with what is "
+        "published. Dashed: the closure, what remains of the sum.",
         plot_budget(tree),
     )
     makers = {"residuals_by_model": _residuals_in_time, "nutation": _response}
@@ -231,7 +237,10 @@ def _response(tree: Result) -> Drawing:
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Size of each effect, measured and published, and the closure.
+    """Each effect with its sign, measured and published, and the closure.
+
+    The axis is linear about zero and logarithmic beyond a milliarcsecond per century, alike to
+    both sides.
 
     Parameters
     ----------
@@ -243,19 +252,22 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     effects = [e for e in answer.effect.values if e != "first-order"]
     of, place = answer.sel(effect=effects), np.arange(len(effects))
-    for by, name, colour, words in (
-        (0.2, "psi_rate", BLUE, "measured by switching"),
-        (-0.2, "psi_rate_published", ORANGE, "published"),
+    for by, name, colour, marker, words in (
+        (0.14, "psi_rate", BLUE, "o", "measured by switching"),
+        (-0.14, "psi_rate_published", ORANGE, "D", "published"),
     ):
-        sizes = np.maximum(np.abs(of[name]) * MAS_PER_CENTURY, 1e-3)
-        ax.barh(place + by, sizes, height=0.36, color=colour, label=words)
+        sizes = of[name].values * MAS_PER_CENTURY
+        ax.hlines(place + by, 0, sizes, color=colour, lw=0.8, alpha=0.6)
+        ax.plot(sizes, place + by, marker, color=colour, ms=5, label=words)
     closure = float(answer.closure) * MAS_PER_CENTURY
-    ax.axvline(abs(closure), color=RED, lw=1, ls="--")
-    note(ax, f"closure {closure:+.1f}", (abs(closure), len(effects) - 0.6), (3, 0), color=RED)
+    ax.axvline(0, color="0.4", lw=0.8, zorder=0)
+    ax.axvline(closure, color=RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
     ax.set_yticks(place, effects)
-    ax.set_xscale("log")
-    ax.set_xlim(1e-3, 1e4)
-    ax.set_xlabel("size of the contribution to the rate of psi_A (mas per century)")
+    ax.invert_yaxis()
+    ax.set_xscale("symlog", linthresh=LINEAR)
+    reach = 2 * float(abs(of[["psi_rate", "psi_rate_published"]]).to_array().max())
+    ax.set_xlim(-reach * MAS_PER_CENTURY, reach * MAS_PER_CENTURY)
+    ax.set_xlabel("contribution to the rate of psi_A (mas per century)")
     legend_above(ax)
     return ax
 

@@ -63,6 +63,8 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
         Which of the three.
     ax : Axes, optional
     """
+    from matplotlib.collections import LineCollection
+
     ax = axes(ax, 6.4, 5.0)
     of = answer_of(result).sel(axis=axis)
     days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
@@ -71,8 +73,16 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
     line = np.linalg.lstsq(design, angles, rcond=None)[0]
     x, y = (angles - design[:, :2] @ line[:2]).T
-    dots = ax.scatter(x, y, c=days / 365.25, s=2, cmap="viridis")
-    ax.figure.colorbar(dots, ax=ax, label="time from the start (years)")
+    points = np.stack([x, y], axis=1)
+    path = LineCollection(
+        list(np.stack([points[:-1], points[1:]], axis=1)),
+        array=days[:-1] / 365.25,
+        cmap="viridis",
+        lw=0.7,
+    )
+    ax.add_collection(path)
+    ax.autoscale_view()
+    ax.figure.colorbar(path, ax=ax, label="time from the start (years)")
     ax.set_aspect("equal")
     ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
     ax.set_ylabel("eps, straight line removed (arcsec)")

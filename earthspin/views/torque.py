@@ -11,11 +11,12 @@ from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Table, along, date
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
-#: Longer series are drawn with thin lines.
-DENSE = 4000
+#: What turns more often than this in a figure is drawn as a band.
+MANY_SWINGS = 200
 
 
 def tables(tree: Result) -> list[Table]:
@@ -50,13 +51,21 @@ def through(tree: Result, title: str, smooth_days: float | None = None) -> Drawi
     """Declination above, torque below."""
     figure = empty(8, 4.6)
     upper, lower = figure.subplots(2, 1, sharex=True)
-    plot_declination(tree, ax=upper)
+    plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
+    moon = "moon" in answer_of(tree).perturber
     lines = (
-        f"Thin lines are daily values, thick lines means over {smooth_days:g} days; the mean for "
-        "the Moon varies with the inclination of its orbit to the equator."
+        f"Bands lie between the extremes within {smooth_days:g} days, thick lines are means over "
+        "the same time."
+        + (
+            " To see: the band of the Moon swells and shrinks with the inclination of its orbit to "
+            "the equator, and its mean with it."
+            if moon
+            else ""
+        )
         if smooth_days
-        else "Dashed lines are means. The torque vanishes when the perturber crosses the equator."
+        else "Dashed lines are means. To see: the torque vanishes when a perturber crosses the "
+        "equator, and is largest at its extremes."
     )
     return Drawing(
         title,
@@ -67,28 +76,25 @@ def through(tree: Result, title: str, smooth_days: float | None = None) -> Drawi
     )
 
 
-def plot_declination(result: Result, *, ax: Axes | None = None) -> Axes:
+def plot_declination(
+    result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
+) -> Axes:
     """Declination of each perturber in time.
 
     Parameters
     ----------
     result : Dataset or DataTree
         Of the question ``torque``.
+    smooth_days : float, optional
+        What swings more often than is seen is drawn as a band, between the extremes within this
+        time.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
     answer = answer_of(result)
     ax = axes(ax)
-    thin = answer.time.size >= DENSE
     for number, (label, of) in enumerate(along(answer, "perturber")):
-        ax.plot(
-            answer.time,
-            of.declination,
-            color=_colour(label, number),
-            lw=0.3 if thin else 0.8,
-            zorder=3 - 0.1 * number,
-            label=label,
-        )
+        _line_or_band(ax, of.declination, label, number, smooth_days)
     ax.set_ylabel("declination (deg)")
     legend_above(ax)
     return ax
@@ -104,21 +110,19 @@ def plot_torque(
     result : Dataset or DataTree
         Of the question ``torque``, evenly spaced.
     smooth_days : float, optional
-        Width of a running mean, drawn as a second line.
+        Width of a running mean, drawn as a second line; what swings more often than is seen is
+        drawn as a band, between the extremes within this time.
     ax : Axes, optional
     """
     answer = answer_of(result)
     ax = axes(ax)
-    thin = answer.time.size >= DENSE
     for number, (label, of) in enumerate(along(answer, "perturber")):
         torque, colour = of.torque.sel(component="x") * 1e-22, _colour(label, number)
-        lw, alpha = (0.3, 0.5) if thin else (0.8, 1.0)
-        ax.plot(answer.time, torque, color=colour, lw=lw, alpha=alpha)
+        _line_or_band(ax, torque, "", number, smooth_days, colour)
         if smooth_days:
-            step = float((answer.time[1] - answer.time[0]) / np.timedelta64(1, "D"))
             ax.plot(
                 answer.time,
-                torque.rolling(time=max(1, round(smooth_days / step)), center=True).mean(),
+                torque.rolling(time=_samples(answer, smooth_days), center=True).mean(),
                 color=colour,
                 lw=1.4,
                 zorder=4 - 0.1 * number,
@@ -131,6 +135,39 @@ def plot_torque(
     if smooth_days:
         legend_above(ax)
     return ax
+
+
+def _line_or_band(
+    ax: Axes,
+    series: xr.DataArray,
+    label: str,
+    number: int,
+    smooth_days: float | None,
+    colour: str = "",
+) -> None:
+    """A line, or a band between its extremes where the line would swing more often than is seen."""
+    colour = colour or _colour(label, number)
+    swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
+    if not smooth_days or swings < MANY_SWINGS:
+        ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
+        return
+    width = _samples(series, smooth_days)
+    near, some = series.rolling(time=width, center=True), slice(None, None, max(1, width // 6))
+    ax.fill_between(
+        series.time.values[some],
+        near.min().values[some],
+        near.max().values[some],
+        color=colour,
+        alpha=0.3,
+        lw=0,
+        label=label,
+    )
+
+
+def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:
+    """How many samples of an even series there are in some days."""
+    step = float((series.time[1] - series.time[0]) / np.timedelta64(1, "D"))
+    return max(1, round(days / step))
 
 
 def _colour(label: str, number: int) -> str:
