@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, SupportsFloat
@@ -11,6 +12,13 @@ import numpy as np
 import xarray as xr
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
+#: From here on, numbers are written with a power of ten.
+LARGE = 1e9
+#: What the brackets mean, for whoever meets them first.
+BRACKETS = (
+    "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
+    "last digits."
+)
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,10 @@ class Table:
 
 
 def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> str:
-    """Write a value and its half-width to two digits of the half-width.
+    """Write a value and, in brackets, two digits of its half-width.
+
+    The digits in brackets belong to the last ones before them, as journals write it:
+    ``50.404315(33)`` is 50.404315 ± 0.000033, and ``430.9(1.4)`` is 430.9 ± 1.4.
 
     Parameters
     ----------
@@ -55,17 +66,28 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
     if not math.isfinite(value):
         return "none (no motion)"
     if error <= 0 or not math.isfinite(error):
-        return f"{value:.6g}{behind}"
+        return f"{short_exponents(f'{value:.6g}')}{behind}"
+    if abs(value) < LARGE:
+        return f"{_in_brackets(value, error)}{behind}"
+    power = math.floor(math.log10(abs(value)))
+    return f"{_in_brackets(value / 10.0**power, error / 10.0**power)}e{power}{behind}"
+
+
+def _in_brackets(value: float, error: float) -> str:
+    """Two digits of the error behind the digits that they belong to."""
     digits = max(0, 1 - math.floor(math.log10(error)))
-    if abs(value) >= 1e9:
-        significant = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1
-        return f"{value:.{max(significant, 0)}e} ± {error:.1e}{behind}".replace("e+", "e")
-    return f"{value:.{digits}f} ± {error:.{digits}f}{behind}"
+    half = f"{error:.{digits}f}"
+    return f"{value:.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
+
+
+def short_exponents(text: str) -> str:
+    """Write exponents without a plus and without zeros before them: 2.6e35, 1.2e-5."""
+    return re.sub(r"(?<=\d)e(-?)\+?0*(?=\d)", r"e\1", text)
 
 
 def two_digits(value: SupportsFloat) -> str:
     """Write a number to two digits, without an exponent from 0.0001 to 999999."""
-    return f"{float(f'{float(value):.2g}'):g}"
+    return short_exponents(f"{float(f'{float(value):.2g}'):g}")
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:

@@ -11,6 +11,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from earthspin.errors import printable
+from earthspin.views.table import short_exponents
 
 if TYPE_CHECKING:
     from earthspin.views.table import Table
@@ -37,10 +38,10 @@ class Terminal(Console):
         for number, header in enumerate(table.headers):
             shown.add_column(_plain(header), justify="left" if number in table.words else "right")
         for row in table.rows:
-            shown.add_row(*map(_plain, row))
+            shown.add_row(*(_plain(short_exponents(cell)) for cell in row))
         self.print(shown)
         for words in filter(None, (table.note, table.cost)):
-            self.print(_plain(words), style="dim")
+            self.print(_plain(short_exponents(words)), style="dim")
 
 
 def _plain(words: str) -> Text:

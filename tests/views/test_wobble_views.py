@@ -34,7 +34,7 @@ def words(result: xr.Dataset | xr.DataTree) -> str:
 
 def test_tables_of_the_ladder(ladder: xr.DataTree) -> None:
     text = words(ladder)
-    for expected in ("anelastic 431.6 ± ", "303.62464", "not a prediction", "Nastula & Gross"):
+    for expected in ("anelastic 431.6(", "303.62464", "not a prediction", "Nastula & Gross"):
         assert expected in text
     assert "free core nutation; its period in space: -457.6 d (hydrostatic core)" in text
     assert "has no ocean" in words(earthspin.wobble_ladder(body="mars"))
@@ -42,9 +42,9 @@ def test_tables_of_the_ladder(ladder: xr.DataTree) -> None:
 
 def test_tables_of_the_pole(pole: xr.DataTree) -> None:
     text = words(pole)
-    assert "period, d 433.0 ± 3.9" in text
-    assert "smallest amplitude, mas, 2018 14 ± 12" in text
-    assert "period of 434 days 433.0 ± 3.9 within the error" in text
+    assert "period, d 433.0(3.9)" in text
+    assert "smallest amplitude, mas, 2018 14(12)" in text
+    assert "period of 434 days 433.0(3.9) within the error" in text
     assert "cone of 0.2 arcsec 0.014 to 0.203 1978 to 1999" in text
     settings = {"polar_motion.method": "least-squares", "span": list(SPAN)}
     quick = words(earthspin.run_tree(earthspin.load_scene("polar-motion", settings)))
@@ -107,8 +107,8 @@ def test_figures_draw_on_given_axes(ladder: xr.DataTree) -> None:
 def test_report(tmp_path: Path) -> None:
     assert main(["report", "wobble", "--out", str(tmp_path)]) == 0
     text = (tmp_path / "wobble.html").read_text()
-    assert "303.62464 ± 0.00018 days" in text
-    assert text.count("<svg") == 4
+    assert "303.62464(18) days" in text
+    assert text.count("<figure") == 4
     assert 'src="' not in text  # one file that works offline
     assert 'href="http' not in text
     for name in ("wobble", "polar-motion"):
