@@ -32,7 +32,7 @@ def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     for word in ("sun", "moon", "total", "25712", "mccullough", "geodesic", "303.62", "2006-03-22"):
         assert word in out, word
     page = (tmp_path / "r" / "index.html").read_text()
-    assert page.count("<svg") == 4
+    assert page.count("<figure") == 4
     assert "http" not in page.replace("http://www.w3.org", "").replace(
         "http://purl.org", ""
     ).replace("https://matplotlib.org", "").replace("http://creativecommons.org", "")

@@ -41,6 +41,9 @@ STYLE: Any = {
 }
 
 
+#: Width of figures on a phone, inches.
+NARROW = 5.2
+
 #: Settings of windows and of where things lie, which are none of a picture's.
 _NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "savefig.directory")
 
@@ -95,6 +98,21 @@ class Drawing:
     @property
     def svg(self) -> str:
         """Text of the picture, without an XML head."""
+        return self._saved()
+
+    @property
+    def narrow(self) -> str:
+        """The same for a phone, where words would be too small to read; empty if it is narrow."""
+        width, height = self.figure.get_size_inches()
+        if width <= 1.2 * NARROW:
+            return ""
+        try:
+            self.figure.set_size_inches(NARROW, height)
+            return self._saved()
+        finally:
+            self.figure.set_size_inches(width, height)
+
+    def _saved(self) -> str:
         text = io.StringIO()
         with style():
             self.figure.savefig(text, format="svg", metadata={"Date": None})

@@ -159,8 +159,8 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
         title="Two ellipsoids and a polhode",
         caption="Seen in the body, the angular velocity stays on the inertia ellipsoid (blue, "
         "constant energy) and on the momentum ellipsoid (red, constant angular momentum). So it "
-        "moves along their intersection, the polhode (black). The grey curve is the polhode of the "
-        "opposite start.",
+        "moves along their intersection, the polhode (heavy line). The thinner curve is the "
+        "polhode of the opposite start.",
         items=[
             mesh(ellipsoid(inertia), BLUE),
             mesh(ellipsoid(momentum), RED, opacity=0.12),
@@ -188,8 +188,8 @@ def rolling_ellipsoid(tree: Result) -> Solid:
         title="The ellipsoid rolls on the invariable plane",
         caption="Seen in space, with the angular momentum vertical, the inertia ellipsoid touches "
         "a fixed plane at the tip of the angular velocity and rolls on it without slipping. The "
-        "point of contact draws the polhode on the ellipsoid (black) and the herpolhode on the "
-        "plane (red).",
+        "point of contact draws the polhode on the ellipsoid (heavy line) and the herpolhode on "
+        "the plane (red).",
         items=[
             mesh(ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
             line(poinsot.polhode.values, BLACK, width=2.5, frame="body"),

@@ -14,7 +14,7 @@ import xarray as xr
 from earthspin.engine.plan import NOT_ASKED
 from earthspin.scenes import plan, run_tree
 from earthspin.views.reading import Result, answer_of, changes_of, section
-from earthspin.views.table import Table, along
+from earthspin.views.table import BRACKETS, Table, along
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -103,7 +103,11 @@ def scene_page(tree: Result) -> str:
 
 
 def page_of(
-    *trees: Result, title: str, lead: str | None = None, drawings: Sequence[Drawing] | None = None
+    *trees: Result,
+    title: str,
+    lead: str | None = None,
+    drawings: Sequence[Drawing] | None = None,
+    links: Sequence[tuple[str, str]] = (),
 ) -> str:
     """Page of several answers together.
 
@@ -115,6 +119,8 @@ def page_of(
         A sentence at the head; that of the first question by default.
     drawings : sequence of Drawing, optional
         Those of the answers by default.
+    links : sequence of (str, str)
+        Words and addresses of other pages, relative to this one.
 
     Returns
     -------
@@ -132,7 +138,8 @@ def page_of(
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
         lead=lead,
-        note="Every error is the half-width of a 95 % interval.",
+        note=BRACKETS,
+        links=links,
         last=what_ran(*trees),
         footer=_footer(answer_of(trees[0])),
     )

@@ -22,7 +22,7 @@ from earthspin.views.reading import (
     section,
 )
 from earthspin.views.stars import YEARS, Label, plot_path, year_words
-from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, measured, two_digits
+from earthspin.views.table import BRACKETS, Table, along, date, measured, two_digits, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,17 +32,29 @@ FloatArray = NDArray[np.float64]
 #: Sections that the figures stand on.
 DRAWN = ("convergence", "seasons")
 
+#: Once round, arcsec.
+FULL_TURN = 360 * 3600.0
+
+#: A pole that comes so near a star passes it, degrees.
+PASSED = 2.0
+
 #: How far the label of a year stands from its point of the circle, degrees of the chart.
 LABEL = 3.0
 
 
 def lead(tree: Result) -> str:
     """The sentence at the head of the page."""
-    answer = answer_of(tree)
-    period = measured(answer.isel(perturber=-1), "precession_period", "years")
+    answer, known = answer_of(tree), section(tree, "iau_2006")
+    alone = measured(answer.isel(perturber=-1), "precession_period", "years")
+    pull = f"the pull of {perturbers_of(answer)} on the equatorial bulge"
+    once = f"The axis of {body_of(answer)} goes once round in"
+    if known is None:
+        return f"{once} {alone} in this model: {pull}, and nothing else."
+    rate, iau = float(known.iau_rate + known.closure), float(known.iau_rate)
+    error = float(known.closure_error) * FULL_TURN / rate**2
     return (
-        f"The axis of {body_of(answer)} goes once round in {period} under the pull of "
-        f"{perturbers_of(answer)} on the equatorial bulge."
+        f"{once} {with_error(FULL_TURN / rate, error)} years by all known effects together; IAU "
+        f"2006 has {FULL_TURN / iau:.3f}. The model of this page, {pull}, gives {alone} by itself."
     )
 
 
@@ -66,8 +78,7 @@ def rates(tree: Result) -> Table:
     answer = answer_of(tree)
     first = str(answer.perturber.values[0])
     method, given = (
-        two_digits(answer[f"precession_rate_error_{share}"][-1] * MAS_PER_CENTURY)
-        for share in ("method", "input")
+        two_digits(answer[f"precession_rate_error_{share}"][-1]) for share in ("method", "input")
     )
     return Table(
         "Precession",
@@ -84,9 +95,9 @@ def rates(tree: Result) -> Table:
         ],
         "Rates are in longitude along the fixed orbit and refer to "
         f"{date(answer.reference_epoch, 'm')} TDB; the obliquity is {float(answer.obliquity):.6f} "
-        f"deg. Torques are averaged with the {answer.precession_rate.attrs['window']}. Errors are "
-        f"95 % half-widths; in the last rate, averaging contributes {method} mas/cy and the given "
-        f"numbers {given} mas/cy.",
+        f"deg. Torques are averaged with the {answer.precession_rate.attrs['window']}. In the "
+        f"error of the last rate, {method} arcsec/yr are due to averaging and {given} arcsec/yr to "
+        f"the given numbers. {BRACKETS}",
     )
 
 
@@ -114,8 +125,9 @@ def sky_and_calendar(tree: Result) -> Table:
         ],
         "General precession is the precession of the equator computed here minus the motion of "
         "the ecliptic, which is taken from IAU 2006. A calendar of 365.25 days drifts against the "
-        "tropical year, which already contains the precession; the source text (Appendix I, "
-        '"Rigid Body Dynamics") has 129.4 years and does not say from what.',
+        "tropical year, which already contains the precession; the source text has 129.4 years and "
+        'does not say from what. I.8 is a section of the source text, Appendix I, "Rigid Body '
+        'Dynamics".',
     )
 
 
@@ -218,8 +230,8 @@ def standstills(tree: Result) -> Table:
 
 
 def drawings(tree: Result) -> list[Drawing]:
-    """Convergence of the average and, for the Earth, the circle of the pole among the stars."""
-    return of_sections(tree, {"convergence": convergence, "seasons": circle_of_pole})
+    """For the Earth, the circle of the pole among the stars; convergence of the average."""
+    return of_sections(tree, {"seasons": circle_of_pole, "convergence": convergence})
 
 
 @style()
@@ -228,8 +240,9 @@ def convergence(tree: Result) -> Drawing:
     return drawn(
         "How the average converges",
         "Difference between the rate averaged over a window and the adopted rate, against the "
-        "length of the window. A plain mean converges slowly, whatever its length; a tapered mean "
-        "over three or more whole cycles is far closer. Dashed: error claimed for averaging.",
+        "length of the window. To see: a plain mean converges slowly, whatever its length; a "
+        "tapered mean is far closer once the window holds three or more whole cycles. Dashed: the "
+        "error claimed for averaging.",
         plot_convergence(tree),
     )
 
@@ -247,15 +260,15 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
     ax = axes(ax)
     for colour, (window, of) in zip(CYCLE, along(curve, "window"), strict=False):
-        off = abs(of.rate_by_window - total.precession_rate) * MAS_PER_CENTURY
-        ax.semilogy(curve.window_cycles, np.maximum(off, 1e-3), color=colour, lw=1.2, label=window)
-    error = float(total.precession_rate_error_method) * MAS_PER_CENTURY
+        off = abs(of.rate_by_window - total.precession_rate)
+        ax.semilogy(curve.window_cycles, np.maximum(off, 1e-8), color=colour, lw=1.2, label=window)
+    error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
-    words = f"error claimed for averaging, {error:.2g} mas/cy"
+    words = f"error claimed for averaging, {two_digits(error)} arcsec/yr"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
     ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
-    ax.set_ylabel("difference (mas per century)")
-    ax.set_ylim(3e-2, None)
+    ax.set_ylabel("difference (arcsec per year)")
+    ax.set_ylim(3e-7, None)
     ax.legend(loc="upper right", ncols=2)
     return ax
 
@@ -263,13 +276,34 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 @style()
 def circle_of_pole(tree: Result) -> Drawing:
     """The circle of the pole among the stars."""
+    ax = plot_pole_circle(tree)
+    ax.set_title("the pole's path at the rate of this model")
     return drawn(
         "The circle of the pole among the stars",
         "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
-        "ecliptic. The sky is drawn as seen from inside, with stars at their present places.",
-        plot_pole_circle(tree),
+        "ecliptic; the sky as seen from inside, with stars at their present places. "
+        f"{_passes(tree)}",
+        ax,
         square=True,
     )
+
+
+def _passes(tree: Result) -> str:
+    """Which bright stars the pole passes within two degrees, and when."""
+    total = answer_of(tree).isel(perturber=-1)
+    obliquity, rate = float(np.radians(total.obliquity)), float(si(total.precession_rate))
+    years = np.arange(-9900, 14001, 100)
+    back = rate * (years - 2000) * JULIAN_YEAR
+    path = np.degrees(obliquity) * np.array([-np.sin(back), np.cos(back)])
+    passed = []
+    for name, ra, dec, _ in STARS:
+        x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
+        away = np.hypot(path[0] - x, path[1] - y)
+        year = int(years[away.argmin()])
+        if away.min() < PASSED:
+            passed.append((year, f"{name} about {year if year > 0 else f'{-year} BC'}"))
+    words = [words for _, words in sorted(passed)]
+    return f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
 
 
 def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:

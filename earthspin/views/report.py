@@ -69,9 +69,10 @@ def write_report(
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
         advance(1)
-        drawings = _torques(tree, advance) + drawings_for(tree) if figures else []
+        drawings = drawings_for(tree) + _torques(tree, advance) if figures else []
         title = answer_of(tree).attrs["title"]
-        pages = {"index.html": page_of(tree, title=title, drawings=drawings)}
+        links = [("Rotors and tops, to turn and to play", "rotors.html")] if figures else []
+        pages = {"index.html": page_of(tree, title=title, drawings=drawings, links=links)}
         if figures:
             pages["rotors.html"] = gallery_page()
         advance(1)
@@ -120,7 +121,8 @@ def gallery_page() -> str:
         solids=gallery(),
         lead="How bodies rotate without torque, and how a heavy top moves (sections I.5 to I.7 of "
         'the source text, Appendix I, "Rigid Body Dynamics"). Every picture can be turned with '
-        "the mouse and played in time.",
+        "the mouse or the arrow keys and played in time; the wheel comes closer once a picture "
+        "has been touched.",
         footer=f"earthspin {__version__}.",
     )
 

@@ -1,5 +1,6 @@
 """The page of rotors and tops, opened in a headless browser."""
 
+import json
 import os
 import re
 import shutil
@@ -10,7 +11,9 @@ import matplotlib.image
 import numpy as np
 import pytest
 
+from earthspin.views.of_question import scene_page
 from earthspin.views.report import gallery, gallery_page
+from tests import shipped
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = (
@@ -66,7 +69,30 @@ def test_there_is_something_to_see(browser: str, page: Path, tmp_path: Path) -> 
     assert (rows > 20).sum() > 7 * 100
 
 
+@pytest.mark.parametrize("scene", ["precession", "iau"])
+def test_nothing_lies_beyond_the_edge_of_a_phone(browser: str, scene: str, tmp_path: Path) -> None:
+    """In a frame of 390 pixels, the page is no wider, nor is any of its tables and figures."""
+    frame = tmp_path / "phone.html"
+    content = json.dumps(scene_page(shipped.tree(scene))).replace("<", r"\u003c")
+    frame.write_text(
+        f"""<!DOCTYPE html><iframe width="390" height="800" frameborder="0"></iframe><script>
+        const frame = document.querySelector("iframe");
+        frame.onload = () => {{
+          const page = frame.contentDocument, wide = page.documentElement.scrollWidth;
+          const beyond = [...page.querySelectorAll("main *, header *")]
+            .filter((e) => !e.closest("thead, svg") && e.getBoundingClientRect().right > 390);
+          document.title = `${{wide}} ${{beyond.map((e) => e.outerHTML).join("")}}`;
+        }};
+        frame.srcdoc = {content};
+        </script>""",
+        encoding="utf-8",
+    )
+    html, log = opened(browser, frame, tmp_path, "--dump-dom")
+    assert "CONSOLE" not in log, log
+    assert re.search(r"<title>(.*?)</title>", html, re.DOTALL)[1] == "390 "
+
+
 def test_the_page_needs_no_network(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
-    assert not re.search(r"(?:src|href)\s*=", text)
+    assert not re.search(r"(?:src|href)\s*=(?!\"#)", text)
     assert "http" not in text

@@ -25,7 +25,7 @@ def test_pyplot_is_not_needed(year: xr.Dataset) -> None:
 def test_axes_are_labelled_with_units(year: xr.Dataset, precession_tree: xr.DataTree) -> None:
     assert torque.plot_declination(year).get_ylabel() == "declination (deg)"
     assert "N m" in torque.plot_torque(year).get_ylabel()
-    assert "mas per century" in precession.plot_convergence(precession_tree).get_ylabel()
+    assert "arcsec per year" in precession.plot_convergence(precession_tree).get_ylabel()
 
 
 def test_given_axes_are_used(year: xr.Dataset) -> None:

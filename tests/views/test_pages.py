@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import shipped_scenes
 from earthspin.views.of_question import drawings_for, figures_of, scene_page, solids_for, tables_for
 from earthspin.views.report import write_report
+from earthspin.views.typeset import typeset
 from tests import shipped
 
 FIGURES = {
@@ -26,16 +28,47 @@ def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
     page = scene_page(tree)
     headings = [unescape(words) for words in re.findall(r"<h2>(.*?)</h2>", page)]
     assert headings == [
-        *(table.title for table in tables_for(tree)),
+        *(drawing.title for drawing in drawings_for(tree)[_stands_first(tree) :]),
         *(solid.title for solid in solids_for(tree)),
-        *(drawing.title for drawing in drawings_for(tree)),
+        *(table.title for table in tables_for(tree)),
         "Parts that ran, and parts left out",
     ]
-    assert page.count("<svg") == len(drawings_for(tree))
-    assert page.count("<canvas aria-label") == len(solids_for(tree))
-    assert unescape(page).count(tree.attrs["neglected"]) == 1
+    assert page.count('<svg class="usual"') == len(drawings_for(tree))
+    assert page.count("<canvas") == len(solids_for(tree))
+    linked = set(re.findall(r'<a href="#(.*?)"', page))
+    assert linked <= set(re.findall(r'<(?:section|details) id="(.*?)"', page))
+    assert page.count(typeset(f"Left out: {tree.attrs['neglected']}.")) == 1
     assert page.count('class="cost"') == 1
     assert not re.search(r"(?:src|href)\s*=\s*\"http", page)
+
+
+def _stands_first(tree: xr.DataTree) -> int:
+    """One if the first figure stands beside the title, where it needs no heading."""
+    return int(any(drawing.square for drawing in drawings_for(tree)[:1]))
+
+
+@pytest.mark.parametrize("scene", ["precession", "iau", "wobble", "poinsot"])
+def test_names_of_a_page_are_its_own_and_figures_have_words(scene: str) -> None:
+    page = scene_page(shipped.tree(scene))
+    names = re.findall(r'\bid="(.*?)"', page)
+    assert len(names) == len(set(names))
+    for words in re.findall(r"<svg[^>]*>", page):
+        assert re.search(r'role="img" aria-label="[^"]{40,}"', words)
+
+
+def test_the_head_of_the_precession_page_says_of_which_number_it_speaks() -> None:
+    tree = shipped.tree("precession")
+    page = scene_page(tree)
+    known = tree["iau_2006"]
+    rate = float(tree.precession_rate[-1]) + float(tree["neglected"].neglected_effect.sum())
+    lead = page[page.index('class="lead"') : page.index("<nav")]
+    assert f"{360 * 3600 / rate:.3f}(" in lead
+    assert f"IAU 2006 has {360 * 3600 / float(known.iau_rate):.3f}" in lead
+    assert "25712" in lead[lead.index("The model of this page") :]
+    mars = scene_page(earthspin.run_tree(earthspin.load_scene("precession", {"body": "mars"})))
+    assert "The axis of Mars goes once round" in mars
+    for word in ("Polaris", "IAU 2006", "I.8", "of the Earth"):
+        assert word not in mars, word
 
 
 @pytest.mark.parametrize(("scene", "count"), FIGURES.items())
@@ -79,4 +112,4 @@ def test_report_gives_the_tree_and_its_files(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["index.html", "precession.nc"]
     again = earthspin.open(tmp_path / "precession.nc")
     assert again["standstills"].identical(tree["standstills"])
-    assert scene_page(again).count("<h2>") == len(tables_for(tree)) + 2 + 1
+    assert scene_page(again).count("<h2>") == len(tables_for(tree)) + 1 + 1

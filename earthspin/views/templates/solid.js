@@ -1,4 +1,5 @@
-// Draws each <figure class="solid"> from the JSON beside it: turn with the mouse, play in time.
+// Draws each <figure class="solid"> from the JSON beside it: turn with the mouse, a finger or the
+// arrow keys, play in time. The wheel and a finger scroll the page until the picture is touched.
 // Plain canvas, no library: faces and lines are sorted by depth and painted from the back.
 "use strict";
 
@@ -8,14 +9,23 @@ function rotateByQuaternion(q, v) {
   return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx];
 }
 
+// Seconds that the whole motion takes when it is played.
+const PLAYING = 15;
+
+// Colours as the page has them in light and in dark.
+const THEMED = { "#1d1f21": "--ink", "#0072b2": "--blue", "#d55e00": "--red", "#009e73": "--green", "#999999": "--soft" };
+const themed = (colour) =>
+  getComputedStyle(document.documentElement).getPropertyValue(THEMED[colour.toLowerCase()] || "").trim() || colour;
+
 function makeSolid(figure) {
   const scene = JSON.parse(figure.querySelector("script").textContent);
   const canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
   const slider = figure.querySelector("input[type=range]"), button = figure.querySelector("button");
+  const step = figure.querySelector("button.step");
   const clock = figure.querySelector("output");
   const frames = scene.times.length;
   // The last moment first: what grows in time is then there to be seen.
-  const view = { turn: scene.turn, tilt: scene.tilt, zoom: 1, frame: frames - 1, playing: false };
+  const view = { turn: scene.turn, tilt: scene.tilt, zoom: 1, frame: frames - 1, playing: false, from: 0 };
 
   // Place of a point of an item at the current time, in space.
   const inSpace = (item, point) =>
@@ -73,8 +83,9 @@ function makeSolid(figure) {
   function paint() {
     pen.clearRect(0, 0, canvas.width, canvas.height);
     pen.lineJoin = pen.lineCap = "round";
+    const colours = new Map(scene.items.map((item) => [item, themed(item.colour)]));
     for (const { corners, item } of pieces()) {
-      pen.strokeStyle = pen.fillStyle = item.colour;
+      pen.strokeStyle = pen.fillStyle = colours.get(item);
       pen.globalAlpha = 1;
       pen.lineWidth = (item.width || 1) * devicePixelRatio;
       if (item.kind === "arrow") {
@@ -103,34 +114,74 @@ function makeSolid(figure) {
     paint();
   }
 
-  function play() {
-    if (!view.playing) return;
-    view.frame = (view.frame + 1) % frames;
+  function show(frame) {
+    view.frame = ((frame % frames) + frames) % frames;
     slider.value = view.frame;
     paint();
+  }
+
+  // By the clock: a slow machine shows fewer pictures, not a slower motion.
+  function play(now) {
+    if (!view.playing) return;
+    const frame = Math.floor((((now - view.from) / 1000 / PLAYING) % 1) * frames);
+    if (frame !== view.frame) show(frame);
     requestAnimationFrame(play);
   }
 
-  canvas.addEventListener("pointerdown", (e) => canvas.setPointerCapture(e.pointerId));
-  canvas.addEventListener("pointermove", (e) => {
-    if (!e.buttons) return;
-    view.turn -= e.movementX / 150;
-    view.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.tilt + e.movementY / 150));
+  function start(playing) {
+    view.playing = playing;
+    button.textContent = playing ? "pause" : "play";
+    if (!playing) return;
+    const at = view.frame === frames - 1 ? 0 : view.frame;
+    view.from = performance.now() - (at / frames) * PLAYING * 1000;
+    requestAnimationFrame(play);
+  }
+
+  function turn(right, up) {
+    view.turn -= right;
+    view.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.tilt + up));
     paint();
+  }
+
+  function zoom(factor) {
+    view.zoom = Math.max(0.3, Math.min(8, view.zoom * factor));
+    paint();
+  }
+
+  const touched = (yes) => canvas.classList.toggle("touched", yes);
+  const keys = {
+    ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0),
+    ArrowUp: () => turn(0, -0.1), ArrowDown: () => turn(0, 0.1),
+    "+": () => zoom(1.15), "-": () => zoom(1 / 1.15),
+    " ": () => start(!view.playing), ".": () => { start(false); show(view.frame + 1); },
+    Escape: () => touched(false),
+  };
+
+  canvas.addEventListener("keydown", (e) => {
+    if (!keys[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
+    e.preventDefault();
+    keys[e.key]();
+  });
+  canvas.addEventListener("click", () => touched(true));
+  addEventListener("pointerdown", (e) => { if (e.target !== canvas) touched(false); });
+  canvas.addEventListener("pointerdown", (e) => {
+    if (e.pointerType === "mouse") touched(true);
+    if (canvas.classList.contains("touched")) canvas.setPointerCapture(e.pointerId);
+  });
+  canvas.addEventListener("pointermove", (e) => {
+    if (e.buttons && canvas.classList.contains("touched")) turn(e.movementX / 150, e.movementY / 150);
   });
   canvas.addEventListener("wheel", (e) => {
+    if (!canvas.classList.contains("touched")) return;
     e.preventDefault();
-    view.zoom = Math.max(0.3, Math.min(8, view.zoom * Math.exp(-e.deltaY / 600)));
-    paint();
+    zoom(Math.exp(-e.deltaY / 600));
   }, { passive: false });
   slider.max = frames - 1;
   slider.value = frames - 1;
-  slider.addEventListener("input", () => { view.frame = Number(slider.value); paint(); });
-  button.addEventListener("click", () => {
-    view.playing = !view.playing;
-    button.textContent = view.playing ? "pause" : "play";
-    play();
-  });
+  slider.addEventListener("input", () => { start(false); show(Number(slider.value)); });
+  button.addEventListener("click", () => start(!view.playing));
+  step.addEventListener("click", () => { start(false); show(view.frame + 1); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paint);
   figure.classList.toggle("still", frames < 2);
   addEventListener("resize", resize);
   resize();
