@@ -1,0 +1,239 @@
+"""Pages to play with: a picture that moves, its settings, and numbers, in one file each.
+
+Their formulas stand in ``templates/formulas.js`` and are compared with this library's; what they
+start from, the bodies' numbers, comes from the library.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from earthspin._version import __version__
+from earthspin.bodies import EARTH, MOON, SUN
+from earthspin.constants import ARCSEC, DAY, EPSILON_0, Constant
+from earthspin.engine import drafts
+from earthspin.errors import SceneError
+
+MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0), as recalled"
+LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342, as recalled"
+#: Mean orbits about the Earth: half the long axis, eccentricity, inclination to the ecliptic.
+SUN_DISTANCE = Constant(1.000001018 * 149597870700.0, "m", None, MEAN_ELEMENTS)
+SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS)
+MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS)
+MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS)
+#: One turn of the Earth, s.
+EARTH_TURNS = float(np.asarray(EARTH.spin_period))
+MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS)
+
+
+@dataclass(frozen=True)
+class Play:
+    """A page to play with.
+
+    Attributes
+    ----------
+    title, lead : str
+        Heading, and the sentence below it.
+    alternative : str
+        What the picture shows, for those who do not see it.
+    notes : tuple of str
+        What is drawn otherwise than it is, and what is left out.
+    given : callable
+        Numbers that its script starts from.
+    still : bool
+        Whether nothing moves in it.
+    """
+
+    title: str
+    lead: str
+    alternative: str
+    notes: tuple[str, ...]
+    given: Callable[[], dict[str, object]]
+    still: bool = False
+
+
+def _sky() -> dict[str, object]:
+    """What pulls on the Earth, and the Earth."""
+    return {
+        "flattening": EARTH.dynamical_flattening,
+        "spin": 2 * math.pi / EARTH_TURNS,
+        "obliquity": EPSILON_0.value * ARCSEC,
+        "sun": {
+            "gm": SUN.gm,
+            "distance": SUN_DISTANCE.value,
+            "eccentricity": SUN_ECCENTRICITY.value,
+            "inclination": 0.0,
+        },
+        "moon": {
+            "gm": MOON.gm,
+            "distance": MOON_DISTANCE.value,
+            "eccentricity": MOON_ECCENTRICITY.value,
+            "inclination": math.radians(MOON_INCLINATION.value),
+        },
+    }
+
+
+def _interior() -> dict[str, object]:
+    """What the upper rungs of the Earth's ladder stand on, and the observed period."""
+    from earthspin.interior.love import elastic
+    from earthspin.interior.named import INTERIORS
+    from earthspin.scenes import run_tree
+    from earthspin.wobble.ladder import Spin, inputs_of, love_radius
+
+    interior = INTERIORS["prem"]
+    spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
+    figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}
+    inputs = inputs_of(interior, spin, {**figure, "triaxiality": 0.0})
+    assert interior.layers is not None
+    assert interior.observed_core_ellipticity is not None
+    love = elastic(interior.layers)
+    return {
+        "flattening": EARTH.dynamical_flattening,
+        "strain": spin.centrifugal(love_radius(interior, spin)) / EARTH.j2,
+        "day": EARTH_TURNS / DAY,
+        "k2": love.k,
+        "coreK": love.core_k,
+        "kPressure": love.k_pressure,
+        "coreKPressure": love.core_k_pressure,
+        "coreFraction": inputs.core_fraction,
+        "coreEllipticity": interior.observed_core_ellipticity.value,
+        "ocean": inputs.ocean,
+        "observed": run_tree("wobble", ["observed"])["observed"].observed_period.item(),
+    }
+
+
+def _nothing() -> dict[str, object]:
+    return {}
+
+
+PLAYS = {
+    "precession": Play(
+        "Precession, to play with",
+        "What if the Moon were heavier, nearer, or not there? Change it, the obliquity and the "
+        "flattening, and see how fast the axis goes round, and where the pole goes.",
+        "A spinning planet with its axis, the circle that its pole describes about the pole of the "
+        "ecliptic, and the Moon on its way round.",
+        (
+            "The rate is that of mean Keplerian orbits, with the node of the Moon averaged, and "
+            "comes out half a per cent above that of the report, which takes the Moon from an "
+            "ephemeris. Spin and month are slowed down so that "
+            "one sees them; the flattening of the planet is exaggerated.",
+            "A Moon of another mass or distance would change the spin and the obliquity in the "
+            "long run; here each can be set by itself.",
+        ),
+        _sky,
+    ),
+    "rotor": Play(
+        "A free body, to play with",
+        "A brick, thrown. About its longest and its shortest side it turns steadily; about the "
+        "one between, the least push makes it tumble.",
+        "A brick that tumbles about its fixed angular momentum, with its angular velocity and the "
+        "path of the angular velocity on the body.",
+        (
+            "The angular momentum (L, blue) stays where it is in space; the angular velocity "
+            "(omega) moves along the polhode (red), which turns with the brick.",
+        ),
+        _nothing,
+    ),
+    "top": Play(
+        "A heavy top, to play with",
+        "Let go, the top nods while it goes round: with a push along it draws waves, with none "
+        "cusps, with a push against it loops.",
+        "A spinning top on its point, the two circles between which its axis nods, and the curve "
+        "that the tip of the axis draws.",
+        (
+            "A disc of 0.2 kg whose centre of mass is 5 cm from the point, on the Earth, without "
+            "friction; drawn eight times slower than it moves, at speed 1.",
+        ),
+        _nothing,
+    ),
+    "wobble": Play(
+        "The ladder of the free wobble, to play with",
+        "A rigid Earth would wobble in ten months, ours takes fourteen. See what the mantle, the "
+        "core and the ocean do to the period.",
+        "Bars of the period of the free wobble by four models, and a line at the observed period.",
+        (
+            "Each rung adds to the one before it. The last rung of the ladder, anelasticity, needs "
+            "an integration through the mantle and is left out here, as are the three axes.",
+        ),
+        _interior,
+        still=True,
+    ),
+}
+
+
+def play_page(name: str) -> str:
+    """Page to play with.
+
+    Parameters
+    ----------
+    name : str
+        ``"precession"``, ``"rotor"``, ``"top"`` or ``"wobble"``.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+
+    Raises
+    ------
+    SceneError
+        If there is no such page.
+    """
+    from earthspin.views.page import environment, source
+
+    if name not in PLAYS:
+        raise SceneError("play", name, f"take one of {', '.join(PLAYS)}")
+    play = PLAYS[name]
+    numbers = json.dumps(play.given(), default=lambda number: np.asarray(number).item())
+    return (
+        environment()
+        .get_template("play.html.j2")
+        .render(
+            title=play.title,
+            lead=play.lead,
+            alternative=play.alternative,
+            notes=play.notes,
+            still=play.still,
+            given=numbers.replace("<", "\\u003c"),
+            sheet=source("page.css"),
+            formulas=source("formulas.js"),
+            engine=source("play.js"),
+            script=source(f"play_{name}.js"),
+            footer=f"earthspin {__version__}.",
+        )
+    )
+
+
+def write_page(name: str, file: str | Path) -> Path:
+    """Write a page to play with.
+
+    Parameters
+    ----------
+    name : str
+        As of `play_page`.
+    file : str or Path
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    SceneError
+        If there is no such page.
+    OutputError
+        If the file cannot be written.
+    """
+    path = Path(file)
+    text = play_page(name)
+    drafts.check_writable(path.parent)
+    with drafts.replacing(path) as draft:
+        draft.write_text(text, encoding="utf-8")
+    return path

@@ -1,0 +1,182 @@
+// The motions of the pages to play with, in closed form; angles in rad, times in s.
+// Each function is compared with the library at a hundred random settings.
+"use strict";
+
+const formulas = (() => {
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const times = (s, a) => a.map((x) => s * x);
+  const unit = (a) => times(1 / Math.hypot(...a), a);
+
+  // --- elliptic functions ------------------------------------------------------------------------
+
+  // Jacobi's sn, cn, dn of argument u and parameter m < 1, by descending Landen steps.
+  function jacobi(u, m) {
+    const a = [1], c = [Math.sqrt(m)];
+    let b = Math.sqrt(1 - m), n = 0;
+    for (; Math.abs(c[n]) > 1e-16 && n < 30; n++) {
+      a.push((a[n] + b) / 2);
+      c.push((a[n] - b) / 2);
+      b = Math.sqrt(a[n] * b);
+    }
+    let phi = 2 ** n * a[n] * u;
+    for (; n > 0; n--) phi = (phi + Math.asin((c[n] / a[n]) * Math.sin(phi))) / 2;
+    const sn = Math.sin(phi);
+    return [sn, Math.cos(phi), Math.sqrt(1 - m * sn * sn)];
+  }
+
+  // Complete integral of the first kind.
+  function complete(m) {
+    let a = 1, b = Math.sqrt(1 - m);
+    while (Math.abs(a - b) > 1e-15 * a) [a, b] = [(a + b) / 2, Math.sqrt(a * b)];
+    return Math.PI / (a + b);
+  }
+
+  // Carlson's R_F (Carlson 1995, Numer. Algorithms 10, 13).
+  function carlson(x, y, z) {
+    for (let i = 0; i < 60; i++) {
+      const mean = (x + y + z) / 3;
+      if (Math.max(Math.abs(x - mean), Math.abs(y - mean), Math.abs(z - mean)) < 1e-4 * mean) {
+        const [p, q] = [1 - x / mean, 1 - y / mean], r = -p - q, e2 = p * q - r * r, e3 = p * q * r;
+        return (1 - e2 / 10 + e3 / 14 + (e2 * e2) / 24 - (3 * e2 * e3) / 44) / Math.sqrt(mean);
+      }
+      const l = Math.sqrt(x * y) + Math.sqrt(y * z) + Math.sqrt(z * x);
+      [x, y, z] = [(x + l) / 4, (y + l) / 4, (z + l) / 4];
+    }
+    return NaN;
+  }
+
+  // Integral of the first kind from 0 to phi, |phi| <= pi.
+  function incomplete(phi, m) {
+    if (Math.abs(phi) > Math.PI / 2) return Math.sign(phi) * (2 * complete(m) - incomplete(Math.PI - Math.abs(phi), m));
+    const s = Math.sin(phi), c = Math.cos(phi);
+    return s * carlson(c * c, 1 - m * s * s, 1);
+  }
+
+  // Gauss's rule with eight points over panels of even length.
+  const NODES = [0.1834346424956498, 0.525532409916329, 0.7966664774136267, 0.9602898564975363];
+  const WEIGHTS = [0.362683783378362, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763];
+  function integral(rate, from, to, panels) {
+    const half = (to - from) / panels / 2;
+    let sum = 0;
+    for (let i = 0; i < panels; i++) {
+      const middle = from + (2 * i + 1) * half;
+      for (let j = 0; j < 4; j++) sum += WEIGHTS[j] * (rate(middle - half * NODES[j]) + rate(middle + half * NODES[j]));
+    }
+    return sum * half;
+  }
+
+  // An angle that grows by the same amount in every period: whole periods once, the rest anew.
+  function grown(rate, period, panels) {
+    if (!Number.isFinite(period) || period === 0) return (t) => integral(rate, 0, t, panels);
+    const whole = integral(rate, 0, period, panels);
+    return (t) => {
+      const turns = Math.floor(t / period), rest = t - turns * period;
+      return turns * whole + integral(rate, 0, rest, Math.max(1, Math.ceil((panels * rest) / period)));
+    };
+  }
+
+  // --- precession ---------------------------------------------------------------------------------
+
+  // Rate of precession, rad/s, under bodies on Keplerian orbits whose node goes round on the ecliptic:
+  // 3/2 H/Omega GM/(a^3 (1 - e^2)^(3/2)) cos(obliquity) (1 - 3/2 sin^2(inclination)), body by body.
+  function precession({ flattening, spin, obliquity, pulls }) {
+    const rates = pulls.map(({ gm, distance, eccentricity, inclination }) =>
+      ((1.5 * flattening) / spin) * (gm / distance ** 3 / (1 - eccentricity ** 2) ** 1.5) *
+      Math.cos(obliquity) * (1 - 1.5 * Math.sin(inclination) ** 2));
+    const rate = rates.reduce((a, b) => a + b, 0);
+    return { rates, rate, period: (2 * Math.PI) / Math.abs(rate) };
+  }
+
+  // --- free rotor -----------------------------------------------------------------------------------
+
+  // Motion of a body without torque (Jacobi; Landau & Lifshitz, Mechanics, 37).
+  // moments and omega along the principal axes; gives a function of time.
+  function rotor(moments, omega) {
+    const momentum = moments.map((m, i) => m * omega[i]), size = Math.hypot(...momentum);
+    const energy2 = dot(momentum, omega), square = size * size;
+    let order = [0, 1, 2].sort((i, j) => moments[i] - moments[j]);
+    // The last axis is the one about which the angular velocity never changes its sign.
+    if (square < energy2 * moments[order[1]]) order = order.reverse();
+    const [I1, I2, I3] = order.map((i) => moments[i]), start = order.map((i) => omega[i]);
+    const even = (order[1] - order[0] + 3) % 3 === 1 ? 1 : -1;
+    const sense = even * Math.sign(I3 - I1);
+    const off = Math.abs(energy2 * I3 - square), along = Math.abs(square - energy2 * I1);
+    const a = Math.sqrt(off / (I1 * Math.abs(I3 - I1))), b = Math.sqrt(off / (I2 * Math.abs(I3 - I2)));
+    const c = Math.sqrt(along / (I3 * Math.abs(I3 - I1)));
+    const pace = Math.sqrt((Math.abs(I3 - I2) * along) / (I1 * I2 * I3));
+    const m = off > 0 ? (Math.abs(I2 - I1) * off) / (Math.abs(I3 - I2) * along) : 0;
+    const side = (start[2] < 0 ? -1 : 1) * sense;
+    const phase = off > 0 ? incomplete(Math.atan2((side * start[1]) / b, start[0] / a), m) : 0;
+    const omegaAt = (t) => {
+      const [sn, cn, dn] = jacobi(pace * t + phase, m), found = [0, 0, 0];
+      [found[order[0]], found[order[1]], found[order[2]]] = [a * cn, side * b * sn, side * sense * c * dn];
+      return found;
+    };
+    const period = (4 * complete(m)) / pace;
+    // Longitude of the last axis about the angular momentum.
+    const rate = (t) => {
+      const w = omegaAt(t), x = I1 * w[order[0]], y = I2 * w[order[1]];
+      return (size * ((x * x) / I1 + (y * y) / I2)) / (x * x + y * y);
+    };
+    const angle = off > 1e-28 * square * I3 ? grown(rate, period, 96) : (t) => (size / I1) * t;
+    const axis = [0, 0, 0];
+    axis[order[2]] = 1;
+    return {
+      period, energy: energy2 / 2, momentum: size, omega: omegaAt,
+      // Rows: directions of space, the third along the angular momentum, in the body.
+      attitude(t) {
+        const w = omegaAt(t), z = unit(moments.map((moment, i) => moment * w[i])), phi = angle(t);
+        const upright = Math.hypot(...cross(z, axis)) < 1e-12;
+        const node = unit(cross(z, upright ? [axis[1], axis[2], axis[0]] : axis)), beside = cross(z, node);
+        const [sin, cos] = [Math.sin(phi), Math.cos(phi)];
+        return [node.map((n, i) => cos * n - sin * beside[i]), node.map((n, i) => sin * n + cos * beside[i]), z];
+      },
+    };
+  }
+
+  // --- heavy top -----------------------------------------------------------------------------------
+
+  // Motion of a symmetric top that is let go at inclination theta without inclination rate.
+  // transverse, axial: moments about the pivot; weight: m g r; spin: omega_3. As in I.7.
+  function top({ transverse, axial, weight, theta, spin, phiRate }) {
+    const u0 = Math.cos(theta), a = (axial * spin) / transverse, b = phiRate * Math.sin(theta) ** 2 + a * u0;
+    const beta = (2 * weight) / transverse, alpha = (phiRate * Math.sin(theta)) ** 2 + beta * u0;
+    // (1 - u^2)(alpha - beta u) - (b - a u)^2 has the root u0; the others are those of a quadratic.
+    const q1 = -(alpha + a * a) + beta * u0, q0 = 2 * a * b - beta + q1 * u0;
+    const q = -(q1 + Math.sign(q1) * Math.sqrt(Math.max(0, q1 * q1 - 4 * beta * q0))) / 2;
+    const [u1, u2, u3] = [u0, q / beta, q0 / q].sort((x, y) => x - y);
+    const pace = Math.sqrt((beta * (u3 - u1)) / 4), m = (u2 - u1) / (u3 - u1), K = complete(m);
+    const phase = Math.abs(u0 - u1) <= Math.abs(u0 - u2) ? 0 : K, period = (2 * K) / pace;
+    const u = (t) => u1 + (u2 - u1) * jacobi(pace * t + phase, m)[0] ** 2;
+    const rate = (t) => { const x = u(t); return (b - a * x) / (1 - x * x); };
+    const phi = grown(rate, period, 128), psi = grown((t) => spin - u(t) * rate(t), period, 128);
+    const slow = a * a - 2 * beta * u0;
+    const steady = slow >= 0 ? beta / (a + Math.sign(a || 1) * Math.sqrt(slow)) : NaN;
+    return {
+      period, meanRate: phi(period) / period, turning: [Math.acos(Math.min(1, u2)), Math.acos(Math.max(-1, u1))], steady,
+      at: (t) => [Math.acos(Math.max(-1, Math.min(1, u(t)))), phi(t), psi(t)],
+    };
+  }
+
+  // --- wobble ---------------------------------------------------------------------------------------
+
+  // Periods of the free wobble in turns of the body, rung by rung (Sasao, Okubo & Saito 1980):
+  // [s - e + (1+s) kappa] [1 + s (1+beta) + e_f] = (1+s) X s (1+gamma).
+  function wobble({ flattening, unitStrain, k2, coreK, kPressure, coreKPressure, coreFraction, coreEllipticity, ocean }) {
+    const e = flattening / (1 - flattening);
+    const root = (kappa) => {
+      const x = coreFraction + unitStrain * kPressure;
+      const gamma = (unitStrain * coreK) / coreFraction, beta = (unitStrain * coreKPressure) / coreFraction;
+      const [p, q, r, s] = [1 + kappa, kappa - e, 1 + beta, 1 + coreEllipticity], y = x * (1 + gamma);
+      const [A, B, C] = [p * r - y, p * s + q * r - y, q * s];
+      // The root near zero; the other, near -1, is the free core nutation.
+      const far = (-B - Math.sqrt(B * B - 4 * A * C)) / (2 * A);
+      return { turns: (A * far) / C, core: 1 / (1 + far) };
+    };
+    const kappa = unitStrain * k2, fluid = root(kappa), wet = root(kappa + unitStrain * ocean);
+    return { rigid: 1 / e, elastic: (1 + kappa) / (e - kappa), fluidCore: fluid.turns, ocean: wet.turns, coreNutation: wet.core };
+  }
+
+  return { precession, rotor, top, wobble, jacobi, complete, incomplete };
+})();
