@@ -1,4 +1,4 @@
-"""The command line: report, run, plan, scenes, keys, accuracy, stability, verify, info."""
+"""The command line: report, play, run, plan, scenes, keys, accuracy, stability, verify, info."""
 
 from __future__ import annotations
 
@@ -15,6 +15,25 @@ from earthspin.process import CHECK_FAILED, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
+
+
+#: Pages to play with.
+PAGES = ("precession", "rotor", "top", "wobble")
+
+#: What the command says that is given alone; a line has at most 80 characters.
+WELCOME = """\
+earthspin: how an oblate, spinning body answers to what pulls on it.
+
+Three to begin with:
+  earthspin report --open     the precession of the Earth, with a page to read
+  earthspin play top --open   a heavy top, to play with
+  earthspin run torque        the pull of Sun and Moon through a year
+
+And then:
+  earthspin scenes            what else is there to run
+  earthspin keys QUESTION     what can be changed, as in: keys precession
+  earthspin --help            all commands
+"""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -42,8 +61,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0; 1 if a check fails; 2 with one line on stderr if something given is
-        wrong; 70 for a defect of earthspin; others as `earthspin.process.run_command` has them.
+        Exit status: 0, also if no command is given, which says what to try; 1 if a check fails; 2
+        with one line on stderr if something given is wrong; 70 for a defect of earthspin; others as
+        `earthspin.process.run_command` has them.
     """
     parser = _parser()
     _complete(parser)
@@ -63,7 +83,8 @@ def _parser() -> argparse.ArgumentParser:
         description="How an oblate, spinning body answers to what pulls on it.",
     )
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
+    parser.set_defaults(command=_welcome)
 
     report = commands.add_parser("report", help="print and write the precession or wobble report")
     report.add_argument(
@@ -71,8 +92,15 @@ def _parser() -> argparse.ArgumentParser:
     )
     report.add_argument("--out", default="report", metavar="DIR", help="folder (default: report)")
     report.add_argument("--no-figures", action="store_true", help="tables alone, much faster")
+    report.add_argument("--open", action="store_true", help="open the page in the browser")
     _add_ephemeris(report)
     report.set_defaults(command=_report)
+
+    play = commands.add_parser("play", help="write a page to play with")
+    play.add_argument("what", choices=PAGES, help="of what")
+    play.add_argument("--out", metavar="FILE", help="default: play-WHAT.html")
+    play.add_argument("--open", action="store_true", help="open the page in the browser")
+    play.set_defaults(command=_play)
 
     run = commands.add_parser("run", help="run a scene", add_help=False)
     _add_scene(run)
@@ -206,6 +234,29 @@ def _report(given: argparse.Namespace) -> None:
         print_tables(each)
     for path in written:
         print(f"wrote {printable(str(path))}")
+    if given.open:
+        _open(written[0])
+
+
+def _play(given: argparse.Namespace) -> None:
+    from earthspin.views.play import write_page
+
+    path = write_page(given.what, given.out or f"play-{given.what}.html")
+    print(f"wrote {printable(str(path))}")
+    if given.open:
+        _open(path)
+
+
+def _open(page: Path) -> None:
+    """Open a page in the browser that the system prefers, or say that there is none."""
+    import webbrowser
+
+    if not webbrowser.open(page.resolve().as_uri()):
+        print("no browser could be opened; open the page by hand", file=sys.stderr)
+
+
+def _welcome(_given: argparse.Namespace) -> None:
+    print(WELCOME, end="")
 
 
 def _run(given: argparse.Namespace) -> None:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import Lock, Timer
 from typing import Protocol
 
 PATIENCE = 2.0  # seconds before a bar appears
+
+#: Held by whoever shows a bar: of work within work, only the outer is shown.
+_watching = Lock()
 
 
 class Advance(Protocol):
@@ -34,9 +37,14 @@ def progress(label: str, total: int) -> Iterator[Advance]:
     Advance
         To be called as the work proceeds.
     """
-    if not sys.stderr.isatty():
+    if not sys.stderr.isatty() or _watching.locked():
         yield lambda amount: None
         return
+    with _watching:
+        yield from _bar(label, total)
+
+
+def _bar(label: str, total: int) -> Iterator[Advance]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
@@ -49,14 +57,13 @@ def progress(label: str, total: int) -> Iterator[Advance]:
         transient=True,
     )
     task = bar.add_task(label, total=total)
-    begun = time.monotonic()
-
-    def advance(amount: int) -> None:
-        bar.advance(task, amount)
-        if not bar.live.is_started and time.monotonic() - begun > PATIENCE:
-            bar.start()
-
+    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
+    late = Timer(PATIENCE, bar.start)
+    late.daemon = True
+    late.start()
     try:
-        yield advance
+        yield lambda amount: bar.advance(task, amount)
     finally:
+        late.cancel()
+        late.join()
         bar.stop()

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -11,9 +12,10 @@ import numpy as np
 import pytest
 
 import earthspin
-from earthspin.cli import main
+from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.views.play import PLAYS
 from tests.sky.test_ephemeris import bad_kernels
 
 
@@ -43,6 +45,46 @@ def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
         "precession.nc",
         "rotors.html",
     ]
+
+
+def test_the_command_alone_says_what_to_try(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(capsys)
+    assert (status, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    parser = _parser()
+    for line in re.findall(r"^  earthspin (.+?)  ", out, flags=re.MULTILINE):
+        words = line.replace("QUESTION", "precession").split()
+        if words != ["--help"]:
+            assert parser.parse_args(words).command, line
+
+
+@pytest.mark.parametrize("what", PAGES)
+def test_play_writes_a_page(what: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    status, out, err = run(capsys, "play", what, "--out", str(page))
+    assert (status, out, err) == (0, f"wrote {page}\n", "")
+    assert "<canvas" in page.read_text(encoding="utf-8")
+    assert set(PAGES) == set(PLAYS)
+
+
+@pytest.mark.parametrize(("opens", "said"), [(True, ""), (False, "no browser could be opened")])
+def test_a_page_is_opened_when_asked(
+    *,
+    opens: bool,
+    said: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or opens)
+    page = tmp_path / "top.html"
+    status, _, err = run(capsys, "play", "top", "--out", str(page), "--open")
+    assert status == 0
+    assert opened == [page.as_uri()]
+    assert err.startswith(said)
+    status, _, _ = run(capsys, "report", "--no-figures", "--out", str(tmp_path), "--open")
+    assert (status, opened[1:]) == (0, [(tmp_path / "index.html").as_uri()])
 
 
 def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

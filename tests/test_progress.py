@@ -1,0 +1,56 @@
+"""The progress bar: on a terminal, after two seconds, one at a time."""
+
+import io
+import sys
+import time
+
+import pytest
+
+from earthspin import progress as module
+from earthspin.progress import progress
+
+
+class Screen(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def watched(monkeypatch: pytest.MonkeyPatch) -> Screen:
+    """A terminal in the place of stderr; to be called in the test, after pytest has set its own."""
+    there = Screen()
+    monkeypatch.setattr(sys, "stderr", there)
+    monkeypatch.setattr(module, "PATIENCE", 0.1)
+    monkeypatch.setenv("TERM", "xterm")
+    return there
+
+
+def test_a_first_step_that_lasts_shows_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    with progress("long work", 2) as advance:
+        time.sleep(0.6)
+        assert "long work" in screen.getvalue()
+        advance(1)
+
+
+def test_quick_work_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    with progress("quick work", 1) as advance:
+        advance(1)
+    assert "quick work" not in screen.getvalue()
+
+
+def test_work_within_work_shows_one_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    with progress("outer", 1), progress("inner", 1) as advance:
+        time.sleep(0.6)
+        advance(1)
+    assert "outer" in screen.getvalue()
+    assert "inner" not in screen.getvalue()
+
+
+def test_nothing_is_shown_where_nobody_watches(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    monkeypatch.setattr(screen, "isatty", lambda: False)
+    with progress("unwatched", 1):
+        time.sleep(0.3)
+    assert screen.getvalue() == ""
