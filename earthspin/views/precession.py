@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
@@ -21,10 +21,19 @@ from earthspin.views.reading import (
     perturbers_of,
     section,
 )
-from earthspin.views.stars import YEARS, Label, plot_path, year_words
+from earthspin.views.stars import (
+    STARS,
+    YEARS,
+    Label,
+    on_the_chart,
+    plot_path,
+    star_vectors,
+    year_words,
+)
 from earthspin.views.table import BRACKETS, Table, along, date, measured, two_digits, with_error
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
 FloatArray = NDArray[np.float64]
@@ -291,19 +300,28 @@ def circle_of_pole(tree: Result) -> Drawing:
 def _passes(tree: Result) -> str:
     """Which bright stars the pole passes within two degrees, and when."""
     total = answer_of(tree).isel(perturber=-1)
-    obliquity, rate = float(np.radians(total.obliquity)), float(si(total.precession_rate))
     years = np.arange(-9900, 14001, 100)
-    back = rate * (years - 2000) * JULIAN_YEAR
-    path = np.degrees(obliquity) * np.array([-np.sin(back), np.cos(back)])
+    path = _circle(total)(years)
+    stars = on_the_chart(star_vectors(), float(np.radians(total.obliquity)))
     passed = []
-    for name, ra, dec, _ in STARS:
-        x, y = on_the_chart(np.radians(ra), np.radians(dec), obliquity)
-        away = np.hypot(path[0] - x, path[1] - y)
-        year = int(years[away.argmin()])
+    for (name, *_), place in zip(STARS, stars, strict=True):
+        away = np.linalg.norm(path - place, axis=1)
         if away.min() < PASSED:
-            passed.append((year, f"{name} about {year if year > 0 else f'{-year} BC'}"))
+            year = int(years[away.argmin()])
+            passed.append((year, f"{name} about {year_words(year)}"))
     words = [words for _, words in sorted(passed)]
     return f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
+
+
+def _circle(total: xr.Dataset) -> Callable[[ArrayLike], FloatArray]:
+    """Places of the pole on the chart by years, at a rate and an obliquity that stay."""
+    radius, rate = float(total.obliquity), float(si(total.precession_rate))
+
+    def pole(years: ArrayLike) -> FloatArray:
+        back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
+        return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
+
+    return pole
 
 
 def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -320,12 +338,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     total = answer_of(result).isel(perturber=-1)
     obliquity = float(np.radians(total.obliquity))
-    radius, rate = np.degrees(obliquity), float(si(total.precession_rate))
-
-    def pole(years: Sequence[float] | FloatArray) -> FloatArray:
-        back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
-        return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
-
+    pole = _circle(total)
     years = [year for year in YEARS if abs(year - 2000) <= 12_000]
     marks = zip(years, pole(years).tolist(), strict=True)
     dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in marks]

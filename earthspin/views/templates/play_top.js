@@ -24,7 +24,7 @@
     ],
     motion,
     pace: 0.12,
-    reach: 1.25,
+    reach: 1.08,
     tilt: 0.22,
     readings: (m, values, time) => [
       ["mean precession", `${shown(m.meanRate, 6)} rad/s`],
