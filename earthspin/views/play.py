@@ -132,12 +132,14 @@ PLAYS = {
     "rotor": Play(
         "A free body, to play with",
         "A brick, thrown. About its longest and its shortest side it turns steadily; about the "
-        "one between, the least push makes it tumble.",
-        "A brick that tumbles about its fixed angular momentum, with its angular velocity and the "
+        "one between, the least push makes it tumble. Or a planet that wobbles.",
+        "A body that tumbles about its fixed angular momentum, with its angular velocity and the "
         "path of the angular velocity on the body.",
         (
             "The angular momentum (L, blue) stays where it is in space; the angular velocity "
-            "(omega) moves along the polhode (red), which turns with the brick.",
+            "(omega) moves along the polhode (red), which turns with the body. Of the planet, the "
+            "cone about the polhode (red) rolls without slipping on the one that the angular "
+            "velocity describes in space (blue).",
         ),
         _nothing,
     ),

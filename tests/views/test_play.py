@@ -292,6 +292,25 @@ def test_a_slider_changes_the_picture_and_a_number(browser: str, name: str, tmp_
     assert told["again"]
 
 
+def test_the_planet_has_its_own_moments(browser: str, tmp_path: Path) -> None:
+    """Those of an ellipsoid are 3/5 of those of a brick: the same motion, another picture."""
+    told = played(
+        browser,
+        tmp_path,
+        "rotor",
+        f"""{READ}
+        const first = picture.toDataURL(), shape = document.getElementById("shape");
+        told.before = read("period of the polhode");
+        shape.value = 1;
+        shape.dispatchEvent(new Event("input"));
+        told.after = read("period of the polhode");
+        told.changed = picture.toDataURL() !== first;
+        """,
+    )
+    assert told["before"] == told["after"]
+    assert told["changed"]
+
+
 @pytest.mark.parametrize("name", [name for name in PLAYS if not PLAYS[name].still])
 def test_a_page_is_played_by_clock_and_keys(browser: str, name: str, tmp_path: Path) -> None:
     told = played(

@@ -32,7 +32,7 @@ const play = (() => {
         pieces.push({ depth: (places[0][2] + places[1][2]) / 2 + 2e-3, kind: "arrow", places, colour, label });
       },
       // A surface of points (rows of points in the body), turned by three columns, with one colour a face.
-      surface(rows, columns, colourOf) {
+      surface(rows, columns, colourOf, opacity = 1) {
         const space = rows.map((row) => row.map((p) => [0, 1, 2].map((i) => p[0] * columns[0][i] + p[1] * columns[1][i] + p[2] * columns[2][i])));
         for (let i = 0; i + 1 < rows.length; i++)
           for (let j = 0; j + 1 < rows[i].length; j++) {
@@ -42,7 +42,7 @@ const play = (() => {
             const length = Math.hypot(...normal) || 1, facing = turn(normal.map((x) => x / length));
             const light = Math.abs(0.35 * facing[0] - 0.45 * facing[1] - 0.82 * facing[2]);
             const places = corners.map(at);
-            pieces.push({ depth: places.reduce((sum, c) => sum + c[2], 0) / 4, kind: "face", places, colour: colourOf(i, j), light });
+            pieces.push({ depth: places.reduce((sum, c) => sum + c[2], 0) / 4, kind: "face", places, colour: colourOf(i, j), light, opacity });
           }
       },
       label(place, words, colour) {
@@ -66,7 +66,9 @@ const play = (() => {
           pen.closePath();
           pen.fillStyle = pen.strokeStyle = `color-mix(in srgb, ${piece.colour} ${Math.round(45 + 55 * piece.light)}%, #101418)`;
           pen.lineWidth = 0.7 * scale;
+          pen.globalAlpha = piece.opacity;
           pen.fill();
+          if (piece.opacity < 1) { pen.globalAlpha = 1; continue; } // seams would show twice
         }
         pen.stroke();
         if (piece.kind !== "arrow") continue;
@@ -156,11 +158,14 @@ const play = (() => {
     }
     function zoom(factor) { view.zoom = Math.max(0.3, Math.min(6, view.zoom * factor)); show(); }
 
-    for (const { name, words, unit, min, max, value, step: fine } of settings) {
-      const label = document.createElement("label"), input = document.createElement("input"), told = document.createElement("output");
-      Object.assign(input, { type: "range", id: name, min, max, step: fine });
+    for (const { name, words, unit, min, max, value, step: fine, choices } of settings) {
+      const label = document.createElement("label"), told = document.createElement("output");
+      const input = document.createElement(choices ? "select" : "input");
+      if (choices) input.append(...choices.map((choice, i) => new Option(choice, i)));
+      else Object.assign(input, { type: "range", min, max, step: fine });
+      input.id = name;
       input.value = value;
-      const tell = () => { told.textContent = `${Number(input.value).toLocaleString("en", { maximumSignificantDigits: 6 })} ${unit}`.trim(); };
+      const tell = () => { if (!choices) told.textContent = `${Number(input.value).toLocaleString("en", { maximumSignificantDigits: 6 })} ${unit}`.trim(); };
       input.addEventListener("input", () => { tell(); set(name, Number(input.value)); });
       tell();
       label.append(words, input, told);

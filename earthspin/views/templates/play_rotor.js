@@ -1,11 +1,13 @@
-// A body without torque: a brick, thrown, with the path of its axis of rotation on it.
+// A body without torque: a brick, thrown, with the path of its angular velocity, or a planet, whose
+// body cone rolls on the space cone.
 "use strict";
 
 {
-  const { degrees, shown } = play;
+  const { ellipsoid, degrees, shown } = play;
 
-  // Moments of a uniform brick with three sides, per unit of mass; the longest side is along x.
-  const moments = ({ x, y, z }) => [(y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12];
+  // Moments of a uniform brick with three sides, or ellipsoid with three axes, per unit of mass.
+  const moments = ({ x, y, z, shape }) =>
+    [y * y + z * z, x * x + z * z, x * x + y * y].map((sum) => sum / (shape ? 20 : 12));
   const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   // The start: about one of the axes, with a little about the others.
   const first = ({ about, off, speed }) => {
@@ -32,10 +34,11 @@
 
   play.start({
     settings: [
+      { name: "shape", words: "body", choices: ["brick", "planet, with its cones"], value: 0 },
       { name: "x", words: "side along x", unit: "", min: 0.4, max: 3, step: 0.01, value: 2 },
       { name: "y", words: "side along y", unit: "", min: 0.4, max: 3, step: 0.01, value: 1.3 },
       { name: "z", words: "side along z", unit: "", min: 0.4, max: 3, step: 0.01, value: 0.45 },
-      { name: "about", words: "thrown about axis (0 x, 1 y, 2 z)", unit: "", min: 0, max: 2, step: 1, value: 1 },
+      { name: "about", words: "thrown about the axis", choices: ["x", "y", "z"], value: 1 },
       { name: "off", words: "but off it by", unit: "°", min: 0.1, max: 45, step: 0.1, value: 1.5 },
       { name: "speed", words: "speed", unit: "rad/s", min: 0.5, max: 6, step: 0.1, value: 3 },
     ],
@@ -51,13 +54,29 @@
     ],
     draw({ scene, values, motion: m, time, ink }) {
       const rows = m.attitude(time), columns = AXES.map((_, i) => rows.map((row) => row[i]));
-      const scale = 1.5 / Math.hypot(values.x, values.y, values.z);
-      for (const { rows: face, axis, side } of faces(values, scale))
+      const scale = (values.shape ? 1.3 : 1.5) / Math.hypot(values.x, values.y, values.z);
+      const planet = ellipsoid([values.x, values.y, values.z].map((side) => (side * scale) / 2));
+      if (values.shape) scene.surface(planet, columns, (i, j) => (Math.floor(j / 3) % 2 ? "#3d7fc0" : "#6f9f62"));
+      else for (const { rows: face, axis, side } of faces(values, scale))
         scene.surface(face, columns, (i, j) => COLOURS[axis][(i + j) % 2 && side > 0 ? 1 : 0]);
       const inSpace = (p) => [0, 1, 2].map((i) => p[0] * columns[0][i] + p[1] * columns[1][i] + p[2] * columns[2][i]);
       const span = Number.isFinite(m.period) ? m.period : 20, size = 0.95 / values.speed;
       const path = Array.from({ length: 241 }, (_, i) => inSpace(m.omega((span * i) / 240).map((w) => w * size)));
       scene.line(path, ink("red"), 2);
+      if (values.shape) {
+        // Both cones have their tip in the middle; they touch along the angular velocity.
+        const cone = (rim) => [rim.map(() => [0, 0, 0]), rim];
+        const inBody = Array.from({ length: 97 }, (_, i) => m.omega((span * i) / 96).map((w) => w * size));
+        // Once round the angular momentum, or nearly so.
+        const lasts = Math.min(span, (2.1 * Math.PI * Math.max(...moments(values))) / m.momentum);
+        const begin = Math.max(0, time - lasts), rolled = Array.from({ length: 97 }, (_, i) => {
+          const at = begin + lasts * (i / 96), now = m.attitude(at), w = m.omega(at);
+          return now.map((row) => size * (row[0] * w[0] + row[1] * w[1] + row[2] * w[2]));
+        });
+        scene.surface(cone(inBody), columns, () => ink("red"), 0.3);
+        scene.surface(cone(rolled), AXES, () => ink("blue"), 0.3);
+        scene.line(rolled, ink("blue"), 2);
+      }
       scene.arrow(inSpace(m.omega(time).map((w) => w * size)), ink("ink"), "ω");
       scene.arrow([0, 0, 1.05], ink("blue"), "L");
     },
