@@ -16,4 +16,4 @@ from earthspin.views.iau import plot_budget
 
 fig, ax = plt.subplots(figsize=(6.8, 3.6))
 plot_budget(earthspin.compare_iau("1990-01-01", "2010-01-01", "10 d"), ax=ax)
-ax.set_xlabel("size of the contribution to the rate (mas per century)")
+ax.set_xlabel("contribution to the rate (mas per century)")

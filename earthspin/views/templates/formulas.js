@@ -27,6 +27,7 @@ const formulas = (() => {
 
   // Complete integral of the first kind.
   function complete(m) {
+    if (m >= 1) return Infinity;
     let a = 1, b = Math.sqrt(1 - m);
     while (Math.abs(a - b) > 1e-15 * a) [a, b] = [(a + b) / 2, Math.sqrt(a * b)];
     return Math.PI / (a + b);
@@ -66,13 +67,16 @@ const formulas = (() => {
     return sum * half;
   }
 
-  // An angle that grows by the same amount in every period: whole periods once, the rest anew.
+  // An angle that grows by the same amount in every period: its values at the edges of panels once,
+  // and from the edge before a time on by one panel more.
   function grown(rate, period, panels) {
     if (!Number.isFinite(period) || period === 0) return (t) => integral(rate, 0, t, panels);
-    const whole = integral(rate, 0, period, panels);
+    const width = period / panels, edges = [0];
+    for (let i = 0; i < panels; i++) edges.push(edges[i] + integral(rate, i * width, (i + 1) * width, 1));
     return (t) => {
       const turns = Math.floor(t / period), rest = t - turns * period;
-      return turns * whole + integral(rate, 0, rest, Math.max(1, Math.ceil((panels * rest) / period)));
+      const before = Math.min(panels - 1, Math.floor(rest / width));
+      return turns * edges[panels] + edges[before] + integral(rate, before * width, rest, 1);
     };
   }
 
@@ -108,18 +112,20 @@ const formulas = (() => {
     const m = off > 0 ? (Math.abs(I2 - I1) * off) / (Math.abs(I3 - I2) * along) : 0;
     const side = (start[2] < 0 ? -1 : 1) * sense;
     const phase = off > 0 ? incomplete(Math.atan2((side * start[1]) / b, start[0] / a), m) : 0;
-    const omegaAt = (t) => {
+    // Three equal moments: the angular velocity stays where it is.
+    const sphere = Math.abs(I3 - I1) < 1e-12 * I3;
+    const omegaAt = sphere ? () => omega : (t) => {
       const [sn, cn, dn] = jacobi(pace * t + phase, m), found = [0, 0, 0];
       [found[order[0]], found[order[1]], found[order[2]]] = [a * cn, side * b * sn, side * sense * c * dn];
       return found;
     };
-    const period = (4 * complete(m)) / pace;
+    const period = sphere ? Infinity : (4 * complete(m)) / pace;
     // Longitude of the last axis about the angular momentum.
     const rate = (t) => {
       const w = omegaAt(t), x = I1 * w[order[0]], y = I2 * w[order[1]];
       return (size * ((x * x) / I1 + (y * y) / I2)) / (x * x + y * y);
     };
-    const angle = off > 1e-28 * square * I3 ? grown(rate, period, 96) : (t) => (size / I1) * t;
+    const angle = !sphere && off > 1e-28 * square * I3 ? grown(rate, period, 96) : (t) => (size / I1) * t;
     const axis = [0, 0, 0];
     axis[order[2]] = 1;
     return {
