@@ -59,7 +59,7 @@ def _contrast(one: str, other: str) -> float:
 
 
 def test_contrast_is_that_of_wcag() -> None:
-    assert _contrast("ffffff", "000000") == pytest.approx(21)
+    assert _contrast("ffffff", "000000") == pytest.approx(21, rel=1e-9, abs=0)
     assert _contrast("ffffff", "777777") == pytest.approx(4.48, abs=0.01)
 
 

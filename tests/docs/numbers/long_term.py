@@ -175,6 +175,8 @@ TOLD = [
     Told(PAGE, "wants {}° more", "by definition"),
     Told(PAGE, "the *true* longitude of the Sun,\n{}° from", "by definition"),
     Told(PAGE, "point {}° east of it", "by definition"),
+    Told(PAGE, "## Sunlight in summer at {}° north", "given"),
+    Told(PAGE, "from the moving equinox ({}° is the June\nsolstice)", "by definition"),
     Told(PAGE, "$H$ larger by {} %", "given"),
     Told(PAGE, "is a {} % half-width", "what an error is, by definition"),
     Told(PAGE, "| method | windows half as long | < {} | < {} | < {} | < {} |", BOUND),
