@@ -67,12 +67,27 @@ const formulas = (() => {
     return sum * half;
   }
 
+  // Twice as many panels until a whole period no longer changes: a top that passes close to upright
+  // turns nearly all of it at once.
+  const SETTLED = 1e-12, MOST_PANELS = 16384;
+
   // An angle that grows by the same amount in every period: its values at the edges of panels once,
   // and from the edge before a time on by one panel more.
   function grown(rate, period, panels) {
     if (!Number.isFinite(period) || period === 0) return (t) => integral(rate, 0, t, panels);
-    const width = period / panels, edges = [0];
-    for (let i = 0; i < panels; i++) edges.push(edges[i] + integral(rate, i * width, (i + 1) * width, 1));
+    const edgesOf = (count) => {
+      const width = period / count, edges = [0];
+      for (let i = 0; i < count; i++) edges.push(edges[i] + integral(rate, i * width, (i + 1) * width, 1));
+      return edges;
+    };
+    let edges = edgesOf(panels), change = Infinity;
+    while (change > SETTLED * Math.max(1, Math.abs(edges[panels])) && panels < MOST_PANELS) {
+      const before = edges[panels];
+      panels *= 2;
+      edges = edgesOf(panels);
+      change = Math.abs(edges[panels] - before);
+    }
+    const width = period / panels;
     return (t) => {
       const turns = Math.floor(t / period), rest = t - turns * period;
       const before = Math.min(panels - 1, Math.floor(rest / width));
