@@ -308,7 +308,8 @@ def _passes(tree: Result) -> str:
         away = np.linalg.norm(path - place, axis=1)
         if away.min() < PASSED:
             year = int(years[away.argmin()])
-            passed.append((year, f"{name} about {year_words(year)}"))
+            century = f"{year}" if year > 0 else f"{-year} BC"
+            passed.append((year, f"{name} about {century}"))
     words = [words for _, words in sorted(passed)]
     return f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
 
