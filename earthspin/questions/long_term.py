@@ -476,7 +476,7 @@ def series(
         "precession_period_error": rates.period_error(rate, error),
     }
     years = wanted / JULIAN_YEAR
-    told = {"units": "yr", "long_name": "Julian years from J2000.0 (TDB)", "axis": "T"}
+    told = {"units": "yr", "long_name": "Julian years from J2000.0 (TDB)"}
     result = build(
         LONG_TERM,
         values,
