@@ -15,6 +15,7 @@ from data_tools import (
     long_term,
     neglected,
     references,
+    secular_orbits,
     signatures,
     stability,
     windows,
@@ -37,12 +38,13 @@ VERBS = {
         "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
     ),
     "long-term": (long_term.main, "measure what docs/long_term.md says in its tables"),
+    "orbits": (secular_orbits.main, "make the tables of orbits over ten million years again"),
     "references": (references.main, "make the stored references of the checks again"),
     "signatures": (signatures.main, "write the signatures of the public calls for editors"),
     "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.
-WITH_KERNEL = ("kernels", "error-models", "windows")
+WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
 
 
 def main(words: list[str] | None = None) -> int:

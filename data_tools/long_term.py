@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import erfa
@@ -18,7 +18,7 @@ from earthspin.parts import sky as skies
 from earthspin.questions import long_term as question
 from earthspin.scenes import load_scene, run_tree
 from earthspin.secular.budget import Setting
-from earthspin.secular.orbit import Orbit, Shape
+from earthspin.secular.orbit import Changed, Orbit, Shape
 from earthspin.secular.strength import Tides
 from earthspin.secular.trajectory import solve
 
@@ -39,27 +39,15 @@ LISTED = (1e3, 1e4, 1e5, 1e6)
 FAR = np.arange(-1_000_000, -950_000 + 1, 500) * JULIAN_YEAR
 
 
-@dataclass(frozen=True)
-class Round:
+def _round(orbit: Orbit) -> Orbit:
     """An orbit whose eccentricity stays what it is at J2000.0."""
+    now = np.linalg.norm(orbit.at(np.zeros(1))[1])
 
-    orbit: Orbit
-
-    @property
-    def coverage(self) -> tuple[float, float]:
-        """That of the orbit."""
-        return self.orbit.coverage
-
-    @property
-    def edges(self) -> FloatArray:
-        """Those of the orbit."""
-        return self.orbit.edges
-
-    def at(self, times: FloatArray) -> Shape:
-        """The orbit, with an eccentricity vector as long as today's."""
-        normal, vector, turning = self.orbit.at(times)
-        now = np.linalg.norm(self.orbit.at(np.zeros(1))[1])
+    def change(times: FloatArray, shape: Shape) -> Shape:
+        normal, vector, turning = shape
         return normal, vector * (now / np.linalg.norm(vector, axis=0)), turning
+
+    return Changed(orbit, change)
 
 
 def earths() -> Setting:
@@ -84,7 +72,7 @@ def without() -> dict[str, Setting]:
 
     return {
         "all": now,
-        "eccentricity held": replace(now, orbit=Round(now.orbit)),
+        "eccentricity held": replace(now, orbit=_round(now.orbit)),
         "geodesic": changed(geodesic=0.0),
         "tides": changed(tides=Tides()),
         "ellipticity + 0.1 %": changed(ellipticity=1.001),

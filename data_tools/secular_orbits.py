@@ -1,6 +1,6 @@
 """The orbits of the Earth and of Mars over ten million years either way, from DE440 by REBOUND.
 
-    python -m data_tools orbits --kernel PATH      (needs `pip install rebound==5.2.2`, and AVX512)
+    python -m data_tools orbits --kernel PATH     (needs `pip install rebound==5.2.2`, and AVX512)
 
 Sun and eight planets (a planet with its moons is one mass at their barycentre) start from DE440 at
 J2000.0 TDB and go on by the symplectic map of Wisdom and Holman with a corrector of order 17
@@ -38,6 +38,7 @@ from earthspin.bodies import BODIES
 from earthspin.constants import AU, DAY, J2000_JD, JULIAN_YEAR
 from earthspin.progress import Advance, progress
 from earthspin.sky import iau, orbit_table
+from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.orbit_table import OrbitTable, fitted, write
 
 FloatArray = NDArray[np.float64]
@@ -190,8 +191,8 @@ def smoothed(samples: FloatArray) -> FloatArray:
 
 
 def main(given: argparse.Namespace) -> int:
-    """Make the tables; an hour and a half of one core."""
-    kernel = Path(given.kernel)
+    """Make the tables; more than an hour on one core."""
+    kernel = open_ephemeris(given.kernel).path
     runs = []
     for step in (STEP, STEP / 2):
         ways = []

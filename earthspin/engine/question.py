@@ -313,11 +313,14 @@ class Graph:
         Those whose variables make up the answer.
     sections : dict of str to tuple of str
         Those whose variables make up each section.
+    without : tuple of str
+        What parts would use and the question does not have.
     """
 
     parts: dict[str, Part[..., Any]]
     answer: tuple[str, ...]
     sections: dict[str, tuple[str, ...]]
+    without: tuple[str, ...] = ()
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]
@@ -329,6 +332,7 @@ def made_of(
     answer: Parts,
     sections: Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
+    without: tuple[str, ...] = (),
 ) -> None:
     """Say which parts answer a question, and check that they fit together.
 
@@ -341,12 +345,14 @@ def made_of(
         What else the question can tell, by name; among them `neglected`.
     parts : iterable of Part
         The others.
+    without : tuple of str
+        What its parts would use and the question does not have.
 
     Raises
     ------
     TypeError
-        If a parameter of a part is neither a key nor a part, a name stands for both, or the
-        question does not say what it neglects.
+        If a parameter of a part is neither a key nor a part, a name stands for both, nothing would
+        use what the question is without, or it does not say what it neglects.
     """
     ends = _several(answer)
     told = {name: _several(of) for name, of in sections.items()}
@@ -355,9 +361,13 @@ def made_of(
     names, keys = set(named), set(keys_of(question))
     if len({id(one) for one in every}) != len(named) or names & keys:
         raise TypeError(f"{question.__name__}: a name stands for two things")
+    used = {use for one in every for use in one.uses}
+    for name in without:
+        if name in names | keys or name not in used:
+            raise TypeError(f"{question.__name__}: it cannot be without '{name}'")
     for one in every:
         for parameter in (*one.needs, *one.uses):
-            if parameter not in names | keys | {BLOCK}:
+            if parameter not in names | keys | {BLOCK, *without}:
                 raise TypeError(f"{question.__name__}: {one.name} asks for '{parameter}'")
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
@@ -365,6 +375,7 @@ def made_of(
         named,
         tuple(one.name for one in ends),
         {name: tuple(one.name for one in of) for name, of in told.items()},
+        without,
     )
 
 

@@ -10,18 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
-from earthspin.secular.orbit import Orbit, Shape
+from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.secular.orbit import Changed, Orbit, Shape, reference_axes
 from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.trajectory import Trajectory, solve
 
 FloatArray = NDArray[np.float64]
 
-#: Half-width of the start: the mean obliquity at J2000.0 (Capitaine et al. 2003, 0.001 arcsec).
-START = NORMAL_95 * 0.001 * ARCSEC
+#: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
+HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"
+
+#: Half-width of the start, rad: that of the mean obliquity at J2000.0.
+START = NORMAL_95 * (EPSILON_0.uncertainty or 0.0) * ARCSEC
 #: Share of today's tides by which their mean over the past may differ: an assumption. People sweep
 #: factors of 0 to 1.2; 0.2 is the distance of today's from that end.
 TIDES_SHARE = 0.2
@@ -48,54 +53,76 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Moved:
-    """An orbit moved by how far it may be wrong.
+class Solved:
+    """The axis in time, and in time again with each cause changed.
 
     Attributes
     ----------
-    orbit : Orbit
-    error : callable
-        Half-widths of normal (rad) and eccentricity vector at times, s, shape (2, n).
+    path : Trajectory
+    setting : Setting
+    others : tuple of (str, Trajectory, Setting)
+        By cause: the trajectory with that cause changed, and the setting it belongs to.
     """
 
-    orbit: Orbit
-    error: Callable[[FloatArray], FloatArray]
+    path: Trajectory
+    setting: Setting
+    others: tuple[tuple[str, Trajectory, Setting], ...]
 
     @property
-    def coverage(self) -> tuple[float, float]:
-        """That of the orbit."""
-        return self.orbit.coverage
+    def steps(self) -> int:
+        """Newton steps of all."""
+        return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
-    @property
-    def edges(self) -> FloatArray:
-        """Those of the orbit."""
-        return self.orbit.edges
 
-    def at(self, times: FloatArray) -> Shape:
-        """The orbit with normal and perihelion turned, and the eccentricity longer."""
-        normal, eccentricity, turning = self.orbit.at(times)
-        by_normal, by_shape = self.error(times)
-        along = eccentricity / np.maximum(np.sqrt(np.sum(eccentricity**2, axis=0)), 1e-300)
-        beside = np.cross(normal, along, axis=0)
-        tilted = normal + by_normal * beside
+def solved(
+    setting: Setting, span: tuple[float, float], causes: tuple[tuple[str, Setting], ...]
+) -> Solved:
+    """Follow the axis, with each cause changed, and for the method with windows twice as long.
+
+    Parameters
+    ----------
+    setting : Setting
+    span : tuple of float
+        s from J2000.0 TDB.
+    causes : tuple of (str, Setting)
+        As `changes` gives them.
+    """
+
+    def path(of: Setting, pieces: int = 1) -> Trajectory:
+        return solve(of.strength, of.orbit, of.start, span, pieces=pieces)
+
+    others = (("method", setting), *causes)
+    return Solved(path(setting, 2), setting, tuple((name, path(of), of) for name, of in others))
+
+
+def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
+    """An orbit tilted and drawn out by its half-widths.
+
+    Parameters
+    ----------
+    orbit : Orbit
+    error : callable
+    way : int
+        0 or 1: towards either of two directions across the normal of J2000.0.
+    """
+    direction = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[way][:, np.newaxis]
+
+    def change(times: FloatArray, shape: Shape) -> Shape:
+        normal, eccentricity, turning = shape
+        along = direction - normal * np.sum(direction * normal, axis=0)
+        along = along / np.sqrt(np.sum(along**2, axis=0))
+        by_normal, by_shape = error(times)
+        tilted = normal + by_normal * along
         tilted = tilted / np.sqrt(np.sum(tilted**2, axis=0))
-        return tilted, eccentricity + by_shape * (along + beside), turning
+        return tilted, eccentricity + by_shape * along, turning
 
-
-def _later(strength: Strength, rate: float) -> Strength:
-    """An ellipticity that drifts: taken into the spin, which enters in the same way."""
-    tides = strength.tides
-    return replace(strength, tides=Tides(tides.moon, tides.spin + rate))
+    return Changed(orbit, change)
 
 
 def changes(
-    setting: Setting,
-    *,
-    constant: float,
-    earth: bool,
-    error: Callable[[FloatArray], FloatArray],
-) -> dict[str, Setting]:
-    """What each cause makes of a setting.
+    setting: Setting, *, constant: float, earth: bool, error: HalfWidths
+) -> tuple[tuple[str, Setting], ...]:
+    """What each cause makes of a setting; the orbit is moved two ways.
 
     Parameters
     ----------
@@ -105,27 +132,33 @@ def changes(
     earth : bool
         Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
     error : callable
-        Half-widths of the orbit's normal (rad) and eccentricity at times, s.
+        Half-widths of the orbit's normal (rad) and eccentricity at times, s, shape (2, n).
     """
     strength, normal = setting.strength, setting.orbit.at(np.zeros(1))[0][:, 0]
     across = np.cross(np.cross(normal, setting.start), setting.start)
     tilted = setting.start + START * across / max(float(np.linalg.norm(across)), 1e-300)
-    found = {
-        "constant": replace(
-            setting,
-            strength=replace(
-                strength, sun=strength.sun * (1 + constant), moon=strength.moon * (1 + constant)
+    found = [
+        (
+            "constant",
+            replace(
+                setting,
+                strength=replace(
+                    strength, sun=strength.sun * (1 + constant), moon=strength.moon * (1 + constant)
+                ),
             ),
         ),
-        "start": replace(setting, start=tilted / np.linalg.norm(tilted)),
-        "orbit": replace(setting, orbit=Moved(setting.orbit, error)),
-    }
+        ("start", replace(setting, start=tilted / np.linalg.norm(tilted))),
+        *(("orbit", replace(setting, orbit=moved(setting.orbit, error, way))) for way in (0, 1)),
+    ]
     if earth:
         tides = strength.tides
         slower = Tides(tides.moon * (1 + TIDES_SHARE), tides.spin * (1 + TIDES_SHARE))
-        found |= {
-            "J2 rate": replace(setting, strength=replace(strength, j2_band=1.0)),
-            "tides": replace(setting, strength=replace(strength, tides=slower)),
-            "ellipticity": replace(setting, strength=_later(strength, ELLIPTICITY_DRIFT)),
-        }
-    return found
+        found += [
+            ("J2 rate", replace(setting, strength=replace(strength, j2_band=1.0))),
+            ("tides", replace(setting, strength=replace(strength, tides=slower))),
+            (
+                "ellipticity",
+                replace(setting, strength=replace(strength, ellipticity_drift=ELLIPTICITY_DRIFT)),
+            ),
+        ]
+    return tuple(found)

@@ -1,7 +1,7 @@
 r"""Many axes over millions of years, side by side: a Runge-Kutta method in a frame that turns.
 
 Seen from axes that turn about the mean normal as fast as the spin axis precesses, the axis hardly
-moves: steps of five thousand years then do, of which a fixed frame would need ten. Members stand
+moves: steps of four thousand years then do. Members stand
 side by side in one array, and every stage of the method of Dormand and Prince (order 8, scipy's
 `DOP853`) is a few operations on whole rows. An orbit is common to all members; constants, tides,
 figures and starts are their own.
@@ -26,7 +26,7 @@ from earthspin.secular.strength import Strength, Tides
 
 FloatArray = NDArray[np.float64]
 
-#: Step, s: the default keeps 0.1 arcsec over a million years (docs/long_term.md).
+#: Step, s: this keeps 0.03 arcsec over a million years (docs/long_term.md).
 STEP = 4000 * JULIAN_YEAR
 #: Members are padded to a multiple of this, so that sums do not hang on how many there are.
 PAD = 64

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -10,7 +12,6 @@ from numpy.typing import NDArray
 from earthspin.secular.strength import Strength
 
 FloatArray = NDArray[np.float64]
-
 
 #: Of an orbit at some times: unit normal in the sense of the motion, vector to the pericentre as
 #: long as the eccentricity, and rate of the normal (s-1); each of shape (3, n), along the GCRS.
@@ -30,6 +31,35 @@ class Orbit(Protocol):
 
     def at(self, times: FloatArray) -> Shape:
         """The orbit at times, s from J2000.0 TDB."""
+
+
+@dataclass(frozen=True)
+class Changed:
+    """An orbit that is another one, changed at every time.
+
+    Attributes
+    ----------
+    orbit : Orbit
+    change : callable
+        Takes times (s) and the shape then, and gives the shape it is changed to.
+    """
+
+    orbit: Orbit
+    change: Callable[[FloatArray, Shape], Shape]
+
+    @property
+    def coverage(self) -> tuple[float, float]:
+        """That of the other orbit."""
+        return self.orbit.coverage
+
+    @property
+    def edges(self) -> FloatArray:
+        """Those of the other orbit."""
+        return self.orbit.edges
+
+    def at(self, times: FloatArray) -> Shape:
+        """The orbit, changed."""
+        return self.change(times, self.orbit.at(times))
 
 
 def reference_axes(normal: FloatArray) -> FloatArray:

@@ -22,22 +22,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import JULIAN_YEAR
+from earthspin.constants import JULIAN_YEAR, SPEED_OF_LIGHT, Constant
 from earthspin.errors import UndefinedError
 
 FloatArray = NDArray[np.float64]
 #: A float, or one value for each member.
 Numeric = Any
 
-#: Relative rate of the Moon's mean motion by tides, s-1 (Quinn, Tremaine & Duncan 1991, as
-#: recalled; lunar laser ranging gives -4.7e-18), and what it takes of the spin: omega'/omega over
-#: n'/n is this times n/omega.
-MOON_SLOWS, SPIN_OVER_MOON = -4.6e-18, 51.0
+QTD91 = "Quinn, Tremaine & Duncan 1991, AJ 101, 2287, as recalled"
+#: Relative rate of the Moon's mean motion by tides (lunar laser ranging gives -4.7e-18).
+MOON_SLOWS = Constant(-4.6e-18, "s-1", None, QTD91)
+#: What that takes of the spin: omega'/omega over n'/n is this times n/omega.
+SPIN_OVER_MOON = Constant(51.0, "", None, QTD91)
 
 #: How far the present rate of J2 is taken at its word, and where nothing of it is left, s.
 #: In between it fades as a cosine: the rebound of the mantle decays within some thousand years.
 FADES_FROM, FADES_TO = 2000 * JULIAN_YEAR, 10_000 * JULIAN_YEAR
-
 
 #: Share of today's rate of J2 that is uncertain, 95 %: an assumption, of the size by which
 #: solutions from satellites differ.
@@ -70,8 +70,8 @@ class Tides:
         spin_rate, moon_motion : float
             rad/s.
         """
-        moon = MOON_SLOWS * np.asarray(factor)
-        return cls(moon, SPIN_OVER_MOON * moon * moon_motion / spin_rate)
+        moon = MOON_SLOWS.value * np.asarray(factor)
+        return cls(moon, SPIN_OVER_MOON.value * moon * moon_motion / spin_rate)
 
 
 @dataclass(frozen=True)
@@ -88,6 +88,8 @@ class Strength:
         Rate of geodesic precession about the normal at that eccentricity, rad/s.
     ellipticity : float
         Factor on the dynamical ellipticity.
+    ellipticity_drift : float
+        Relative rate at which the ellipticity drifts from there, s-1.
     tides : Tides
     j2_rate : float
         Relative rate of J2 at J2000.0, s-1; it fades, see `faded`.
@@ -102,6 +104,7 @@ class Strength:
     eccentricity: Numeric = 0.0
     geodesic: Numeric = 0.0
     ellipticity: Numeric = 1.0
+    ellipticity_drift: float = 0.0
     tides: Tides = Tides()
     j2_rate: Numeric = 0.0
     j2_band: float = 0.0
@@ -130,7 +133,7 @@ class Strength:
             )
         of_sun = self.sun * ((1 - self.eccentricity**2) / (1 - e2)) ** 1.5
         acted = faded(times) + (self.j2_band * band(times) if self.j2_band else 0.0)
-        figure = self.ellipticity * (1 + self.j2_rate * acted)
+        figure = self.ellipticity * (1 + self.j2_rate * acted + self.ellipticity_drift * times)
         return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
@@ -141,6 +144,24 @@ class Strength:
     def moons_share(self) -> Numeric:
         """Share of the Moon at J2000.0."""
         return self.moon / (self.sun + self.moon)
+
+
+def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
+    """Rate of geodesic precession on an orbit, 3/2 G M n/(c^2 a (1 - e^2)), rad/s.
+
+    It turns an axis about the normal in the sense of the motion (de Sitter 1916, MNRAS 77, 155).
+    What a moon adds (2.6e-4 of it by the Earth's) is left out.
+
+    Parameters
+    ----------
+    gm : float
+        G M of what the orbit goes about, m3/s2.
+    motion : float
+        Mean motion, rad/s.
+    eccentricity : float
+    """
+    a = (gm / motion**2) ** (1 / 3)
+    return float(1.5 * gm * motion / (SPEED_OF_LIGHT.value**2 * a * (1 - eccentricity**2)))
 
 
 def faded(times: FloatArray) -> FloatArray:

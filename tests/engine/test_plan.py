@@ -43,7 +43,8 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     parts = question.graph.parts.values()
     used = {name for part in parts for name in (*part.needs, *part.uses)}
     assert set(keys_of(question)) - used == {"title"}
-    assert used <= {*keys_of(question), *question.graph.parts, BLOCK}
+    graph = question.graph
+    assert used <= {*keys_of(question), *graph.parts, *graph.without, BLOCK}
 
 
 def test_reasons() -> None:

@@ -11,7 +11,7 @@ from astropy import units as u
 import earthspin
 from earthspin import EARTH, MARS, CoverageError, EarthspinError, SceneError, UndefinedError
 from earthspin.constants import ARCSEC, J2000_JD, PUBLISHED_EFFECTS
-from earthspin.questions.long_term import LongTerm, Read, apart
+from earthspin.questions.long_term import LongTerm
 from earthspin.sky.orbit_table import shipped
 from tests import shipped as scenes
 
@@ -118,27 +118,6 @@ def test_the_budget_adds_up(million: xr.Dataset) -> None:
     assert float(method.max()) < 0.05  # arcsec over a million years
     early = budget.pole_share.isel(epoch=0)
     assert str(early.cause[int(np.argmax(early.values))].item()) in {"ellipticity", "tides"}
-
-
-def test_whole_turns_of_a_perihelion_are_no_error_and_those_of_the_axis_are() -> None:
-    """An orbit that is all but round may pass a circle on the other side."""
-    turn, nothing = 2 * np.pi, np.zeros((3, 1))
-
-    def read(perihelion: float, general: float) -> Read:
-        values = {"longitude_of_perihelion": perihelion, "general_precession": general}
-        return Read({name: np.array([of]) for name, of in values.items()}, nothing, nothing)
-
-    of = {
-        "": read(1.0, 5.0),
-        "orbit": read(1.01 - turn, 5.0),
-        "axis": read(1.0 + turn, 5.0 + turn),
-        "both": read(1.3 + turn, 5.2),
-    }
-    found = {
-        cause: float(share[0]) for cause, share in apart(of, "longitude_of_perihelion").items()
-    }
-    assert found == pytest.approx({"orbit": 0.01, "axis": turn, "both": 0.3}, rel=1e-9, abs=0)
-    assert float(apart(of, "general_precession")["both"][0]) == pytest.approx(0.2, rel=1e-9, abs=0)
 
 
 def test_the_solver_keeps_a_fifth_of_an_arcsecond_over_ten_million_years() -> None:

@@ -7,7 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
+from earthspin.constants import (
+    ARCSEC,
+    ARCSEC_PER_YEAR,
+    JULIAN_YEAR,
+    PUBLISHED_EFFECTS,
+    SIDEREAL_YEAR,
+    SPEED_OF_LIGHT,
+)
 from earthspin.errors import UndefinedError
 from earthspin.secular.orbit import pull, reference_axes
 from earthspin.secular.strength import (
@@ -18,6 +25,7 @@ from earthspin.secular.strength import (
     Tides,
     band,
     faded,
+    geodesic_precession,
 )
 from tests.secular.setting import E0, EARTHS, KYR, NODE_RATE, arcsec, earths
 
@@ -124,3 +132,14 @@ def test_reference_axes_are_right_handed(given_normal: tuple[float, ...]) -> Non
     assert np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-14)
     assert np.linalg.det(axes) == pytest.approx(1.0, rel=1e-13, abs=0)
     assert arcsec(axes[2:].T, (normal / np.linalg.norm(normal))[:, np.newaxis]) < 1e-9
+
+
+def test_geodesic_precession_is_the_published_one() -> None:
+    """1919.883e-5 arcsec a year (Capitaine et al. 2003, table 3); Simon et al.'s e at J2000.0.
+
+    The published value holds what the Moon adds, 2 G m n/(c^2 a) or 2.6e-4 of it; 2e-5 is left.
+    """
+    found = geodesic_precession(1.32712440018e20, 2 * np.pi / SIDEREAL_YEAR.value, 0.0167086)
+    by_moon = 2 * 4.9028e12 * 2.6617e-6 / (SPEED_OF_LIGHT.value**2 * 3.844e8)
+    published = -PUBLISHED_EFFECTS["geodesic"].value
+    assert (found + by_moon) / ARCSEC_PER_YEAR == pytest.approx(published, rel=3e-5, abs=0)

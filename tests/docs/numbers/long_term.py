@@ -106,7 +106,7 @@ MEASURED = [
         Sentence(PAGE, f"| {words} | {{}} | {{}} | {{}} | {{}} |", _shares(name))
         for words, name in (
             ("constant of precession | error of `precession`", "constant"),
-            ("orbit | steps half as long, and what the series leave out", "orbit"),
+            ("orbit, two ways | steps half as long, and what the series leave out", "orbit"),
             ("rate of $J_2$ | a fifth of it; later, all that has faded", "J2 rate"),
             ("tides | a fifth of today's, an assumption", "tides"),
             (

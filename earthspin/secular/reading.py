@@ -1,0 +1,233 @@
+"""What is read off a solution: angles, precession and rates, and how far causes move them.
+
+Longitudes are to go on without jumps, and epochs may lie ages apart: between two of them precession
+is followed along the nodes of the solution, and the perihelion, which turns fast where an orbit is
+all but round, along looks at the orbit alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import JULIAN_YEAR
+from earthspin.errors import UndefinedError
+from earthspin.nutation.angles import on_fixed_ecliptic, precession_angles
+from earthspin.secular.angles import seasons, unwrapped
+from earthspin.secular.budget import Setting, Solved
+from earthspin.secular.orbit import Orbit
+from earthspin.secular.trajectory import Trajectory
+
+FloatArray = NDArray[np.float64]
+
+#: Time between two looks at a perihelion, s: it turns fast where an orbit is all but round, by 1.2
+#: rad in 200 years where the Earth's eccentricity is 1.6e-4.
+LOOK = 200 * JULIAN_YEAR
+#: Sine of the obliquity below which there is no equinox.
+NO_EQUINOX = 1e-9
+_TURN = 2 * np.pi
+
+
+@dataclass(frozen=True)
+class Read:
+    """What is read off one trajectory.
+
+    Attributes
+    ----------
+    values : dict of str to ndarray, shape (n,)
+        Angles (rad), eccentricity and its products, and the rates of precession in longitude by
+        `sun`, `moon` and in `total` (rad/s).
+    pole, normal : ndarray, shape (3, n)
+        Unit vectors of spin axis and orbit normal, GCRS.
+    """
+
+    values: dict[str, FloatArray]
+    pole: FloatArray
+    normal: FloatArray
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What is read off the answer, and off it with each cause of an error changed.
+
+    Attributes
+    ----------
+    mine : Read
+    moved : tuple of (str, Read)
+        By cause; a cause may stand there more than once, in independent directions.
+    """
+
+    mine: Read
+    moved: tuple[tuple[str, Read], ...]
+
+    def apart(self, name: str) -> dict[str, FloatArray]:
+        """By cause, how far a value of the answer is moved."""
+        return _by_cause((cause, self._moved_by(of, name)) for cause, of in self.moved)
+
+    def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
+        """By cause, how far the pole, or the normal of the orbit, is moved, rad."""
+        mine = getattr(self.mine, which)
+        return _by_cause(
+            (cause, np.linalg.norm(getattr(of, which) - mine, axis=0)) for cause, of in self.moved
+        )
+
+    def _moved_by(self, of: Read, name: str) -> FloatArray:
+        mine = self.mine.values
+        moved = of.values[name] - mine[name]
+        if name != "longitude_of_perihelion":
+            return moved
+        # an orbit that is all but round may pass on the other side of a circle: of how far its
+        # perihelion itself is moved, whole turns say nothing
+        by_axis = of.values["general_precession"] - mine["general_precession"]
+        by_orbit = moved - by_axis
+        return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+
+
+def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
+    """Shares of like cause as the root of their sum of squares."""
+    found: dict[str, FloatArray] = {}
+    for cause, share in shares:
+        found[cause] = np.hypot(found.get(cause, 0.0), share)
+    return found
+
+
+def together(shares: dict[str, FloatArray]) -> FloatArray:
+    """Root of the sum of squares of all causes."""
+    return np.sqrt(sum(share**2 for share in shares.values()))
+
+
+def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
+    """Read the answer and each of its changed solutions.
+
+    Parameters
+    ----------
+    solved : Solved
+    times : ndarray, shape (n,)
+        s from J2000.0 TDB.
+    fixed : ndarray, shape (3, 3)
+        Orbit and equinox of J2000.0 in the GCRS.
+
+    Raises
+    ------
+    UndefinedError
+        If the axis stands upright on the orbit at one of the times.
+    """
+    own = solved.setting.orbit
+    with_now = np.append(times, 0.0)
+    followed = followed_perihelion(own, with_now, fixed)
+    mine = read(solved.path, solved.setting, times, fixed, followed)
+    _refuse_upright(mine.values["obliquity"], times)
+    moved = []
+    for cause, path, setting in solved.others:
+        same = setting.orbit is own
+        orbits = followed if same else followed_perihelion(setting.orbit, with_now, fixed)
+        other = read(path, setting, times, fixed, orbits)
+        _on_the_same_side(other.values, mine.values)
+        moved.append((cause, other))
+    return Readings(mine, tuple(moved))
+
+
+def read(
+    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
+) -> Read:
+    """Angles, precession and rates at some times.
+
+    Parameters
+    ----------
+    path : Trajectory
+    setting : Setting
+        That it was solved with.
+    times : ndarray, shape (n,)
+        s.
+    fixed : ndarray, shape (3, 3)
+        Orbit and equinox of J2000.0 in the GCRS.
+    orbits : ndarray, shape (n + 1,)
+        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps.
+    """
+    perihelion, general, psi = _without_jumps(path, setting, times, fixed, orbits)
+    axis = path.at(times)
+    normal, eccentricity, _ = setting.orbit.at(times)
+    of = seasons(axis, normal, eccentricity)
+    e2 = of.eccentricity**2
+    height = np.sum(axis * normal, axis=0)
+    strength = setting.strength
+    sun = replace(strength, moon=0.0).constant(times, e2) * height
+    both = strength.constant(times, e2) * height
+    values = {
+        "obliquity": of.obliquity,
+        "longitude_of_perihelion": perihelion,
+        "general_precession": general,
+        "psi_A": psi,
+        "omega_A": np.arccos(np.clip(fixed[2] @ axis, -1.0, 1.0)),
+        "eccentricity": of.eccentricity,
+        "climatic_precession": of.climatic_precession,
+        "coprecession": of.coprecession,
+        "sun": sun,
+        "moon": both - sun,
+        "total": both - strength.geodesic_rate(e2),
+    }
+    return Read(values, axis, normal)
+
+
+def _without_jumps(
+    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Longitude of perihelion from the moving equinox, p_A and psi_A, rad, from J2000.0 on."""
+    # at the nodes, which are close enough to follow precession from one to the next
+    nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
+    followed = np.unwrap(_turns(path, setting, nodes, fixed)[1:], axis=1)
+    origin = int(np.searchsorted(nodes, 0.0))
+    followed -= _TURN * np.rint(followed[:, origin : origin + 1] / _TURN)
+    nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)
+    perihelion, general, psi = _turns(path, setting, np.append(times, 0.0), fixed)
+    general, psi = (
+        unwrapped(angle[:-1], coarse, nearest)
+        for angle, coarse in zip((general, psi), followed, strict=True)
+    )
+    # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
+    about = orbits + np.append(general, 0.0)
+    perihelion = unwrapped(perihelion, about, np.arange(about.size))
+    return perihelion[:-1] - _TURN * np.floor(perihelion[-1] / _TURN), general, psi
+
+
+def _turns(path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray) -> FloatArray:
+    """Longitude of perihelion, p_A and psi_A in any turn, rad, shape (3, n)."""
+    axis = path.at(times)
+    normal, eccentricity, _ = setting.orbit.at(times)
+    of = seasons(axis, normal, eccentricity)
+    psi, omega = on_fixed_ecliptic(axis.T, fixed).T
+    general = precession_angles(psi, omega, (fixed @ normal).T)[:, 4]
+    return np.stack([np.arctan2(of.climatic_precession, of.coprecession), general, psi])
+
+
+def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
+    """Longitude of perihelion in fixed axes without jumps, rad, of the orbit alone."""
+    first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
+    looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
+    angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
+    nearest = np.rint(times / LOOK - first).astype(int)
+    return unwrapped(angle, np.unwrap(coarse), nearest)
+
+
+def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray]) -> None:
+    """Bring a longitude of perihelion into the turn of the answer's.
+
+    Where the orbit is all but a circle, one that is a little other goes round the other side of
+    it: from then on it would be a turn off, in an orbit that is hardly another.
+    """
+    own, true = (of["longitude_of_perihelion"] - of["general_precession"] for of in (moved, mine))
+    moved["longitude_of_perihelion"] += _TURN * np.rint((true - own) / _TURN)
+
+
+def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:
+    """Without an equinox there is no longitude."""
+    worst = int(np.argmin(np.sin(obliquity)))
+    if not np.sin(obliquity[worst]) > NO_EQUINOX:
+        raise UndefinedError(
+            f"the axis stands upright on the orbit {times[worst] / JULIAN_YEAR:.0f} yr from "
+            "J2000.0: there is no equinox to count from"
+        )
