@@ -12,10 +12,10 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
 LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
+_Time = TypeVar("_Time", int, float)
 _ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
 
 
@@ -211,6 +212,33 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
     return J2000 + counts.astype("timedelta64[us]")
 
 
+def first_and_last(
+    given: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
+) -> tuple[_Time, _Time]:
+    """Read two times, the earlier first.
+
+    Raises
+    ------
+    SceneError
+        If they are not two, or in the wrong order.
+    """
+    if is_skyfield_time(given) and given.shape:
+        given = list(given)
+    pair = (
+        not is_skyfield_time(given)
+        and not isinstance(given, (str, Mapping, set))
+        and hasattr(given, "__len__")
+    )
+    if not pair or getattr(given, "ndim", 1) != 1 or len(given) != 2:
+        raise where.error(given, f"give {allowed}")
+    first, last = (read(time, where) for time in given)
+    if last < first:
+        raise where.error(
+            [str(time) for time in given], "it ends before it starts; put the earlier first"
+        )
+    return first, last
+
+
 @dataclass(frozen=True)
 class Span:
     """A stretch of time between two dates.
@@ -231,20 +259,9 @@ class Span:
         """Read two dates; the earlier comes first."""
         if isinstance(given, Span):
             return given
-        if is_skyfield_time(given) and given.shape:
-            given = list(given)
-        pair = (
-            not is_skyfield_time(given)
-            and not isinstance(given, (str, Mapping, set))
-            and hasattr(given, "__len__")
+        first, last = first_and_last(
+            given, where, microseconds, "two dates, like ['2000-01-01', '2001-01-01']"
         )
-        if not pair or getattr(given, "ndim", 1) != 1 or len(given) != 2:
-            raise where.error(given, "give two dates, like ['2000-01-01', '2001-01-01']")
-        first, last = (microseconds(date, where) for date in given)
-        if last < first:
-            raise where.error(
-                [str(date) for date in given], "it ends before it starts; put the earlier first"
-            )
         return cls(first, last)
 
     def write(self) -> Plain:

@@ -14,8 +14,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
-from earthspin.dates import days, microseconds
+from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.dates import J2000, days, first_and_last, microseconds
 from earthspin.errors import Where
 from earthspin.units import FloatArray, Number, Plain, pack, quantity, unpack
 
@@ -45,7 +45,7 @@ def seconds(given: Any, where: Where) -> float:
             return microseconds(given, where) * 1e-6
         if date is not None:
             year, month, day = map(int, date.groups())
-            return DAY * (_julian_day(year, month, day, where) - J2000_JD)
+            return DAY * _days_of_date(year, month, day, where)
     elif isinstance(given, (int, float)) and not hasattr(given, "to_value"):
         raise where.error(given, f"give it with its unit, like '{EXAMPLE}', or as a date")
     elif not (
@@ -62,16 +62,13 @@ def seconds(given: Any, where: Where) -> float:
     return float(value)
 
 
-def _julian_day(year: int, month: int, day: int, where: Where) -> float:
-    """Julian day number at midnight of a proleptic Gregorian date (Fliegel & Van Flandern 1968)."""
-    leap = year % 4 == 0 and (year % 100 != 0 or year % 400 == 0)
-    lengths = (31, 29 if leap else 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
-    if not (1 <= month <= 12 and 1 <= day <= lengths[month - 1]):
-        raise where.error(f"{year}-{month:02}-{day:02}", "there is no such date")
-    a = (14 - month) // 12
-    y, m = year + 4800 - a, month + 12 * a - 3
-    number = day + (153 * m + 2) // 5 + 365 * y + y // 4 - y // 100 + y // 400 - 32045
-    return number - 0.5
+def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
+    """Days from J2000.0 to midnight of a proleptic Gregorian date."""
+    try:
+        date = np.datetime64(f"{'-' * (year < 0)}{abs(year):04}-{month:02}-{day:02}", "D")
+    except ValueError:
+        raise where.error(f"{year}-{month:02}-{day:02}", "there is no such date") from None
+    return int((date - J2000.astype("datetime64[D]")).astype(int)) - 0.5
 
 
 def _written(time: float) -> str:
@@ -99,15 +96,7 @@ class YearSpan:
         """Read two times; the earlier comes first."""
         if isinstance(given, YearSpan):
             return given
-        if isinstance(given, (str, Mapping, set)) or not hasattr(given, "__len__"):
-            raise where.error(given, "give two times, like ['-1 Myr', '0 kyr']")
-        if len(given) != 2:
-            raise where.error(given, "give two times, like ['-1 Myr', '0 kyr']")
-        first, last = (seconds(time, where) for time in given)
-        if last < first:
-            raise where.error(
-                [str(time) for time in given], "it ends before it starts; put the earlier first"
-            )
+        first, last = first_and_last(given, where, seconds, "two times, like ['-1 Myr', '0 kyr']")
         return cls(first, last)
 
     def write(self) -> Plain:
