@@ -43,7 +43,7 @@ def inertia_tensor(
     m, r = point_masses(masses, positions)
     if about is not None:
         r = r - vectors("about", about)
-    return _from_second_moments(np.einsum("...k,...ki,...kj->...ij", m, r, r))
+    return tensor_of_second_moments(np.einsum("...k,...ki,...kj->...ij", m, r, r))
 
 
 def spheroid_tensor(
@@ -222,11 +222,17 @@ def _offset_tensor(mass: ArrayLike, offset: ArrayLike) -> FloatArray:
     """Tensor of the whole mass, gathered at one end of the offset, about the other."""
     m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
     outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
-    return _from_second_moments(m[..., np.newaxis, np.newaxis] * outer)
+    return tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
 
 
-def _from_second_moments(second: FloatArray) -> FloatArray:
-    """Trace times unit matrix less the moments, each diagonal term as a sum of two squares."""
+def tensor_of_second_moments(second: FloatArray) -> FloatArray:
+    """Trace times unit matrix less the second moments, each diagonal term a sum of two squares.
+
+    Parameters
+    ----------
+    second : ndarray, shape (..., 3, 3)
+        Sum of m r r, kg m2.
+    """
     tensor = -second
     xx, yy, zz = (second[..., i, i] for i in range(3))
     for i, moment in enumerate((yy + zz, zz + xx, xx + yy)):

@@ -1,0 +1,173 @@
+"""Numbers of a body from where its mass lies: masses, a density on a grid, a mesh, layers."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import G
+from earthspin.errors import (
+    BodyError,
+    MissingExtraError,
+    SeriesError,
+    Where,
+    nearest,
+    no_plain_file,
+    one_line,
+)
+from earthspin.units import quantity
+
+if TYPE_CHECKING:
+    from earthspin.interior.layers import LayeredBody
+    from earthspin.mass.shape import Shape
+
+FloatArray = NDArray[np.float64]
+#: Numbers of a body by field, SI.
+Fields = dict[str, Any]
+
+
+def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
+    """Of point masses, kg, at positions, m."""
+    from earthspin.mass.shape import Shape
+
+    return _of(
+        Shape.of_masses(
+            _si(masses, "kg", "masses", "1e12 kg"),
+            _si(positions, "m", "positions", "500 m"),
+            _si(radius, "m", "radius", "1 km"),
+        )
+    )
+
+
+def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields:
+    """Of a density, kg m-3, in cells between edges, m."""
+    from earthspin.mass.shape import Shape
+
+    x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
+    rho = _si(density, "kg/m3", "density", "2000 kg/m3")
+    return _of(Shape.of_density(rho, x, y, z, _si(radius, "m", "radius", "1 km")))
+
+
+def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
+    """Of a homogeneous solid between triangles, its vertices in a unit."""
+    from earthspin.mass.shape import Shape
+
+    return _of(
+        Shape.of_mesh(
+            *_mesh(mesh, unit),
+            density=_si(density, "kg/m3", "density", "2000 kg/m3"),
+            mass=_si(mass, "kg", "mass", "1e12 kg"),
+            radius=_si(radius, "m", "radius", "1 km"),
+        )
+    )
+
+
+def _of(shape: Shape) -> Fields:
+    return {
+        "gm": G.value * shape.mass,
+        "radius": shape.radius,
+        "j2": shape.j2,
+        "dynamical_flattening": shape.dynamical_flattening,
+        "triaxiality": shape.triaxiality,
+        "j3": shape.j3,
+        "j4": shape.j4,
+        "reference": "from where its mass lies",
+    }
+
+
+def _si(given: Any, unit: str, name: str, example: str) -> Any:
+    """Numbers in SI units: plain ones, Quantities, or one as text; None stays."""
+    if given is None:
+        return None
+    if isinstance(given, (list, tuple)) or (
+        isinstance(given, np.ndarray) and not hasattr(given, "to_value")
+    ):
+        return np.asarray(given, dtype=float)
+    return quantity(given, unit, Where(name), example)
+
+
+def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Vertices (m) and faces of a mesh: of a file, of trimesh's Trimesh, or a pair of arrays.
+
+    Raises
+    ------
+    SeriesError
+        If the file cannot be read, or holds no mesh.
+    BodyError
+        If it is none of these.
+    MissingExtraError
+        If trimesh, which reads files, is not installed.
+    """
+    scale = float(quantity(f"1 {unit}", "m", Where("unit"), "1 km"))
+    if isinstance(given, (str, os.PathLike)):
+        given = _read(Path(given))
+    if hasattr(given, "vertices") and hasattr(given, "faces"):
+        given = given.vertices, given.faces
+    if not isinstance(given, tuple) or len(given) != 2:
+        raise BodyError("mesh", "mesh", given, "give a file, a Trimesh, or (vertices, faces)")
+    return scale * np.asarray(given[0], dtype=float), np.asarray(given[1])
+
+
+def _read(file: Path) -> Any:
+    """A mesh from a file; corners at the same place are one, for formats that repeat them."""
+    try:
+        import trimesh
+    except ImportError:
+        raise MissingExtraError("trimesh", "mesh", "a mesh from a file") from None
+    kind = file.suffix.lstrip(".").lower()
+    known = sorted(trimesh.exchange.load.mesh_formats())
+    if kind not in known:
+        raise SeriesError(file, f"'.{kind}' is no format of a mesh", nearest(kind, known))
+    if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
+        raise SeriesError(file, problem)
+    try:
+        return trimesh.load_mesh(file, process=True)
+    except Exception as error:  # each reader has kinds of its own
+        raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
+
+
+def of_layers(layers: LayeredBody | str, spin_period: Any) -> Fields:
+    """Of layers in hydrostatic equilibrium, to first order in the flattening.
+
+    Parameters
+    ----------
+    layers : LayeredBody or str
+        Or the name of an interior that has layers.
+    spin_period : float, str or Quantity
+        s.
+
+    Raises
+    ------
+    SceneError
+        If there is no such interior, or it has no layers.
+    """
+    from earthspin.interior.equilibrium import equilibrium
+    from earthspin.interior.layers import tidal_inertia
+    from earthspin.interior.named import INTERIORS
+
+    if isinstance(layers, str):
+        layered = {name: of.layers for name, of in INTERIORS.items() if of.layers is not None}
+        if layers not in layered:
+            raise Where("layers").error(layers, nearest(layers, layered))
+        layers = layered[layers]
+    spin = 2 * math.pi / _si(spin_period, "s", "spin_period", "23.93 h")
+    gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
+    ellipticity = tidal_inertia(layers, spin) * k
+    # the surface is level: f = (k + 1) q/2
+    pull = spin**2 * mean**3 / gm
+    flattening = (k + 1) * pull / 2
+    radius = mean * (1 + flattening / 3)
+    return {
+        "gm": gm,
+        "radius": radius,
+        "j2": k * pull / 3 * (mean / radius) ** 2,
+        "dynamical_flattening": ellipticity / (1 + ellipticity),
+        "flattening": flattening,
+        "spin_period": 2 * math.pi / spin,
+        "reference": f"hydrostatic equilibrium of {layers.reference}",
+    }

@@ -1,0 +1,119 @@
+r"""A solid between triangles: its mass as points that integrate polynomials exactly.
+
+A closed mesh is the sum of tetrahedra from one point to each triangle, those counted negative that
+lie outside. With r = u (p + v (q - p) + v w (s - q)) for the corners p, q, s,
+
+    integral of f over a tetrahedron = det(p, q, s) x integral of f u^2 v du dv dw from 0 to 1,
+
+which k Gauss points along each of u, v and w, with Jacobi's weights u^2 and v in them, give exactly
+for polynomials up to degree 2k - 1: one for the volume and its middle, two for the inertia, three
+for multipoles up to degree 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import roots_jacobi
+
+from earthspin.errors import BodyError
+from earthspin.mass._checks import FloatArray, vectors
+
+#: Triangles whose points stand in memory at once.
+AT_ONCE = 1 << 14
+_BODY = "mesh"
+
+
+def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Return a mesh that encloses a solid, its triangles counter-clockwise from outside.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (k, 3)
+        m.
+    faces : array_like of int, shape (n, 3)
+        Places of each triangle's corners in `vertices`.
+
+    Raises
+    ------
+    BodyError
+        If a triangle names a corner that is not there, the mesh is open, two triangles that meet
+        are turned against one another, or all are turned inside out.
+    UndefinedError
+        If the vertices are no finite vectors.
+    """
+    places, corners = vectors("vertices", vertices), np.asarray(faces)
+    if corners.ndim != 2 or corners.shape[-1] != 3 or corners.dtype.kind not in "iu":
+        raise BodyError(
+            _BODY, "faces", f"shape {corners.shape}", "give three whole numbers for each triangle"
+        )
+    if corners.size == 0 or corners.min() < 0 or corners.max() >= len(places):
+        raise BodyError(
+            _BODY, "faces", f"{len(corners)} triangles",
+            f"each corner is one of the {len(places)} vertices, counted from 0",
+        )  # fmt: skip
+    _refuse_open(corners)
+    volume = sum(float(np.sum(weights)) for weights, _ in solid_points(places, corners, 1))
+    if not volume > 0:
+        raise BodyError(
+            _BODY, "faces", f"a volume of {volume:.3g} m3",
+            "it is turned inside out: give the corners of each triangle counter-clockwise as seen "
+            "from outside, like faces[:, ::-1]",
+        )  # fmt: skip
+    return places, corners.astype(np.int64)
+
+
+def _refuse_open(faces: NDArray[np.integer]) -> None:
+    """In a closed mesh each edge is passed twice, once in either direction."""
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    size = int(faces.max()) + 1
+    there, back = np.sort(edges @ [size, 1]), np.sort(edges @ [1, size])
+    if np.array_equal(there, back) and np.all(np.diff(there) > 0):
+        return
+    single = np.setxor1d(edges @ [size, 1], edges @ [1, size])
+    if single.size:
+        raise BodyError(
+            _BODY, "faces", f"{single.size // 2} edges with a triangle on one side, or two turned "
+            "against one another", "close it, and turn all triangles the same way",
+        )  # fmt: skip
+    raise BodyError(_BODY, "faces", "an edge of more than two triangles", "give each triangle once")
+
+
+@cache
+def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
+    """Barycentric factors of the corners, shape (k, 3), and weights of the points, shape (k,)."""
+
+    def rule(power: int) -> tuple[FloatArray, FloatArray]:
+        """Nodes and weights for the weight x^power from 0 to 1."""
+        nodes, weights = roots_jacobi(degree // 2 + 1, 0.0, float(power))
+        return (nodes + 1) / 2, weights / 2.0 ** (power + 1)
+
+    (u, wu), (v, wv), (w, ww) = rule(2), rule(1), rule(0)
+    u, v, w = (of.ravel() for of in np.meshgrid(u, v, w, indexing="ij"))
+    weights = np.einsum("i,j,k->ijk", wu, wv, ww).ravel()
+    return np.stack([u * (1 - v), u * v * (1 - w), u * v * w], axis=-1), weights
+
+
+def solid_points(
+    vertices: FloatArray, faces: NDArray[np.int64], degree: int
+) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Volumes (m3, of either sign) and places (m) of points that stand for the solid, in pieces.
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (k, 3)
+        From a point near the middle: the farther off it lies, the more cancels.
+    faces : ndarray, shape (n, 3)
+    degree : int
+        Of polynomials that are to be exact.
+    """
+    factors, weights = _cone(degree)
+    for first in range(0, len(faces), AT_ONCE):
+        corners = vertices[faces[first : first + AT_ONCE]]
+        places = factors @ corners  # (n, k, 3)
+        first_corner, second, third = np.moveaxis(corners, 1, 0)
+        six_volumes = np.sum(first_corner * np.cross(second, third), axis=-1)
+        yield (six_volumes[:, np.newaxis] * weights).ravel(), places.reshape(-1, 3)

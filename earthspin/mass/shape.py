@@ -1,0 +1,186 @@
+r"""From where mass lies to the numbers of a body: moments, axes, J2 to J4, triaxiality.
+
+Whatever the mass is given by, it comes as points: point masses themselves, Gauss points in the
+cells of a grid, or in the tetrahedra of a mesh. About the centre of mass, along the principal axes
+and with C the polar one,
+
+    J_n = -(1/(M a^n)) sum of m r^n P_n(cos theta),    J2 = (C - (A + B)/2)/(M a^2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from earthspin.errors import BodyError
+from earthspin.mass._checks import FloatArray, positive
+from earthspin.mass.distribution import grid_masses, point_masses
+from earthspin.mass.mesh import closed_mesh, solid_points
+from earthspin.mass.principal_axes import PrincipalAxes, principal_axes
+from earthspin.mass.tensor import tensor_of_second_moments
+
+#: Masses and places, piece by piece, for polynomials of a degree.
+Pieces = Callable[[int], Iterable[tuple[FloatArray, FloatArray]]]
+#: Gauss points along each edge of a cell: exact up to degree 5.
+POINTS = 3
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Mass, place and figure of a solid.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    centre : ndarray, shape (3,)
+        Of mass, along the axes of what was given, m.
+    principal : PrincipalAxes
+        Moments A <= B <= C about the centre, kg m2, and their axes.
+    radius : float
+        That J2, J3 and J4 refer to, m.
+    j2, j3, j4 : float
+        Zonal coefficients about the axis of C, unnormalised.
+    """
+
+    mass: float
+    centre: FloatArray
+    principal: PrincipalAxes
+    radius: float
+    j2: float
+    j3: float
+    j4: float
+
+    @property
+    def dynamical_flattening(self) -> float:
+        """H = (C - (A + B)/2)/C."""
+        of = self.principal
+        return float((of.c_minus_a + of.c_minus_b) / 2 / of.moments[2])
+
+    @property
+    def triaxiality(self) -> float:
+        """(B - A)/(M a2)."""
+        return self.principal.b_minus_a / (self.mass * self.radius**2)
+
+    @classmethod
+    def of_masses(
+        cls, masses: ArrayLike, positions: ArrayLike, radius: float | None = None
+    ) -> Self:
+        """Of point masses.
+
+        Parameters
+        ----------
+        masses : array_like, shape (k,)
+            kg.
+        positions : array_like, shape (k, 3)
+            m.
+        radius : float, optional
+            That coefficients refer to, m; if not given, the distance of the farthest mass from the
+            centre.
+
+        Raises
+        ------
+        BodyError, UndefinedError
+            If a mass is not above zero, shapes do not match, or all lie in one point.
+        """
+        m, r = point_masses(masses, positions)
+        if r.ndim != 2:
+            raise BodyError("point masses", "positions", f"shape {r.shape}", "give (k, 3)")
+        return cls._of(lambda degree: [(m, r)], r, radius)
+
+    @classmethod
+    def of_density(
+        cls,
+        density: ArrayLike,
+        x: ArrayLike,
+        y: ArrayLike,
+        z: ArrayLike,
+        radius: float | None = None,
+    ) -> Self:
+        """Of a density that is constant in each cell of a grid; exact for such cells.
+
+        Parameters
+        ----------
+        density : array_like, shape (nx, ny, nz)
+            kg m-3; empty cells hold zero.
+        x, y, z : array_like
+            Edges of the cells, rising, m.
+        radius : float, optional
+            As for `of_masses`; if not given, that of the farthest corner of a cell with mass.
+        """
+        m, r = grid_masses(density, x, y, z, points=POINTS)
+        edges = (np.asarray(edge, dtype=float) for edge in (x, y, z))
+        full = np.argwhere(np.asarray(density) > 0)
+        ends = np.stack(
+            [edge[full[:, axis, np.newaxis] + [0, 1]] for axis, edge in enumerate(edges)], axis=1
+        )
+        corners = np.stack(
+            [ends[:, (0, 1, 2), list(which)] for which in np.ndindex(2, 2, 2)], axis=1
+        )
+        return cls._of(lambda degree: [(m, r)], corners.reshape(-1, 3), radius)
+
+    @classmethod
+    def of_mesh(
+        cls,
+        vertices: ArrayLike,
+        faces: ArrayLike,
+        density: float | None = None,
+        mass: float | None = None,
+        radius: float | None = None,
+    ) -> Self:
+        """Of a homogeneous solid between triangles; exact for flat faces.
+
+        Parameters
+        ----------
+        vertices, faces
+            As for `earthspin.mass.mesh.closed_mesh`.
+        density, mass : float
+            One of them: kg m-3, or kg.
+        radius : float, optional
+            As for `of_masses`; if not given, that of the farthest vertex.
+
+        Raises
+        ------
+        BodyError
+            If the mesh is open, turned inside out, or not one of density and mass is given.
+        """
+        if (density is None) == (mass is None):
+            raise BodyError("mesh", "density", density, "give density or mass, one of the two")
+        places, corners = closed_mesh(vertices, faces)
+        middle = places.mean(axis=0)
+
+        def pieces(degree: int, scale: float = 1.0) -> Iterable[tuple[FloatArray, FloatArray]]:
+            for volumes, points in solid_points(places - middle, corners, degree):
+                yield scale * volumes, points + middle
+
+        if mass is None:
+            scale = float(positive("mesh", "density", density or 0.0))
+        else:
+            volume = sum(float(np.sum(volumes)) for volumes, _ in pieces(0))
+            scale = float(positive("mesh", "mass", mass)) / volume
+        return cls._of(lambda degree: pieces(degree, scale), places, radius)
+
+    @classmethod
+    def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
+        """Of points; the outline is what the farthest place is looked for among."""
+        mass = sum(float(np.sum(m)) for m, _ in pieces(0))
+        centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
+        second = np.zeros((3, 3))
+        for m, r in pieces(2):
+            second += np.einsum("k,ki,kj->ij", m, r - centre, r - centre)
+        principal = principal_axes(tensor_of_second_moments(second))
+        farthest = float(np.max(np.linalg.norm(outline - centre, axis=1)))
+        a = farthest if radius is None else float(positive("shape", "radius", radius))
+        j3 = j4 = 0.0
+        for m, r in pieces(4):
+            place = (r - centre) / a
+            z, r2 = place @ principal.axes[2], np.einsum("ki,ki->k", place, place)
+            z2 = z * z
+            j3 -= float(m @ (z * (5 * z2 - 3 * r2))) / (2 * mass)
+            j4 -= float(m @ ((35 * z2 - 30 * r2) * z2 + 3 * r2 * r2)) / (8 * mass)
+        bulge = (principal.c_minus_a + principal.c_minus_b) / 2
+        return cls(mass, centre, principal, a, float(bulge / (mass * a**2)), j3, j4)
