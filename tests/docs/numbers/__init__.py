@@ -5,4 +5,4 @@ test finds the sentence, reads the numbers and compares; a sentence that is gone
 Numbers that no test makes again stand here too, with where they come from.
 """
 
-PAGES = ("pole", "wobble", "trust", "rotors", "skyfield", "frames", "long_term")
+PAGES = ("accuracy", "pole", "wobble", "trust", "rotors", "skyfield", "frames", "long_term")

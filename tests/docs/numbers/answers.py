@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from functools import cache
 
+import erfa
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 import earthspin
-from earthspin.constants import ARCSEC
+from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.sky.iau import Nutation
 from tests import shipped
 
 #: Of an arcsecond a year.
@@ -43,3 +45,18 @@ def axes(**changes: str) -> dict[str, NDArray[np.float64]]:
 def apart(one: str, other: str) -> NDArray[np.float64]:
     """One axis less another, mas, shape (t, 3)."""
     return np.asarray(axes()[one] - axes()[other])
+
+
+@cache
+def nutation_between_nodes() -> float:
+    """By how much daily nodes of nutation are off over all that DE421 covers, rad."""
+    days = np.arange(-36000.0, 19000.0, 6.37)
+    ours = Nutation(days[0], days[-1]).true_equator(days)
+    return float(np.abs(ours - erfa.pnm06a(J2000_JD, days)).max())
+
+
+@cache
+def kernel_of_the_pole() -> list[float]:
+    """Least and largest share of the kernel in the error of the pole, by DE421, uas."""
+    share = earthspin.pole("1900-01-01", "2053-01-01", "500 d").direction_error_kernel
+    return [float(share.min()), float(share.max())]

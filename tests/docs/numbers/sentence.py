@@ -136,6 +136,44 @@ class Part:
         return found
 
 
+@dataclass(frozen=True)
+class Column:
+    """A column of a table whose numbers no test makes again.
+
+    Attributes
+    ----------
+    page : str
+    header : str
+        First line of the table, whole.
+    name : str
+        Of the column, as that line has it.
+    why : str
+        As of `Told`.
+    """
+
+    page: str
+    header: str
+    name: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.page}: column {self.name!r} of {self.header}"
+
+    def found(self) -> re.Match[str]:
+        """Where its cells stand, a group each."""
+        names = self.header.strip("| ").split(" | ")
+        assert names.count(self.name) == 1, f"{self.header} has no one column {self.name!r}"
+        text = (ROOT / self.page).read_text(encoding="utf-8")
+        table = re.search(rf"^{re.escape(self.header)}\n(?:\|.*(?:\n|\Z))+", text, re.MULTILINE)
+        assert table, f"{self.page} has no table {self.header!r}"
+        other, rows = r"(?:[^|\n]*\|)", table[0].count("\n") - 2
+        before, after = names.index(self.name), len(names) - names.index(self.name) - 1
+        row = rf"\|{other}{{{before}}}([^|\n]*)\|{other}{{{after}}}\n"
+        found = re.search(rf"^{re.escape(self.header)}\n.*\n{row * rows}", text, re.MULTILINE)
+        assert found, f"not every row of {self.header!r} has {len(names)} cells"
+        return found
+
+
 def plain(told: str) -> tuple[str, int]:
     """Mantissa and power of ten of a number as a page writes it."""
     number = re.sub(r"10([⁰¹²³⁴-⁹⁻]+)", r"10^\1", told).translate(_UNICODE).replace(",", "")
@@ -181,13 +219,13 @@ _WITH_UNIT = re.compile(
 )
 
 
-def unaccounted(page: str, sentences: Sequence[Sentence | Told | Part]) -> list[str]:
+def unaccounted(page: str, sentences: Sequence[Sentence | Told | Column | Part]) -> list[str]:
     """Numbers with decimals, a power of ten or a unit that stand in no sentence of the page's.
 
     Parameters
     ----------
     page : str
-    sentences : sequence of Sentence, Told or Part
+    sentences : sequence of Sentence, Told, Column or Part
         Of any pages.
     """
     text = (ROOT / page).read_text(encoding="utf-8")
