@@ -103,28 +103,45 @@ def timed(run: Callable[[], object], runs: int) -> tuple[float, object]:
     return statistics.median(times), given
 
 
+class Thirty:
+    """Thirty years of the figure axis at random times, and how far off a method is."""
+
+    def __init__(self) -> None:
+        self.kernel = Ephemeris(find_kernel("de421"), name="de421")
+        random = np.random.default_rng(7)
+        self.times = np.sort(random.uniform(-SPAN + 9 * DAY, SPAN - 9 * DAY, 3000))
+        self.reference = axis_path(
+            forces(self.kernel), START, 0.0, (-SPAN, SPAN), window=4 * DAY, order=16
+        )
+        self.best = self.reference.at(self.times)["figure"]
+
+    def picard(self, window: float, order: int) -> np.ndarray:
+        """Figure axis by the default scheme."""
+        return picard(self.kernel, window, order, self.times)
+
+    def dop853(self, rtol: float) -> tuple[np.ndarray, int]:
+        """Figure axis by scipy's DOP853, and how often it asked for the sky."""
+        return dop853(self.kernel, self.reference, rtol, self.times)
+
+    def error(self, found: np.ndarray) -> float:
+        """Largest angle from the reference, uas."""
+        found = found / np.linalg.norm(found, axis=1, keepdims=True)
+        return float(np.max(np.linalg.norm(found - self.best, axis=1)) / UAS)
+
+
 def main() -> None:
     """Print each method's error and time, and the ratio."""
-    kernel = Ephemeris(find_kernel("de421"), name="de421")
-    times = np.sort(np.random.default_rng(7).uniform(-SPAN + 9 * DAY, SPAN - 9 * DAY, 3000))
-    reference = axis_path(forces(kernel), START, 0.0, (-SPAN, SPAN), window=4 * DAY, order=16)
-    best = reference.at(times)["figure"]
-
-    def error(found: np.ndarray) -> float:
-        found = found / np.linalg.norm(found, axis=1, keepdims=True)
-        return float(np.max(np.linalg.norm(found - best, axis=1)) / UAS)
-
-    ours = {}
+    thirty, ours = Thirty(), {}
     for window, order in ((8, 12), (8, 14)):
-        seconds, found = timed(lambda w=window, o=order: picard(kernel, w, o, times), RUNS)  # type: ignore[misc]
-        off = error(np.asarray(found))
+        seconds, found = timed(lambda w=window, o=order: thirty.picard(w, o), RUNS)  # type: ignore[misc]
+        off = thirty.error(np.asarray(found))
         ours[order] = seconds
         print(f"Picard, {window} d, {order} nodes: {off:.3g} uas, {seconds * 1e3:.0f} ms")
         assert off < 1
     for rtol in (1e-9, 5e-10):
-        seconds, given = timed(lambda r=rtol: dop853(kernel, reference, r, times), 1)  # type: ignore[misc]
+        seconds, given = timed(lambda r=rtol: thirty.dop853(r), 1)  # type: ignore[misc]
         found, calls = given  # type: ignore[misc]
-        off = error(found)
+        off = thirty.error(found)
         print(
             f"DOP853, rtol {rtol:g}: {off:.3g} uas, {seconds:.2f} s, {calls} torques; "
             f"ratio {seconds / ours[12]:.0f} to 12 nodes, {seconds / ours[14]:.0f} to 14"
@@ -132,7 +149,10 @@ def main() -> None:
     assert off < 1
     for years in (10, 20, 40):
         half = years / 2 * JULIAN_YEAR
-        seconds, _ = timed(lambda h=half: axis_path(forces(kernel), START, 0.0, (-h, h)), RUNS)  # type: ignore[misc]
+        seconds, _ = timed(
+            lambda h=half: axis_path(forces(thirty.kernel), START, 0.0, (-h, h)),  # type: ignore[misc]
+            RUNS,
+        )
         print(f"{years} years: {seconds * 1e3:.0f} ms, {seconds / years * 1e3:.2f} ms a year")
 
 

@@ -22,7 +22,12 @@ from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.top import rounding
 from earthspin.torque.average import Window
 from tests import shipped
-from tests.docs.numbers.answers import kernel_of_the_pole, nutation_between_nodes, value
+from tests.docs.numbers.answers import (
+    input_error_of_the_pole,
+    kernel_of_the_pole,
+    nutation_between_nodes,
+    value,
+)
 from tests.docs.numbers.sentence import ROOT, Column, Part, Sentence, Told
 
 PAGE = "docs/accuracy.md"
@@ -171,12 +176,6 @@ def random_damage() -> list[float]:
 
 
 # --- asking for an accuracy ------------------------------------------------------------------
-
-
-def input_error_of_the_pole() -> float:
-    """Of the pole by H after twenty years, mas."""
-    path = earthspin.pole(times=["2020-01-01T12:00"], effects=["second-order"])
-    return float(path.direction_error_input.max()) / 1e3
 
 
 def known_figure_rate() -> float:

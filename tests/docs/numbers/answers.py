@@ -60,3 +60,9 @@ def kernel_of_the_pole() -> list[float]:
     """Least and largest share of the kernel in the error of the pole, by DE421, uas."""
     share = earthspin.pole("1900-01-01", "2053-01-01", "500 d").direction_error_kernel
     return [float(share.min()), float(share.max())]
+
+
+def input_error_of_the_pole() -> float:
+    """Of the pole by H after twenty years, mas."""
+    path = earthspin.pole(times=["2020-01-01T12:00"], effects=["second-order"])
+    return float(path.direction_error_input.max()) / 1e3
