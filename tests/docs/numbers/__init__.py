@@ -5,4 +5,14 @@ test finds the sentence, reads the numbers and compares; a sentence that is gone
 Numbers that no test makes again stand here too, with where they come from.
 """
 
-PAGES = ("accuracy", "pole", "wobble", "trust", "rotors", "skyfield", "frames", "long_term")
+PAGES = (
+    "accuracy",
+    "pole",
+    "wobble",
+    "trust",
+    "rotors",
+    "skyfield",
+    "work_precision",
+    "frames",
+    "long_term",
+)

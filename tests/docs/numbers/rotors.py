@@ -6,14 +6,20 @@ from functools import cache, partial
 
 import numpy as np
 
+import earthspin
 from earthspin import EARTH
 from earthspin.bodies import MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
+from earthspin.sky import iau
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.torque.average import Window, window_mean_and_error
 from tests import shipped
 from tests.docs.numbers.answers import value
-from tests.docs.numbers.sentence import Sentence, Told
+from tests.docs.numbers.sentence import Column, Sentence, Told
+from tests.mass.accuracy import ROWS as WORST_OF_MASS
+from tests.mass.accuracy import spheroid_errors
+from tests.mass.spheroid_reference import FAMILIES as SPHEROIDS
+from tests.mass.spheroid_reference import PLACES
 
 ROTORS, THEORY = "docs/rotors.md", "docs/theory.md"
 E = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
@@ -89,6 +95,54 @@ def extremes() -> list[float]:
     return [float(found.max()), float(found.min())]
 
 
+def inclinations() -> list[float]:
+    """Least and largest inclination of the Moon's orbit to the ecliptic of J2000.0, deg."""
+    kernel, days, step = open_ephemeris("de421"), np.arange(-36000.0, 19000.0), 0.05
+    before, now, after = (
+        kernel.positions({"moon": 301}, 399, days + shift)["moon"] for shift in (-step, 0, step)
+    )
+    normal = np.cross(now, after - before)
+    along = normal @ iau.ecliptic_pole() / np.linalg.norm(normal, axis=1)
+    tilt = np.degrees(np.arccos(along))
+    return [float(tilt.min()), float(tilt.max())]
+
+
+def chandler_period() -> float:
+    """As observed, d."""
+    return float(earthspin.fit_chandler(earthspin.polar_motion()).chandler_period)
+
+
+def worst_of_mass(words: str) -> float:
+    return WORST_OF_MASS[words](600)
+
+
+def spheroid_beside_the_input() -> float:
+    """Largest error over what the last place of the input does, where that is much."""
+    return max(spheroid_errors(family, place, 100).ulps for family in SPHEROIDS for place in PLACES)
+
+
+def ten_thousand_periods() -> float:
+    """Largest change of what a free rotor keeps, as in docs/stability.md."""
+    found = earthspin.stability(only="over 10^4 periods")
+    return float(found.measured.max())
+
+
+@cache
+def late_errors_of_tops() -> list[float]:
+    """After ten thousand periods, over the effect of the input's last place: of three kinds."""
+    from tests.top.accuracy import LATE, cases, errors
+    from tests.top.families import FAMILIES
+
+    late = {
+        family: max(errors(start, (LATE,)).ulps for start in cases(family, 500))
+        for family in FAMILIES
+    }
+    below = late.pop("sleeping, below")
+    odd = [late.pop(family) for family in ("cusp", "near-separatrix")]
+    return [min(late.values()), max(late.values()), max(odd), below]
+
+
+TABLE = "| family | cases | worst error | time |"
 ROTOR = {
     "generic": "free rotor, generic",
     "earth-like": "free rotor, like the Earth (cones of 1 µas to 89°)",
@@ -146,8 +200,8 @@ MEASURED = [
     ),
     Sentence(
         THEORY,
-        "it is {} days, not 18.6 years of 365.25 days, which is {} days short",
-        lambda: [MOON.cycle / DAY, MOON.cycle / DAY - 18.6 * 365.25],
+        "it is {} days, not {} years of {} days, which is {} days short",
+        lambda: [MOON.cycle / DAY, 18.6, 365.25, MOON.cycle / DAY - 18.6 * 365.25],
     ),
     Sentence(THEORY, "Sun's mean orbit it gives {} arcsec/yr", on_the_mean_orbit),
     Sentence(THEORY, "arcsec/yr, within {} parts in $10^6$ of the ephemeris", off_the_ephemeris),
@@ -164,7 +218,7 @@ MEASURED = [
         slow=True,
     ),
     Sentence(THEORY, 'The rate drifts by {} "/cy per century', drift, slow=True),
-    Sentence(THEORY, "turns, {} for the Earth, {} days of 86400 s", rigid_wobble),
+    Sentence(THEORY, "turns, {} for the Earth, {} days of {} s", lambda: [*rigid_wobble(), DAY]),
     Sentence(THEORY, "would give {} turns.", lambda: 1 / float(EARTH.dynamical_flattening)),
     Sentence(
         THEORY,
@@ -187,8 +241,55 @@ MEASURED = [
         lambda: extremes()[0],
     ),
     Sentence(THEORY, "stays within {} degrees in others", lambda: extremes()[1]),
+    Sentence(
+        THEORY,
+        "most of all, the {} years of the\nMoon's node",
+        lambda: MOON.cycle / JULIAN_YEAR,
+    ),
+    Sentence(THEORY, "has a period of about [{} days]", chandler_period),
+    Sentence(THEORY, "Moon's orbit vary between {} and {} degrees", inclinations),
+    *(
+        Sentence(
+            ROTORS,
+            f"| {words} | 600 | {{}} |",
+            partial(worst_of_mass, words),
+            factor=3.0,
+            slow=True,
+        )
+        for words in WORST_OF_MASS
+    ),
+    Sentence(ROTORS, "The observed wobble takes about {} days", chandler_period),
+    Sentence(
+        ROTORS,
+        "there the spheroid is off by {} of that effect at most",
+        spheroid_beside_the_input,
+        factor=3.0,
+        slow=True,
+    ),
+    Sentence(
+        ROTORS,
+        "energy, angular momentum and unit\nquaternion of the rotor are constant within {} (",
+        ten_thousand_periods,
+        factor=3.0,
+        slow=True,
+    ),
+    Sentence(
+        ROTORS,
+        "the worst errors then are {} to {} times that\neffect in seven families, and {} (cusp, "
+        "near the separatrix) and {} (just below critical spin) times in three",
+        late_errors_of_tops,
+        factor=1.5,
+        slow=True,
+    ),
 ]
 TOLD = [
+    Column(ROTORS, TABLE, "time", "run time: python -m tests.rotor.accuracy, and its like"),
+    Column(ROTORS, TABLE, "family", "given: where the cases of a family are drawn from"),
+    Told(
+        ROTORS, "Where that of a\ntop is above {}, its ratio", "given: tests/top/accuracy.py, GOOD"
+    ),
+    Told(THEORY, "$J_2$ with $C = {}\\,Ma^2$", "by definition: a homogeneous sphere"),
+    Told(THEORY, "a calendar with years of {} days", "by definition: the Julian year"),
     Told(THEORY, "The source text has\n{} years", "the source text"),
     Told(THEORY, "extreme declinations of {} and {} degrees, that is {} ± {}", "the source text"),
     Told(ROTORS, "with\nattitude, takes {} ms", "run time: python -m tests.rotor.accuracy"),

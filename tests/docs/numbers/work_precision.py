@@ -1,0 +1,140 @@
+"""docs/work_precision.md: what the text says of the tables that it includes."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+from typing import NamedTuple
+
+import mpmath as mp
+import numpy as np
+
+from earthspin.bodies import MOON
+from earthspin.checks.ladders import model_sky, of_free_rotor, of_spheroid, of_top
+from earthspin.checks.ladders.of_precession import TORUS
+from earthspin.checks.work_precision import SHORTEST_SAMPLE
+from earthspin.constants import JULIAN_YEAR
+from earthspin.sky import iau
+from tests.docs.numbers.sentence import ROOT, Column, Part, Sentence, Told
+from tests.top.accuracy import ulp_effect_at
+from tests.top.textbook import DIGITS, Textbook
+
+PAGE = "docs/work_precision.md"
+#: Multiples of D, l', l and F of the slow term.
+SLOW = (3, 3, -1, -2)
+#: Run times are measured again on other machines and days.
+RUN_TIMES = 1.5
+SECONDS = {"µs": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+class Row(NamedTuple):
+    """A setting of a measured table: error in its unit, and run time, s."""
+
+    method: str
+    setting: str
+    error: float
+    run_time: float
+
+
+@cache
+def rows(quantity: str) -> tuple[Row, ...]:
+    """A table of docs/measured."""
+    text = (ROOT / f"docs/measured/accuracy-{quantity}.inc").read_text(encoding="utf-8")
+    found, method = [], ""
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip("| ").split("|")]
+        if not re.match(r"\| .*\| [\d,]+ \|", line):
+            continue
+        method = cells[0] if not line.startswith("|  |") else method
+        setting, error, time = cells[1:4] if not line.startswith("|  |") else cells[0:3]
+        number, unit = time.split()
+        found.append(Row(method, setting, float(error), float(number) * SECONDS[unit]))
+    assert found, quantity
+    return tuple(found)
+
+
+def row(quantity: str, method: str, setting: str = "") -> Row:
+    """One setting."""
+    (found,) = (r for r in rows(quantity) if (r.method, r.setting) == (method, setting))
+    return found
+
+
+def by_skyfield() -> list[float]:
+    """Errors of Skyfield as it comes, and as a source, uas, and the ratio of their run times."""
+    alone = row("torque", "Skyfield, radec of date (other)")
+    source = row("torque", 'source = "skyfield"')
+    return [1e3 * alone.error, 1e3 * source.error, source.run_time / alone.run_time]
+
+
+def faster_than_integrators() -> list[float]:
+    """How many times faster the closed form of a free rotor is: at least, at most."""
+    closed = row("free-rotor", "closed form").run_time
+    others = [r.run_time for r in rows("free-rotor") if r.method != "closed form"]
+    return [min(others) / closed, max(others) / closed]
+
+
+def slow_term() -> float:
+    """Amplitude of the model's slowest term over its mean."""
+    turns = [2 * np.pi * np.arange(count) / count for count in TORUS]
+    angles = np.stack(np.meshgrid(*turns, indexing="ij")).reshape(4, -1)
+    found = np.concatenate(
+        [model_sky.precessing(part) for part in np.array_split(angles, TORUS[0], axis=1)]
+    )
+    wave = np.exp(-1j * (np.array(SLOW) @ angles))
+    return float(2 * abs(np.mean(found * wave)) / np.mean(found))
+
+
+def period_of_the_slow_term() -> float:
+    """Of 3 D + 3 l' - l - 2 F, Julian years."""
+    rate = np.array([-1, 3, -2, 3, 0]) @ iau.delaunay_rates()
+    return float(abs(2 * np.pi / rate) / JULIAN_YEAR)
+
+
+def last_place_of_the_top() -> float:
+    """What a unit in the last place of each input does to the top's attitude, rad."""
+    with mp.workdps(DIGITS):
+        moment = 100 * float(Textbook(of_top.TOP).period)
+        return float(ulp_effect_at(of_top.TOP, moment)[4:].max())
+
+
+MEASURED = [
+    Sentence(PAGE, "What takes less than {} ms is repeated", lambda: 1e3 * SHORTEST_SAMPLE),
+    Sentence(
+        PAGE,
+        "the remaining ${}$ is a true variation",
+        lambda: row("precession", "sin4", "8 turns, 1 d").error,
+    ),
+    Sentence(PAGE, "a term of\n${}$ in $3D", slow_term, slow=True),
+    Sentence(PAGE, "Its period is {} years, in which the perigee", period_of_the_slow_term),
+    Sentence(PAGE, "its rate varies by\n${}$ (", lambda: MOON.slow_swing),
+    Sentence(PAGE, "Skyfield differs by {} µas because", lambda: by_skyfield()[0]),
+    Sentence(PAGE, "and differs by\n{} µas, because", lambda: by_skyfield()[1]),
+    Sentence(
+        PAGE,
+        "milliarcsecond down to rounding, ${}$ µas",
+        lambda: min(r.error for r in rows("pole")),
+        factor=2.0,
+    ),
+    Sentence(PAGE, "Moments 1 : {} : {}, a hundred periods", lambda: of_free_rotor.MOMENTS[1:]),
+    Sentence(PAGE, "and from {} to {} times faster", faster_than_integrators, factor=RUN_TIMES),
+    Sentence(
+        PAGE, "value changes its attitude by ${}$", last_place_of_the_top, factor=1.5, slow=True
+    ),
+    Sentence(
+        PAGE,
+        "at distances from {} to {} equatorial radii, together",
+        lambda: [of_spheroid.DISTANCES[0], of_spheroid.DISTANCES[-1]],
+    ),
+    Sentence(
+        PAGE,
+        "they keep ten digits at {} radii, four at the Moon's",
+        lambda: of_spheroid.DISTANCES[0],
+    ),
+    Sentence(
+        PAGE,
+        "for no method can it be smaller than\n$T\\sqrt{T/4\\pi QL}$, {} days for {} years",
+        lambda: [433 * math.sqrt(433 / (4 * math.pi * 100 * 65 * 365.25)), 65],
+    ),
+]
+TOLD: list[Told | Column | Part] = []
