@@ -6,12 +6,17 @@ import math
 from collections.abc import Callable, Sequence
 from functools import cache
 
+import astropy.units as u
 import erfa
 import numpy as np
+from astropy.coordinates import SkyCoord
 
 import earthspin
 from data_tools import long_term
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR
+from earthspin.secular.budget import ELLIPTICITY_DRIFT
+from earthspin.secular.strength import FADES_FROM, FADES_TO
+from earthspin.sky import orbit_table
 from tests import shipped
 from tests.docs.numbers.sentence import Sentence, Told
 
@@ -165,20 +170,119 @@ MEASURED += [
     Sentence(PAGE, "`matrix_error` is how well the pole is known, {}″ then", known_then),
 ]
 
+
+def nutation_in_obliquity() -> list[float]:
+    """Largest of a turn of the node, IAU 2000A, arcsec and deg."""
+    largest = float(np.abs(erfa.nut06a(J2000_JD, np.arange(0.0, 7000.0, 3.0))[1]).max())
+    return [largest / ARCSEC, math.degrees(largest)]
+
+
+def perihelion_now() -> float:
+    """Its longitude at J2000.0, deg."""
+    return float(shipped.answer("long-term").longitude_of_perihelion.sel(epoch=0.0))
+
+
+def window_of_the_orbit() -> float:
+    """Length of the windows of the shipped orbit, yr."""
+    return float(orbit_table.WINDOW) / JULIAN_YEAR
+
+
+def last_million(name: str) -> float:
+    """Of the answer a million years ago."""
+    return float(shipped.answer("long-term")[name].sel(epoch=-1e6))
+
+
+def a_year_of_obliquity() -> float:
+    """By how much the obliquity changes in a year, arcsec."""
+    found = earthspin.long_term(times=["0 yr", "100 yr"]).obliquity
+    return float(abs(found[1] - found[0])) * 36
+
+
+def vega() -> float:
+    """Its distance from the pole 12,000 years ago, deg, as the page has place and motion."""
+    place = SkyCoord(
+        ra=279.2347 * u.deg,
+        dec=38.7837 * u.deg,
+        distance=7.679 * u.pc,
+        pm_ra_cosdec=200.94 * u.mas / u.yr,
+        pm_dec=286.23 * u.mas / u.yr,
+        radial_velocity=-20.6 * u.km / u.s,
+    )
+    then = place.cartesian.xyz - place.velocity.d_xyz * (12_000 * u.yr)
+    pole = earthspin.long_term(times=["-12 kyr"]).pole.values[0]
+    return float(np.degrees(np.arccos(pole @ (then / np.linalg.norm(then)).value)))
+
+
+def obliquity_now() -> float:
+    """By how much it is less than that of IAU 2006 at J2000.0, arcsec."""
+    ours = float(shipped.answer("long-term").obliquity.sel(epoch=0.0))
+    return (float(erfa.obl06(J2000_JD, 0)) - math.radians(ours)) / ARCSEC
+
+
+MEASURED += [
+    Sentence(PAGE, "is at most {}″ ({}°)", nutation_in_obliquity, (1, 0)),
+    Sentence(PAGE, "is today's {}°, as in the tables", perihelion_now),
+    Sentence(PAGE, "+ 180° = {}°$", lambda: perihelion_now() + 180),
+    Sentence(
+        PAGE,
+        "Over a turn of {} years the two\npart by degrees",
+        lambda: float(shipped.answer("precession").precession_period.sel(perturber="total")),
+        500.0,
+    ),
+    Sentence(PAGE, "an obliquity changes by {}″ in a year", a_year_of_obliquity),
+    Sentence(PAGE, "Vega was {}° from the pole", vega),
+    Sentence(
+        PAGE,
+        "is geodesic precession, {}″ a century",
+        lambda: long_term.earths().strength.geodesic * JULIAN_YEAR * 100 / ARCSEC,
+    ),
+    Sentence(
+        PAGE,
+        "at today's rate within {} years; beyond, the change is taken back with a cosine, and is"
+        " gone {}\n  years from now",
+        lambda: [FADES_FROM / JULIAN_YEAR, FADES_TO / JULIAN_YEAR],
+    ),
+    Sentence(PAGE, "polynomials in windows of {} years", window_of_the_orbit),
+    Sentence(
+        PAGE,
+        "a drift of {} % in ten million years, an assumption",
+        lambda: 100 * ELLIPTICITY_DRIFT * 1e7 * JULIAN_YEAR,
+    ),
+    Sentence(
+        PAGE,
+        "obliquity of IAU 1976, {}″ more than that of IAU 2006",
+        lambda: float(erfa.obl80(J2000_JD, 0) - erfa.obl06(J2000_JD, 0)) / ARCSEC,
+    ),
+    Sentence(PAGE, "without which the obliquity is {}″ less now", obliquity_now),
+    Sentence(
+        PAGE,
+        "million years back, {}° at a million, and more than a turn",
+        lambda: last_million("longitude_of_perihelion_error"),
+    ),
+    Sentence(
+        PAGE,
+        "the obliquity the half-width is {}° at a million years",
+        lambda: last_million("obliquity_error"),
+    ),
+]
+
+#: Right angles, turns and the like.
+BY_DEFINITION = (
+    "Julian years of {} days (TDB)",
+    "beyond {}° the\n  spin is retrograde",
+    "lies between 0 and {}° at J2000.0",
+    "stands at $\\varpi + {}° = 283°$",
+    "wants {}° more",
+    "the *true* longitude of the Sun,\n{}° from",
+    "point {}° east of it",
+    "from the moving equinox ({}° is the June\nsolstice)",
+)
 TOLD = [
-    Told(PAGE, "is at most {}″ ({}°)", "the largest nutation in obliquity, IAU 2000A"),
-    Told(PAGE, "Julian years of {} days (TDB)", "by definition"),
-    Told(PAGE, "beyond {}° the\n  spin is retrograde", "by definition"),
-    Told(PAGE, "lies between 0 and {}° at J2000.0", "by definition"),
-    Told(PAGE, "is today's {}°, as in the tables", "rounded; the answer has it"),
-    Told(PAGE, "stands at $\\varpi + {}° = {}°$", "by definition"),
-    Told(PAGE, "wants {}° more", "by definition"),
-    Told(PAGE, "the *true* longitude of the Sun,\n{}° from", "by definition"),
-    Told(PAGE, "point {}° east of it", "by definition"),
-    Told(PAGE, "## Sunlight in summer at {}° north", "given"),
-    Told(PAGE, "from the moving equinox ({}° is the June\nsolstice)", "by definition"),
-    Told(PAGE, "$H$ larger by {} %", "given"),
+    *(Told(PAGE, text, "by definition") for text in BY_DEFINITION),
     Told(PAGE, "is a {} % half-width", "what an error is, by definition"),
+    Told(PAGE, "## Sunlight in summer at {}° north", "given"),
+    Told(PAGE, "$H$ larger by {} %", "given"),
+    Told(PAGE, "the\npole at {} years (`python -m data_tools long-term`)", "given: the epoch"),
     Told(PAGE, "| method | windows half as long | < {} | < {} | < {} | < {} |", BOUND),
     Told(
         PAGE,
