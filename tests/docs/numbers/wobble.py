@@ -11,13 +11,19 @@ import numpy as np
 import xarray as xr
 
 import earthspin
-from earthspin.constants import Constant
+from data_tools.free_wobble import DRAWS
+from earthspin.constants import DAY, Constant
+from earthspin.interior.love import softening
 from earthspin.interior.named import INTERIORS
 from earthspin.interior.prem import PREM
-from earthspin.wobble import ladder, simulation
+from earthspin.mass.inertia import polar_moment_factor
+from earthspin.sky.eop import LONGEST_DAYS
+from earthspin.wobble import ladder, likelihood, presence, simulation
+from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
 from tests import shipped
 from tests.docs.numbers.answers import value
-from tests.docs.numbers.sentence import ROOT, Sentence, Told
+from tests.docs.numbers.sentence import ROOT, Column, Sentence, Told
+from tests.wobble.test_neglected import beside_a_core_that_ends_there
 
 PAGE = "docs/wobble.md"
 EARTH = earthspin.EARTH
@@ -206,6 +212,109 @@ def secular(radius: float) -> float:
     return float(3 * earth.gm * earth.j2 * earth.radius**2 / (earth.spin_rate**2 * radius**5))
 
 
+def two_days() -> list[float]:
+    """A turn in days, a day in s, the wobble's period, d, and how far its two numbers part."""
+    turn = float(EARTH.needed("spin_period")) / DAY
+    return [turn, DAY, NEAR, NEAR / turn - NEAR]
+
+
+def with_equatorial_radius() -> float:
+    """Days by which the elastic rung is longer with the wrong radius in kappa."""
+    turns, days, *_ = rung("elastic")
+    h = EARTH.dynamical_flattening
+    e = h / (1 - h)
+    kappa = (e * turns - 1) / (1 + turns) * (float(EARTH.radius) / PREM.radius) ** 5
+    return ((1 + kappa) / (e - kappa) - turns) * days / turns
+
+
+def flatter_core() -> float:
+    """By how much the core that the nutation asks for is flatter than the hydrostatic one, %."""
+    return 100 * (observed_core().value / of_input("core_ellipticity")[0] - 1)
+
+
+def from_one_second() -> float:
+    """What the softening from 1 s to 200 s alone does to the period with an ocean, d."""
+    interior = INTERIORS["prem"]
+    assert interior.layers is not None
+    inputs = ladder.inputs_of(interior, SPIN, FIGURE)
+    moment = polar_moment_factor(inputs.j2, inputs.dynamical_flattening) - inputs.j2
+    unit = SPIN.centrifugal(ladder.love_radius(interior, SPIN)) / moment
+    stiff, water = (
+        ladder._compliance(interior, inputs),
+        ladder._water(interior, inputs, unit, "real"),
+    )
+    strain = -2 / np.pi * np.log(ladder.ABSORPTION_BAND)
+    softer = tuple(
+        value * ratio(strain)
+        for value, ratio in zip(stiff, softening(interior.layers), strict=True)
+    )
+    before, after = (ladder.roots(inputs, unit, c, water).turns for c in (stiff, softer))
+    return float(after - before) * two_days()[0]
+
+
+def exponent_of_the_observed_quality() -> float:
+    """That with which the last rung has the observed Q."""
+    observed_q = of_c04("burg")[2]
+    exponents = np.array([0.09, 0.1, 0.11, 0.12, 0.13, 0.15])
+    q = [with_exponent(a)[2] for a in exponents]
+    return float(np.interp(np.log(observed_q), np.log(q[::-1]), exponents[::-1]))
+
+
+def cut_by_bridges() -> list[float]:
+    """How much of the wobble straight lines over ten days and a tenth of a year cut, %."""
+    return [100 * (np.pi * days / NEAR) ** 2 / 2 for days in (10, 36.525)]
+
+
+def beats() -> list[float]:
+    """One and two beats of wobble and year, yr."""
+    beat = 1 / (1 / 365.25 - 1 / NEAR) / 365.25
+    return [NEAR, 365, beat, 2 * beat]
+
+
+def coverage_of_sixty() -> float:
+    """Standard deviation of a share near 95 per cent of sixty, %."""
+    return float(100 * np.sqrt(0.95 * 0.05 / DRAWS["likelihood"]))
+
+
+def under_metres() -> float:
+    """Largest radius of the wobble since the middle of 2016, m."""
+    found = earthspin.fit_chandler(observed()).chandler_amplitude
+    largest = float(found.sel(time=slice("2021-01-01", None)).max())
+    return float(np.radians(largest / 3.6e6) * value("polar-motion", "/", "polar_radius"))
+
+
+def round_trip() -> list[float]:
+    """Years of C04, and how well excitation and polar motion give it back, mas."""
+    pole = observed()
+    back = earthspin.polar_motion_from(earthspin.excitation(pole))
+    off = max(float(abs(back[c] - pole[c]).max()) for c in "xy")
+    scale = 1e3 if pole.x.attrs["units"] == "arcsec" else 1.0
+    years = float((pole.time[-1] - pole.time[0]) / np.timedelta64(1, "D")) / 365.25
+    return [years, scale * off]
+
+
+@cache
+def with_excitation() -> list[float]:
+    """Scatter of twelve periods with a known excitation and by Burg alone, and the error, d."""
+    from earthspin.wobble.driven import fit_with_excitation
+    from earthspin.wobble.observed import fit
+    from tests.wobble.test_likelihood import driven_pole
+
+    known, alone, claimed = [], [], []
+    for seed in range(12):
+        days, p, chi = driven_pole(431.0, 90.0, 4.0, seed)
+        one = fit_with_excitation(days, p, chi)
+        known.append(one.period)
+        claimed.append(one.period_error)
+        alone.append(fit(days, p).period)
+    return [float(np.std(known)), float(np.std(alone)), float(np.mean(claimed))]
+
+
+def tenfold_by_euler() -> float:
+    """Years in which explicit Euler in steps of a day increases a wobble tenfold."""
+    return float(2 * np.log(10) / np.log1p((2 * np.pi / NEAR) ** 2) / 365.25)
+
+
 MEASURED = [
     *(
         Sentence(PAGE, text, partial(rung, name))
@@ -270,7 +379,7 @@ MEASURED = [
         partial(of_c04, "burg"),
         (0, 0, 0, 0, 50),
     ),
-    Sentence(PAGE, "For $Q$ = 100 and 65 years that is {} days", limit),
+    Sentence(PAGE, "For $Q$ = 100 and {} years that is {} days", lambda: [65, limit()]),
     Sentence(
         PAGE,
         "Burg's intervals hold $T$ in {} to {} %",
@@ -320,13 +429,13 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "Burg's bias is at most {} d (in 25 years), the likelihood's {} d",
-        lambda: [largest_bias("burg"), largest_bias("likelihood")],
+        "Burg's bias is at most {} d (in {} years), the likelihood's {} d",
+        lambda: [largest_bias("burg"), 25, largest_bias("likelihood")],
     ),
     Sentence(
         PAGE,
-        "both are within {} d, with\nred",
-        lambda: max(largest_bias(method, (65, 130)) for method in ("burg", "likelihood")),
+        "over {} years and more both are within {} d, with\nred",
+        lambda: [65, max(largest_bias(m, (65, 130)) for m in ("burg", "likelihood"))],
     ),
     Sentence(PAGE, "are on the safe side: {} to {} % in 60", held_by_likelihood),
     Sentence(
@@ -352,11 +461,102 @@ MEASURED = [
     ),
     Sentence(PAGE, "| amplitude, mas |" + " {} |" * 9, amplitudes),
 ]
+MEASURED += [
+    Sentence(
+        PAGE,
+        "# From {} to {} days: the free wobble",
+        lambda: [rung("rigid")[1], of_c04("burg")[0]],
+    ),
+    Sentence(PAGE, "predicted a period of about {} days", lambda: rung("rigid")[1]),
+    Sentence(
+        PAGE,
+        "One turn lasts {} days of {} s. At {} days the\ntwo units differ by {} days",
+        two_days,
+    ),
+    Sentence(PAGE, "| sidereal days | days of {} s | factor |", lambda: DAY),
+    Sentence(PAGE, "flattening of the figure, $f$ = 1/{},", lambda: 1 / EARTH.needed("flattening")),
+    Sentence(PAGE, "one gets $1/H$ = {}.", lambda: 1 / EARTH.dynamical_flattening),
+    Sentence(PAGE, "that of the sphere ({} km)", lambda: PREM.radius / 1e3),
+    Sentence(PAGE, "the period of this rung is {} days longer", with_equatorial_radius),
+    Sentence(PAGE, "asks for a core that is {} % flatter", flatter_core),
+    Sentence(
+        PAGE,
+        "from {} s to {} s and changes the period by {} days",
+        lambda: [1, ladder.ABSORPTION_BAND, from_one_second()],
+    ),
+    Sentence(PAGE, "The observed {} ± {} days require", lambda: of_c04("burg")[:2]),
+    Sentence(PAGE, "they indicate $\\alpha$ near {}.", exponent_of_the_observed_quality, slow=True),
+    Sentence(PAGE, "as recalled, for {} |", lambda: love("k2")[0]),
+    Sentence(PAGE, "ends at the inner core's boundary it is {} d", beside_a_core_that_ends_there),
+    Sentence(
+        PAGE,
+        "gaps up to ten steps and {} days. These",
+        lambda: LONGEST_DAYS,
+    ),
+    Sentence(PAGE, "of itself: {} % over ten days, {} % over the tenth", cut_by_bridges),
+    Sentence(PAGE, "All methods accept steps up to {} days", lambda: LONGEST_STEP),
+    Sentence(PAGE, "of known truth: $T$ = {} d, with seasons", lambda: NEAR),
+    Sentence(
+        PAGE,
+        "its memory is {} days\nthere, and {} in the model that is fitted",
+        lambda: [simulation.RED_MEMORY, likelihood.MEMORY],
+    ),
+    Sentence(PAGE, "determines the percentage to {} %", coverage_of_sixty),
+    Sentence(
+        PAGE,
+        "To separate {} from {} days takes\none beat, {} years; "
+        "the methods require two beats, {} years",
+        beats,
+    ),
+    Sentence(
+        PAGE,
+        "the power between {} and {} days is compared",
+        lambda: BAND,
+    ),
+    Sentence(
+        PAGE,
+        "on either side ({} to {} and {} to {} days)",
+        lambda: [*presence.SLOWER[::-1], *presence.FASTER[::-1]],
+    ),
+    Sentence(PAGE, "It is under {} m now", under_metres, bound=True),
+    Sentence(
+        PAGE,
+        "Applied one after the other to {} years of daily\nvalues, they reproduce C04 within",
+        lambda: round_trip()[0],
+        1.0,
+    ),
+    Sentence(PAGE, "they reproduce C04 within ${}$ mas", lambda: round_trip()[1], bound=True),
+    Sentence(
+        PAGE,
+        "scatter by {} d, against {} d of Burg's method on the pole alone; "
+        "the errors claimed were {} d",
+        with_excitation,
+        slow=True,
+    ),
+    Sentence(PAGE, "increases an undamped wobble tenfold in {} years", tenfold_by_euler),
+]
 MATHEWS = "published: Mathews, Buffett, Herring & Shapiro 1991"
 SMITH = "published: Smith & Dahlen 1981"
 KONOPLIV = "published: Konopliv et al. 2020"
-GIVEN = "given: the truth of a simulation"
+GIVEN = "given: the truth of a simulation, or what a table is made for"
+ERROR = "what an error is, by definition"
+EXPONENTS = "| $\\alpha$ | sidereal days | days | $Q$ |"
+LAYOUT = "published: the layout of the tables of the IERS"
 TOLD = [
+    Told(PAGE, "Errors are half-widths of {} % intervals", ERROR),
+    Told(PAGE, "days from error of input ({} %)", ERROR),
+    Told(PAGE, "All errors are {} %", ERROR),
+    Told(PAGE, "how many of the {} % intervals hold", ERROR),
+    Told(PAGE, "Conventions (2010), eq. {} (Desai", "the number of an equation"),
+    Told(PAGE, "Conventions (2010), table {}, as recalled", "the number of a table"),
+    Column(PAGE, EXPONENTS, "$\\alpha$", GIVEN),
+    Told(PAGE, "the median of the periods is 433.0 days and {} % of them", "which quantiles"),
+    Told(PAGE, "| {} year from 1846, {} year from 1890 |", LAYOUT),
+    Told(PAGE, '(`"least-squares"`, 200 records of {} years', GIVEN),
+    Told(PAGE, "A span of {} years determines $Q$ only", GIVEN),
+    Told(PAGE, "simulated wobbles pass, even in {}\nyears", GIVEN),
+    Told(PAGE, "With white noise of {}\nmas in steps of two days", GIVEN),
+    Told(PAGE, "unknown to the fit, {} years and $Q$ = 90", GIVEN),
     Told(
         PAGE,
         "| $I/MR^2$ | 0.330935 ({} with the ocean) | {}, the paper",
@@ -369,7 +569,6 @@ TOLD = [
     Told(PAGE, "| $\\alpha$ | {} ({} to {}) |", SMITH),
     Told(PAGE, "values range from {} to {}, a difference", "published: several, as recalled"),
     Told(PAGE, "$(B-A)/Ma^2 = {}$", "published: the figure of earthspin.EARTH"),
-    Told(PAGE, "One turn lasts {} days of 86,400 s", "published: the spin of earthspin.EARTH"),
     Told(PAGE, "$k_2$ = {} (Konopliv", KONOPLIV),
     Told(PAGE, "a core of {} km", "published: Le Maistre et al. 2023"),
     Told(PAGE, "The observed {} d\nasks for", "published: Mathews, Herring & Buffett 2002"),
@@ -379,10 +578,6 @@ TOLD = [
     ),
     Told(PAGE, "A simulated pole of {} days and", GIVEN),
     Told(PAGE, "with errors of {} mas, is recovered", GIVEN),
-    Told(PAGE, "the power between 400 and {} days is compared", "given: a band"),
-    Told(PAGE, "(12 mas with a memory of {} d)", GIVEN),
-    Told(PAGE, "With white noise of {}\nmas in steps of two days", GIVEN),
-    Told(PAGE, "on C04 since 1985 ($T$ = {} d", GIVEN),
     Told(PAGE, "$k_{21}$ = {}, IERS Conventions (2010)", "published, as recalled"),
     Told(PAGE, "against {} ± {} observed from orbit (Konopliv", "published: Konopliv et al. 2020"),
     Told(PAGE, "found {} ± {} d and $Q$ = {} ({} to {}), one", "published: Nastula & Gross 2015"),
