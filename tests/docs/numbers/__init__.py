@@ -8,7 +8,9 @@ Numbers that no test makes again stand here too, with where they come from.
 PAGES = (
     "accuracy",
     "pole",
+    "iau",
     "wobble",
+    "observed_pole",
     "trust",
     "rotors",
     "skyfield",

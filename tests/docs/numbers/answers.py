@@ -69,3 +69,26 @@ def input_error_of_the_pole() -> float:
     """Of the pole by H after twenty years, mas."""
     path = earthspin.pole(times=["2020-01-01T12:00"], effects=["second-order"])
     return float(path.direction_error_input.max()) / 1e3
+
+
+@cache
+def observed() -> xr.Dataset:
+    """The pole of C04."""
+    return earthspin.polar_motion()
+
+
+def fitted(of: xr.Dataset, method: str) -> list[float]:
+    """Period with its error, d, and the quality factor with its ends, if the method gives it."""
+    found = earthspin.fit_chandler(of, method=method)
+    ends = [
+        float(found[f"chandler_quality_factor{end}"])
+        for end in ("", "_low", "_high")
+        if f"chandler_quality_factor{end}" in found
+    ]
+    return [float(found.chandler_period), float(found.chandler_period_error), *ends]
+
+
+@cache
+def of_c04(method: str) -> list[float]:
+    """The same of C04."""
+    return fitted(observed(), method)

@@ -14,7 +14,7 @@ from earthspin.sky import iau
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.torque.average import Window, window_mean_and_error
 from tests import shipped
-from tests.docs.numbers.answers import value
+from tests.docs.numbers.answers import of_c04, value
 from tests.docs.numbers.sentence import Column, Sentence, Told
 from tests.mass.accuracy import ROWS as WORST_OF_MASS
 from tests.mass.accuracy import spheroid_errors
@@ -109,7 +109,7 @@ def inclinations() -> list[float]:
 
 def chandler_period() -> float:
     """As observed, d."""
-    return float(earthspin.fit_chandler(earthspin.polar_motion()).chandler_period)
+    return of_c04("burg")[0]
 
 
 def worst_of_mass(words: str) -> float:

@@ -1,0 +1,344 @@
+"""docs/pole.md: the comparison with the IAU."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache, partial
+
+import numpy as np
+
+import earthspin
+from earthspin import EARTH
+from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.motion.effects import RIGID
+from earthspin.parts.path import HALF_SPAN
+from tests.docs.numbers.answers import (
+    MAS_A_CENTURY,
+    iau,
+)
+from tests.docs.numbers.sentence import Sentence, Told
+
+PAGE = "docs/pole.md"
+
+
+def budget(effect: str, kernel: str = "de421", of: str = "psi_rate") -> float:
+    """Share of an effect in the rate, mas a century."""
+    return float(iau(kernel)[of].sel(effect=effect)) * MAS_A_CENTURY
+
+
+def inferred(origin: str) -> list[float]:
+    section = iau()["inferred_flattening"].sel(origin=origin)
+    return [float(section[v]) for v in ("flattening", "flattening_error", "polar_moment")]
+
+
+def residual(model: str) -> list[float]:
+    sizes = iau()["residual_sizes"].sel(model=model)
+    names = ("residual_rms", "residual_maximum", "residual_rms_unfitted")
+    return [float(v) for name in names for v in sizes[name].values]
+
+
+def angle(name: str, of: str, degrees: Sequence[int] = (0, 1, 2)) -> list[float]:
+    section = iau()["angles"][of].sel(angle=name)
+    return [float(section.values[k]) for k in degrees]
+
+
+def nutation(term: str, name: str) -> float:
+    return float(iau()["nutation"][name].sel(term=term))
+
+
+@cache
+def geodesic_by_the_sun() -> float:
+    """Geodesic precession, mas a century, with the Sun alone."""
+    alone = earthspin.compare_iau(perturbers=["sun"])
+    return float(alone.psi_rate.sel(effect="geodesic")) * MAS_A_CENTURY
+
+
+def of_j2_rate() -> float:
+    """Quadratic term of the longitude by the rate of J2, mas a century squared."""
+    on, off = (
+        earthspin.pole("1935-01-01", "2050-01-01", "30 d", effects=effects).sel(axis="figure")
+        for effects in (RIGID, tuple(e for e in RIGID if e != "j2-rate"))
+    )
+    centuries = (on.time.values - np.datetime64("2000-01-01T12:00")) / np.timedelta64(36525, "D")
+    apart = 1e3 * (on.psi - off.psi).values
+    return float(np.polynomial.Polynomial.fit(centuries, apart, 2).convert().coef[2])
+
+
+def analysis(kernel: str) -> float:
+    """By how much the rate of the IAU's own pole comes out too large, mas a century."""
+    return float(iau(kernel).psi_rate_analysis_error) * MAS_A_CENTURY
+
+
+def closure_in_ppm() -> float:
+    """Of the rate, by DE440."""
+    closure = iau("de440").closure
+    return 1e6 * abs(float(closure / iau("de440").psi_rate_iau))
+
+
+def by_figure() -> list[float]:
+    """Uncertainty of H in parts in a million, one standard deviation, and of the rate."""
+    relative = EARTH.relative_uncertainty["dynamical_flattening"]
+    return [1e6 * relative, relative * float(iau().psi_rate_iau) * MAS_A_CENTURY]
+
+
+def without_the_annual_term() -> float:
+    """Rms that remains beside one circle a year, prograde, mas."""
+    section = iau()["residuals_by_model"].sel(model="nonrigid")
+    left = (section.dpsi_sineps_by_model + 1j * section.deps_by_model).values
+    days = (section.time.values - np.datetime64("2000-01-01T12:00")) / np.timedelta64(1, "D")
+    circle = np.exp(2j * np.pi * days / ANNUAL)
+    left = left - circle * np.vdot(circle, left) / days.size
+    return float(np.sqrt(np.mean(abs(left) ** 2) / 2))
+
+
+ANGLES = {
+    "psi_A": r"$\psi_A$",
+    "omega_A": r"$\omega_A$",
+    "eps_A": r"$\epsilon_A$",
+    "p_A": "$p_A$",
+}
+
+
+OURS, P03 = "angle_coefficient", "angle_coefficient_iau"
+
+
+#: Effect, and its row of the budget up to the numbers by DE421 and published.
+BUDGET = {
+    "first-order": ("| first order | {} | {} | ", "5,040,435.3 | {} |"),
+    "planets": ("| planets | {} | {} | ", "+31.367 | {} (-1.40) |"),
+    "j3": ("| J3 | {} | {} | ", "| {} |"),
+    "j4": ("| J4 | {} | {} | ", "+2.60 | 0 |"),
+    "geodesic": ("| geodesic | {} | {} | ", "-1919.883 | 0 |"),
+    "second-order": ("| second order | {} | {} | ", "-46.78 | {} |"),
+}
+
+
+def budget_row(effect: str) -> list[float]:
+    """By DE440 and DE421, and that of omega_A by DE440, if it is not 0."""
+    omega = budget(effect, "de440", "omega_rate")
+    both = [budget(effect, kernel) for kernel in ("de440", "de421")]
+    return [*both, *([omega] if abs(omega) > 5e-3 else [])]
+
+
+def prem_off() -> float:
+    """Per cent by which the polar moment of PREM is off."""
+    return 100 * (inferred("PREM")[2] / inferred("published")[2] - 1)
+
+
+#: Terms of the table of rigid ones, in its order, and what REN-2000 has.
+LEADING = {
+    "+0 +0 +0 +0 +1": "8050.867",
+    "+0 +0 +0 +0 -1": "1177.043",
+    "+0 +0 +2 -2 +2": "530.743",
+    "+0 +0 +2 +0 +2": "91.517",
+}
+
+
+#: Days of the year in which the Sun-synchronous tide of the air comes back.
+ANNUAL = 365.26
+
+
+#: H of ours over that of REN-2000.
+FLATTENINGS = 1.00001225
+
+
+def leading(term: str) -> list[float]:
+    """Period, d, and amplitude of a rigid term by DE440, less its neighbour's share, mas."""
+    of = iau("de440")["nutation"].to_dataset().sel(term=term)
+    amplitude = complex(of.rigid_in_phase, of.rigid_out_of_phase)
+    neighbour = complex(of.neighbour_in_phase, of.neighbour_out_of_phase)
+    response = complex(of.transfer_in_phase, of.transfer_out_of_phase)
+    return [float(of.period), abs(amplitude - neighbour / response) / FLATTENINGS]
+
+
+def closures() -> list[float]:
+    both = [float(iau(kernel).closure) for kernel in ("de440", "de421")]
+    return [MAS_A_CENTURY * v for v in (*both, float(iau("de440").omega_closure))]
+
+
+P03_TABLE = "published: Capitaine, Wallace & Chapront 2003, table 3"
+
+
+REN = "published: Souchay et al. 1999"
+
+
+MEASURED = [
+    Sentence(PAGE, "| planets | +31.326 | {} | +31.367", partial(budget, "planets")),
+    Sentence(PAGE, "| J4 | +2.521 | {} | +2.60", partial(budget, "j4")),
+    Sentence(PAGE, "| geodesic | -1919.841 | {} | -1919.883", partial(budget, "geodesic")),
+    Sentence(PAGE, "| second order | -45.954 | {} | -46.78", partial(budget, "second-order")),
+    Sentence(
+        PAGE, "| first order | 5,040,431.1 | {} | 5,040,435.3", partial(budget, "first-order")
+    ),
+    Sentence(
+        PAGE,
+        "| **closure** | **-3.39** | **{}** | | **",
+        lambda: float(iau().closure) * MAS_A_CENTURY,
+    ),
+    *(
+        Sentence(PAGE, "".join(row), partial(budget_row, effect), slow=True, de440=True)
+        for effect, row in BUDGET.items()
+    ),
+    Sentence(PAGE, "| **closure** | **{}** | **{}** | | **{}** |", closures, slow=True, de440=True),
+    Sentence(
+        PAGE,
+        "| from the IAU's rate, by our theory | {} ± {} | {} |",
+        partial(inferred, "from the IAU's rate"),
+        (2e-10, 0, 0),
+    ),
+    Sentence(
+        PAGE, "| Mathews, Herring & Buffett 2002 | {} ± {} | {} |", partial(inferred, "published")
+    ),
+    Sentence(PAGE, r"| PREM, $I = 0.330799\,M R^2$ | {} | {} |", lambda: inferred("PREM")[::2]),
+    *(
+        Sentence(
+            PAGE,
+            f"| {words} | {{}} / {{}} | {{}} / {{}} | {{}} / {{}} |",
+            partial(residual, model),
+        )
+        for model, words in (
+            ("first-order", "Sun and Moon, mean pole, angular momentum"),
+            ("rigid", "all effects, figure axis"),
+            ("nonrigid", "the same, with the non-rigid response"),
+        )
+    ),
+    *(
+        Sentence(PAGE, f"| {symbol} | ours | {{}} | {{}} | {{}} |", partial(angle, name, OURS))
+        for name, symbol in ANGLES.items()
+    ),
+    Sentence(PAGE, r"| $\chi_A$ | ours | 0 | {} | {} |", partial(angle, "chi_A", OURS, (1, 2))),
+    Sentence(PAGE, "| | P03 | 0 | {} | {} |\n| $\\omega_A$", partial(angle, "psi_A", P03, (1, 2))),
+    Sentence(PAGE, "| | P03 | {} | {} | {} |\n| $\\epsilon_A$", partial(angle, "omega_A", P03)),
+    Sentence(PAGE, "| | P03 | {} | {} | {} |\n| $\\chi_A$", partial(angle, "eps_A", P03)),
+    Sentence(PAGE, "| | P03 | 0 | {} | {} |\n| $p_A$", partial(angle, "chi_A", P03, (1, 2))),
+    Sentence(PAGE, "| | P03 | 0 | {} | {} |\n\nOur", partial(angle, "p_A", P03, (1, 2))),
+    Sentence(
+        PAGE,
+        "Q\nof {} (built in",
+        lambda: float(iau()["core"].core_nutation_quality),
+        50.0,
+    ),
+    Sentence(
+        PAGE,
+        "The next largest residual is {} uas, out of phase, in the",
+        lambda: -nutation("+0 +0 +0 +0 -1", "left_in_phase"),
+    ),
+    Sentence(PAGE, "observed moment among its data); it is {} % off", prem_off),
+    Sentence(
+        PAGE,
+        "- The second order is {} mas/cy smaller than published",
+        lambda: budget("second-order") + 46.78,
+    ),
+    Sentence(
+        PAGE,
+        "free core nutation is {} d too short, and {} uas of the prograde",
+        lambda: [
+            float(iau()["core"].core_nutation_period) + 430.21,
+            -nutation("+0 +0 +0 +0 -1", "left_in_phase"),
+        ],
+    ),
+    Sentence(PAGE, "With the response, {} mas rms remain", lambda: residual("nonrigid")[0]),
+    *(
+        Sentence(PAGE, f"\n| {{}} | {{}} | {ren} |", partial(leading, term), slow=True, de440=True)
+        for term, ren in LEADING.items()
+    ),
+    Sentence(
+        PAGE,
+        "one least-squares analysis of {} years about J2000.0",
+        lambda: 2 * HALF_SPAN * DAY / JULIAN_YEAR,
+        1.5,
+    ),
+    Sentence(
+        PAGE,
+        "The shorter span of DE421 costs {} mas/cy",
+        lambda: closures()[0] - closures()[1],
+        slow=True,
+        de440=True,
+    ),
+    Sentence(PAGE, "appears in $t^2$: {}\nmas/cy²", of_j2_rate, slow=True),
+    Sentence(
+        PAGE,
+        "The Moon gives {} mas/cy of the geodesic precession. With the Sun alone it is {}.",
+        lambda: [geodesic_by_the_sun() - budget("geodesic"), geodesic_by_the_sun()],
+        slow=True,
+    ),
+    Sentence(PAGE, "$H$ is fixed at {} and", lambda: EARTH.dynamical_flattening),
+    Sentence(PAGE, "those of the IAU to {} ppm", closure_in_ppm, slow=True, de440=True),
+    Sentence(
+        PAGE,
+        "constants of {} and {} mas are not errors",
+        lambda: [
+            abs(1e3 * angle("psi_A", OURS)[0]),
+            1e3 * (angle("eps_A", OURS)[0] - angle("eps_A", P03)[0]),
+        ],
+    ),
+    Sentence(
+        PAGE,
+        "published rate by {} (DE440) to {} (DE421) mas/cy",
+        lambda: [analysis("de440"), analysis("de421")],
+        slow=True,
+        de440=True,
+    ),
+    Sentence(
+        PAGE,
+        "The closure, {} mas/cy ({} ppm of the rate): within",
+        lambda: [closures()[0], closure_in_ppm()],
+        slow=True,
+        de440=True,
+    ),
+    Sentence(PAGE, "$H$ ({} ppm at one standard\n  deviation is {} mas/cy)", by_figure),
+    Sentence(
+        PAGE,
+        "and the {} mas/cy of the analysis",
+        lambda: analysis("de440"),
+        slow=True,
+        de440=True,
+    ),
+    Sentence(PAGE, "- $\\omega_A$: {} mas/cy", lambda: closures()[2], slow=True, de440=True),
+    Sentence(
+        PAGE,
+        "than published, the planets' share in obliquity {}.",
+        lambda: budget("planets", "de440", "omega_rate") + 1.40,
+        slow=True,
+        de440=True,
+    ),
+    Sentence(
+        PAGE,
+        "out of phase, in the\nprograde {}-year term",
+        lambda: nutation("+0 +0 +0 +0 -1", "period") / 365.25,
+    ),
+    Sentence(
+        PAGE,
+        "uas of the prograde {}-year\n  term remain",
+        lambda: nutation("+0 +0 +0 +0 -1", "period") / 365.25,
+    ),
+    Sentence(
+        PAGE,
+        "remain; except for {} mas it comes from the one atmospheric term",
+        without_the_annual_term,
+    ),
+]
+TOLD = [
+    *(
+        Told(PAGE, f"| {ours} | {{}} |", REN)
+        for ours in ("8050.861", "1177.045", "530.749", "91.514")
+    ),
+    Told(PAGE, "the first order is ${}''\\cos\\epsilon_0$", "published: Capitaine et al. 2004"),
+    Told(PAGE, "minus the {} mas\nof $J_2$ and planetary tilt", P03_TABLE),
+    Told(PAGE, "(published as a rate, {}, that is {})", P03_TABLE),
+    Told(PAGE, "Our $\\psi_A$ lacks the non-linear term, {} arcsec a century", P03_TABLE),
+    Told(PAGE, "from which {} years cannot separate", "as long as the analysis; see the budget"),
+    Told(PAGE, "| PREM, $I = {}\\,M R^2$ |", "published: Dziewonski & Anderson 1981"),
+    Told(PAGE, "Half-widths are {} %", "what an error is, by definition"),
+    Told(PAGE, "after division by\n{}, the ratio", "published: the H of Souchay et al. 1999"),
+    Told(PAGE, "IERS Conventions (2010), table {}, held fixed", "the name of a table"),
+    Told(PAGE, "(built in: {} d, {})", "published: Mathews, Herring & Buffett 2002"),
+    Told(PAGE, "plus the published non-linear term minus {} arcsec/cy", P03_TABLE),
+    Told(PAGE, "that of $\\omega_A$ is our sum minus\n{} arcsec/cy", P03_TABLE),
+    Told(PAGE, "| 5,040,431.0 | {} |", P03_TABLE),
+    Told(PAGE, "| +31.349 | {} | -1.34 ({}) |", P03_TABLE),
+    Told(PAGE, "| +2.521 | +2.521 | {} |", P03_TABLE),
+    Told(PAGE, "| -1919.841 | -1919.841 | {} |", P03_TABLE),
+    Told(PAGE, "| -45.954 | -45.954 | {} |", P03_TABLE),
+    Told(PAGE, "| | | {} | |\n| **closure**", P03_TABLE),
+]
