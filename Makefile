@@ -41,6 +41,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/torque_series.py
 	$(BIN)/python tests/benchmarks/report_process.py
 	$(BIN)/python tests/benchmarks/pole.py
+	$(BIN)/python tests/benchmarks/many_bodies.py
 	$(BIN)/python tests/benchmarks/leaving_out.py
 	$(BIN)/python tests/benchmarks/call_overhead.py
 

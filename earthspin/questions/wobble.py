@@ -199,7 +199,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     """Free wobble, from the formula with the flattening to a deformable body."""
     import xarray as xr
 
-    from earthspin.wobble import ladder
+    from earthspin.wobble import ladder, propagation
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
     turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
@@ -212,7 +212,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
         label = inside.label
         turns |= {name: label(value) for name, value in climbed.turns.items()}
         quality |= {name: label(value) for name, value in climbed.quality_factor.items()}
-        sampled = ladder.sampled_half_widths(
+        sampled = propagation.sampled_half_widths(
             inside.inputs, inside.uncertainty, inside.spin, inside.interior, inside.ocean
         )
         spread |= {name: label(value) for name, value in sampled.items()}
@@ -229,6 +229,8 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
             "rung_formula": np.array([ladder.FORMULAS[name] for name in turns]),
         },
     )
+    if inside is not None:
+        result.period_solar_error.attrs["draws"] = propagation.DRAWS
     result.rung.attrs["left_out"] = "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"
     return result
 
@@ -328,12 +330,12 @@ SENSITIVITY = without_error(
 @part(gives=SENSITIVITY)
 def sensitivity(inside: Inside) -> xr.Dataset:
     """Days of the last rung per unit of each input."""
-    from earthspin.wobble import ladder
+    from earthspin.wobble import ladder, propagation
 
     settings = (inside.spin, inside.interior, inside.ocean)
-    slopes = ladder.sensitivities(inside.inputs, *settings)
+    slopes = propagation.sensitivities(inside.inputs, *settings)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *settings).turns
-    half = ladder.half_widths(inside.inputs, inside.uncertainty, anelastic)
+    half = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
 
     def stack(parts: Mapping[str, Numeric]) -> xr.DataArray:
         return _along(parts, "input", inside.label)

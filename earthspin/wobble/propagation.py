@@ -1,0 +1,236 @@
+"""What the upper rungs depend on: their errors by sampling, and their slopes by input.
+
+The inputs are drawn a fixed number of times, the same for every body, so that a body's error
+does not depend on which others are asked for. The ladder is not climbed for every draw: each
+body's periods are a parabola in each normal input, and a polynomial in the exponent, which is
+drawn evenly and wide. `tests/wobble/test_propagation.py` holds that to climbing for every
+draw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import DAY
+from earthspin.interior.named import Interior
+from earthspin.wobble.ladder import Inputs, Spin, climb
+
+Numeric = Any
+Array = NDArray[Any]
+
+#: Range of the exponent that published work allows (Smith & Dahlen 1981).
+EXPONENT_RANGE = (0.04, 0.19)
+
+#: How often the inputs of each body are drawn, and from which seed.
+DRAWS, SEED = 1000, 1
+
+#: Bodies whose draws are held at once: memory does not grow with their number.
+_BODIES_AT_ONCE = 256
+
+#: Where the parabola of a normal input is taken from, in standard deviations: the node of
+#: Gauss's rule of three points, by which mean and variance of a parabola are exact.
+_STEP = np.sqrt(3.0)
+
+#: Nodes of the polynomial in the exponent.
+_EXPONENTS = 5
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Draws of the inputs.
+
+    Attributes
+    ----------
+    normal : dict of str to array, shape (draws,)
+        Standard deviations from the mean, of each normal input with an uncertainty.
+    exponent : array, shape (draws,)
+        The anelastic exponent, even over the range of published work.
+    """
+
+    normal: dict[str, Array]
+    exponent: Array
+
+    def inputs(self, mean: Inputs, uncertainty: Mapping[str, float]) -> Inputs:
+        """Inputs as drawn, along a new first axis, of one body or several."""
+        ndim = max(np.ndim(getattr(mean, one.name)) for one in fields(Inputs))
+        changed = {
+            name: getattr(mean, name) * (1 + uncertainty[name] * _column(z, ndim))
+            for name, z in self.normal.items()
+        }
+        return replace(mean, **changed, anelastic_exponent=_column(self.exponent, ndim))
+
+
+def draw(uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED) -> Drawn:
+    """Draw the inputs within their uncertainties; the same draws for every body.
+
+    Parameters
+    ----------
+    uncertainty : mapping
+        One standard deviation over value, by name of the input; others are not drawn.
+    draws : int
+    seed : int
+    """
+    generator = np.random.default_rng(seed)
+    normal, exponent = {}, np.empty(0)
+    for name in (one.name for one in fields(Inputs)):
+        if name == "anelastic_exponent":
+            exponent = generator.uniform(*EXPONENT_RANGE, draws)
+        else:
+            drawn = generator.standard_normal(draws)  # for each, so that none shifts the others
+            if uncertainty.get(name, 0.0):
+                normal[name] = drawn
+    return Drawn(normal, exponent)
+
+
+def sampled_half_widths(
+    inputs: Inputs,
+    uncertainty: Mapping[str, float],
+    spin: Spin,
+    interior: Interior,
+    ocean: str = "real",
+) -> dict[str, Numeric]:
+    """95 % half-widths of the turns on the upper rungs, by sampling the inputs.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Floats or arrays of one shape.
+    uncertainty : mapping
+        One standard deviation over value, by name of the input.
+    spin, interior, ocean
+        As for `climb`.
+    """
+    drawn = draw(uncertainty)
+    bodies = [getattr(of, one.name) for of in (inputs, spin) for one in fields(of)]
+    values = np.broadcast_arrays(*bodies)
+    shape, flat = values[0].shape, [np.ravel(v) for v in values]
+    inputs_count = len(fields(Inputs))
+    found: dict[str, list[Array]] = {}
+    for start in range(0, flat[0].size, _BODIES_AT_ONCE):
+        block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
+        some, turning = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
+        for name, turns in _sampled(some, uncertainty, drawn, turning, interior, ocean).items():
+            low, high = np.percentile(turns, [2.5, 97.5], axis=-1)
+            found.setdefault(name, []).append((high - low) / 2)
+    return {name: np.concatenate(parts).reshape(shape) for name, parts in found.items()}
+
+
+def _sampled(
+    inputs: Inputs,
+    uncertainty: Mapping[str, float],
+    drawn: Drawn,
+    spin: Spin,
+    interior: Interior,
+    ocean: str,
+) -> dict[str, Array]:
+    """Turns of each rung, shape (bodies, draws), from each body's parabolas."""
+    nodes = _exponent_nodes()
+    points = _points(inputs, list(drawn.normal), uncertainty, nodes)
+    # basis[i] stands on the turns at points[i]: the mean, each input below and above, the nodes.
+    basis = [-sum((z**2 / 3 for z in drawn.normal.values()), np.zeros(drawn.exponent.size))]
+    for z in drawn.normal.values():
+        basis += [z**2 / 6 - z / (2 * _STEP), z**2 / 6 + z / (2 * _STEP)]
+    basis += list(_lagrange(nodes, drawn.exponent))
+    sampled = {}
+    for name, turns in climb(points, spin, interior, ocean).turns.items():
+        total = np.zeros((turns.shape[-1], drawn.exponent.size))
+        for at, share in zip(turns, basis, strict=True):
+            total += at[:, None] * share
+        sampled[name] = total
+    return sampled
+
+
+def _points(
+    inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
+) -> Inputs:
+    """Inputs where the ladder is climbed, along a new first axis."""
+    count = 1 + 2 * len(names) + exponents.size
+    exponent = np.concatenate(
+        [
+            np.broadcast_to(inputs.anelastic_exponent, (count - exponents.size, inputs.k2.size)),
+            np.broadcast_to(exponents[:, None], (exponents.size, inputs.k2.size)),
+        ]
+    )
+    changed = {}
+    for i, name in enumerate(names):
+        factor = np.ones((count, 1))
+        factor[1 + 2 * i], factor[2 + 2 * i] = (1 + s * _STEP * uncertainty[name] for s in (-1, 1))
+        changed[name] = getattr(inputs, name) * factor
+    return replace(inputs, **changed, anelastic_exponent=exponent)
+
+
+def _exponent_nodes() -> Array:
+    """Chebyshev points over the range of published work."""
+    low, high = EXPONENT_RANGE
+    points = np.polynomial.chebyshev.chebpts1(_EXPONENTS)
+    return np.asarray((low + high) / 2 + (high - low) / 2 * points)
+
+
+def _lagrange(nodes: Array, at: Array) -> Array:
+    """Lagrange's polynomials of the nodes, shape (nodes, points)."""
+    others = [np.delete(nodes, i) for i in range(nodes.size)]
+    return np.array(
+        [
+            np.prod((at[:, None] - rest) / (node - rest), axis=-1)
+            for node, rest in zip(nodes, others, strict=True)
+        ]
+    )
+
+
+def _column(values: Array, ndim: int) -> Array:
+    """Values along a first axis before so many others."""
+    return values.reshape(-1, *(1,) * ndim)
+
+
+def half_widths(
+    inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
+) -> dict[str, Array]:
+    """95 % half-widths of the inputs; that of the exponent is half the range of published work.
+
+    Parameters
+    ----------
+    inputs : Inputs
+    uncertainty : mapping
+        One standard deviation over value, by name of the input.
+    anelastic : bool
+        Whether the ladder reaches the rung where the exponent matters.
+    """
+    low, high = EXPONENT_RANGE
+    found = {
+        one.name: 1.96 * uncertainty.get(one.name, 0.0) * abs(np.asarray(getattr(inputs, one.name)))
+        for one in fields(Inputs)
+    }
+    return found | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
+
+
+def sensitivities(
+    inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
+) -> dict[str, Numeric]:
+    """Days of the last rung per unit of each input, by central differences.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Floats.
+    spin : Spin
+    interior : Interior
+    ocean : str
+    """
+
+    def last(changed: Inputs) -> Numeric:
+        return list(climb(changed, spin, interior, ocean).turns.values())[-1]
+
+    found = {}
+    for name in (f.name for f in fields(Inputs)):
+        value = getattr(inputs, name)
+        step = 1e-3 * np.where(np.equal(value, 0), 1.0, value)
+        difference = last(replace(inputs, **{name: value + step})) - last(
+            replace(inputs, **{name: value - step})
+        )
+        found[name] = difference / (2 * step) * abs(spin.period) / DAY
+    return found

@@ -1,0 +1,76 @@
+"""Mantle and core in closed form, against the eigenvalues of the equations as they stand."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from earthspin.errors import UndefinedError
+from earthspin.wobble.mantle_and_core import Core, Mantle, solve
+
+
+def eigenvalues(mantle: Mantle, core: Core) -> np.ndarray:
+    """s of d/dt (M m + X n) = J (D m - X n), d/dt (a m + b n) = -f J n, by numpy, sorted."""
+    water = np.zeros((2, 2)) if mantle.ocean is None else mantle.ocean
+    yielding = mantle.kappa * np.eye(2) + water
+    moments = np.diag([1 - mantle.half, 1 + mantle.half]) + yielding
+    differences = np.diag([mantle.ellipticity + mantle.half, mantle.ellipticity - mantle.half])
+    quarter, unit = np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(2)
+    x = core.fraction + core.xi
+    left = np.block([[moments, x * unit], [(1 + core.gamma) * unit, (1 + core.beta) * unit]])
+    right = np.block(
+        [
+            [quarter @ (differences - yielding), -x * quarter],
+            [0 * unit, -(1 + core.ellipticity) * quarter],
+        ]
+    )
+    s = np.linalg.eigvals(np.linalg.solve(left, right)) / 1j
+    return np.asarray(s[np.argsort(s.real)])
+
+
+@given(
+    e=st.floats(1e-3, 0.5),
+    triaxial=st.floats(0, 0.9),
+    kappa=st.floats(0, 0.5),
+    loss=st.floats(0, 0.01),
+    water=st.tuples(*[st.floats(-0.02, 0.02)] * 3),
+    fraction=st.floats(0.01, 0.6),
+    core=st.tuples(*[st.floats(0, 5e-3)] * 4),
+)
+def test_against_eigenvalues(
+    e: float,
+    triaxial: float,
+    kappa: float,
+    loss: float,
+    water: tuple[float, float, float],
+    fraction: float,
+    core: tuple[float, float, float, float],
+) -> None:
+    """Three axes, an ocean across them, loss, a core that yields: 1e-13 of the spin."""
+    first, second, off = (w * e for w in water)
+    mantle = Mantle(
+        ellipticity=e,
+        half=triaxial * 0.4 * e,
+        kappa=kappa * e * (1 - 1j * loss),
+        ocean=np.array([[first, off], [off, second]]),
+    )
+    inside = Core(fraction, *core)
+    found = solve(mantle, inside)
+    low, _, wobble, _ = eigenvalues(mantle, inside)
+    # The core's root is the faster one unless a very flat mantle outruns it.
+    pair = sorted([abs(low), abs(wobble)])
+    assert abs(abs(found.wobble) - pair[0]) < 1e-13
+    assert abs(abs(found.core) - pair[1]) < 1e-13
+    assert found.wobble.real > 0 > found.core.real
+
+
+def test_without_loss_the_roots_are_real() -> None:
+    found = solve(Mantle(3e-3, 1e-5, 1e-3), Core(0.1, 2.5e-3))
+    assert found.wobble.dtype == found.core.dtype == np.float64
+    assert np.isinf(found.quality_factor)
+
+
+def test_a_body_that_yields_by_more_than_one_of_its_bulges_is_refused() -> None:
+    with pytest.raises(UndefinedError, match="turn over") as caught:
+        solve(Mantle(3e-3, 2.5e-3, 1e-3), Core(0.1, 2.5e-3))
+    assert "\n" not in str(caught.value)
