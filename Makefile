@@ -38,6 +38,7 @@ mutants: $(VENV)/.test
 	$(BIN)/python -m tests.mutants --page docs/measured/mutants.md
 
 bench: $(VENV)/.test
+	$(BIN)/python tests/benchmarks/chebyshev.py
 	$(BIN)/python tests/benchmarks/torque_series.py
 	$(BIN)/python tests/benchmarks/report_process.py
 	$(BIN)/python tests/benchmarks/pole.py

@@ -31,6 +31,7 @@ from earthspin.errors import (
     nearest,
     no_plain_file,
 )
+from earthspin.sky.chebyshev import BLOCK, Table
 from earthspin.sky.kernel_checks import (
     AGAIN,
     ORBITS,
@@ -47,8 +48,6 @@ FloatArray = NDArray[np.float64]
 
 #: Kernels that have a name; any other kernel is named by its path.
 NAMED_KERNELS = tuple(PUBLISHED)
-
-_BLOCK = 1 << 16  # epochs evaluated at once: arrays stay in the processor's cache
 
 #: A step on the way from the barycentre to a body: a segment (centre, target), or a trajectory.
 Step: TypeAlias = "tuple[int, int] | Trajectory"
@@ -92,6 +91,9 @@ class Ephemeris:
                 "cut out one span with `python -m jplephem excerpt`",
             )
         self._records = {step: Records(s, self.path) for step, s in self._segments.items()}
+        self._tables: dict[tuple[int, int], Table] = {
+            step: records.table() for step, records in self._records.items()
+        }
         if self._published is None:  # the hash of one that has a name proves more
             self._check_bodies()
 
@@ -202,8 +204,8 @@ class Ephemeris:
         self.check_times(days, {*targets.values(), centre})
         self.check_records(days, {*targets.values(), centre})
         found = {label: np.empty((days.size, 3)) for label in targets}
-        for first in range(0, days.size, _BLOCK):
-            block = slice(first, first + _BLOCK)
+        for first in range(0, days.size, BLOCK):
+            block = slice(first, first + BLOCK)
             steps: dict[Step, FloatArray] = {}
             for label, place in targets.items():
                 found[label][block] = self._difference(place, centre, days[block], steps).T
@@ -215,14 +217,14 @@ class Ephemeris:
         """Position of target minus centre in metres, shape (3, n); common steps cancel."""
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
         total = np.zeros((3, days.size))
-        for path, sign in ((outward, 1.0), (homeward, -1.0)):
+        for path, combine in ((outward, np.add), (homeward, np.subtract)):
             for step in path:
                 if step in outward and step in homeward:
                     continue
                 if step not in steps:
                     steps[step] = self._evaluate(step, days)
-                total += sign * steps[step]
-        if not np.all(np.any(total, axis=0)):
+                combine(total, steps[step], out=total)
+        if not (np.all(total[0]) or np.all(np.any(total, axis=0))):
             where, seen_from = words(target), words(centre).removeprefix("NAIF ")
             raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
@@ -235,14 +237,12 @@ class Ephemeris:
     def _along(self, step: Step, days: FloatArray) -> FloatArray:
         if not isinstance(step, tuple):
             return checked(step.positions(days), step, days).T
-        damaged = KernelError(self.path, f"its segment {step} is damaged", AGAIN)
-        try:
-            with np.errstate(all="ignore"):  # what overflows is refused
-                position: FloatArray = 1e3 * self._segments[step].compute(J2000_JD, days)[:3]
-        except (ValueError, ArithmeticError, IndexError):
-            raise damaged from None
-        if not np.all(np.isfinite(position)):
-            raise damaged
+        with np.errstate(all="ignore"):  # what overflows is refused
+            position = self._tables[step].positions(days)
+            position *= 1e3
+            whole = np.isfinite(np.sum(position))  # what is not finite makes the sum so
+        if not whole:
+            raise KernelError(self.path, f"its segment {step} is damaged", AGAIN)
         return position
 
     def _path_to_root(self, place: Place) -> list[Step]:

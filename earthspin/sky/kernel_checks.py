@@ -36,6 +36,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import DAY
 from earthspin.errors import KernelError
+from earthspin.sky.chebyshev import Table
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -172,7 +173,14 @@ class Records:
     def _words(self) -> FloatArray:
         """All records, shape (count, size), mapped into memory."""
         words: FloatArray = self.segment.daf.map_array(self.segment.start_i, self.segment.end_i - 4)
+        if words.size != self.count * self.size:
+            raise self._damaged("is cut short")
         return words.reshape(self.count, self.size)
+
+    def table(self) -> Table:
+        """What the records say of positions, in km."""
+        series = self._words[:, 2 : 2 + 3 * self.terms]
+        return Table(series.astype(float, copy=False), self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
         """Check the records that these times fall into, and how they meet their neighbours.
