@@ -61,12 +61,12 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         with _streams(), _endings(), _warnings_into(held):
             status = command()
             sys.stdout.flush()
-    except KeyboardInterrupt:
-        _say("interrupted; nothing was left half-written")
+    except KeyboardInterrupt as ended:
+        _say(f"interrupted; {_what_is_left(ended)}")
         return INTERRUPTED
     except _EndedError as ended:
         name = signal.Signals(ended.number).name
-        _say(f"ended by {name}; nothing was left half-written")
+        _say(f"ended by {name}; {_what_is_left(ended)}")
         return 128 + ended.number
     except BrokenPipeError:
         _drop_output()  # the interpreter must not try to flush it again
@@ -80,6 +80,11 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
     for words in held:
         _say(words)
     return status or 0
+
+
+def _what_is_left(ended: BaseException) -> str:
+    """What an end from outside leaves behind: the note of whoever was working, if there is one."""
+    return "; ".join(getattr(ended, "__notes__", ())) or "nothing was left half-written"
 
 
 def _judged(error: Exception) -> tuple[int, str]:

@@ -1,17 +1,27 @@
-"""A progress bar for whatever takes more than two seconds; silent when nobody watches."""
+"""A progress bar for whatever takes more than two seconds; silent when nobody watches.
+
+Programs that watch get lines of JSON instead: how much is done, of how much, how much a second, and
+the seconds left.
+"""
 
 from __future__ import annotations
 
+import json
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Lock, Timer
-from typing import Protocol
+from typing import Protocol, TextIO
 
 PATIENCE = 2.0  # seconds before a bar appears
+#: Seconds between two lines for programs.
+EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
+#: Where lines for programs go; none where a person watches.
+_lines: list[TextIO] = []
 
 
 class Advance(Protocol):
@@ -22,7 +32,7 @@ class Advance(Protocol):
 
 
 @contextmanager
-def progress(label: str, total: int) -> Iterator[Advance]:
+def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
     """Show a bar on stderr once the work has lasted two seconds.
 
     Parameters
@@ -31,36 +41,92 @@ def progress(label: str, total: int) -> Iterator[Advance]:
         What is being done.
     total : int
         How much there is to do.
+    already : int
+        How much of it was done before, which counts as done and not for the rate.
 
     Yields
     ------
     Advance
         To be called as the work proceeds.
     """
-    if not sys.stderr.isatty() or _watching.locked():
+    if _watching.locked() or not (_lines or sys.stderr.isatty()):
         yield lambda amount: None
         return
     with _watching:
-        yield from _bar(label, total)
+        if _lines:
+            yield from _in_lines(label, total, already, _lines[-1])
+        else:
+            yield from _bar(label, total, already)
 
 
-def _bar(label: str, total: int) -> Iterator[Advance]:
+@contextmanager
+def lines_to(stream: TextIO) -> Iterator[None]:
+    """Have progress written as lines of JSON.
+
+    Parameters
+    ----------
+    stream : file
+    """
+    _lines.append(stream)
+    try:
+        yield
+    finally:
+        _lines.pop()
+
+
+def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[Advance]:
+    begun = told = time.monotonic()
+    done = already
+
+    def advance(amount: int) -> None:
+        nonlocal done, told
+        done += amount
+        now = time.monotonic()
+        if now - told < EVERY and done < total:
+            return
+        told, rate = now, (done - already) / max(now - begun, 1e-9)
+        left = round((total - done) / rate, 1) if rate else None
+        line = {"doing": label, "done": done, "of": total, "rate": round(rate, 3), "left": left}
+        print(json.dumps(line), file=stream, flush=True)
+
+    yield advance
+
+
+def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        Task,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(TextColumn):
+        """How much is done in a second."""
+
+        def render(self, task: Task) -> Text:
+            """Three digits, once there is something to divide."""
+            speed = task.finished_speed or task.speed
+            return Text(f"{speed:.3g}/s" if speed else "")
 
     bar = Progress(
         "{task.description}",
         BarColumn(),
         MofNCompleteColumn(),
+        Rate(""),
         TimeRemainingColumn(),
         console=Console(stderr=True),
         transient=True,
     )
-    task = bar.add_task(label, total=total)
+    task = bar.add_task(label, total=total, completed=already)
     # A clock of its own, for a first step that lasts longer than anyone likes to wait.
     late = Timer(PATIENCE, bar.start)
     late.daemon = True
     late.start()
+
     try:
         yield lambda amount: bar.advance(task, amount)
     finally:

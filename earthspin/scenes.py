@@ -14,7 +14,6 @@ from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
-from earthspin.engine.part import Block
 from earthspin.engine.question import Question
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions.free_rotor import FreeRotor
@@ -30,6 +29,8 @@ from earthspin.questions.wobble import Wobble
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from earthspin.engine.series import Series
 
 #: Every question, by the word after ``compute =``.
 QUESTIONS: dict[str, type[Question]] = {
@@ -292,7 +293,7 @@ def _say_what_differs(scene: Any, answer: Any) -> None:
 # --- long series ---------------------------------------------------------------------------------
 
 
-def write_series(scene: Any, path: str | Path) -> Path:
+def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path:
     """Write a torque series of any length to chunked Zarr, in bounded memory.
 
     Parameters
@@ -300,7 +301,11 @@ def write_series(scene: Any, path: str | Path) -> Path:
     scene : str, Path, Question or answer
         One that computes ``torque``.
     path : str or Path
-        The Zarr folder; what is there is replaced when all is written.
+        The Zarr folder; what is there is replaced when all is written. If the run is ended before,
+        the same call goes on from what it had written.
+    client : Client, int or str, optional
+        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. A plain loop without.
 
     Returns
     -------
@@ -309,7 +314,7 @@ def write_series(scene: Any, path: str | Path) -> Path:
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; nothing is left behind then.
+        Whatever is wrong, in one line.
 
     Examples
     --------
@@ -320,25 +325,19 @@ def write_series(scene: Any, path: str | Path) -> Path:
     >>> print(earthspin.open(path).sizes["time"])
     87673
     """
-    from earthspin.engine import drafts, store
-    from earthspin.progress import progress
+    from earthspin.engine import loop
 
-    question, place = load_scene(scene), drafts.as_path(path)
+    return loop.write(_series(load_scene(scene)), path, client=client, replace=True)
+
+
+def _series(question: Question) -> Series:
+    """A long series as work in blocks."""
+    from earthspin.engine.series import Series
+
     size = series_length(question)
     if size == 0:
         raise SceneError("compute", question.word, "only a torque series is written by region")
-    with progress("torque series", size) as advance:
-
-        def blocks() -> Iterator[xr.Dataset]:
-            for number, block in enumerate(run_blocks(question)):
-                if number == 0:
-                    drafts.refuse_what_does_not_fit(
-                        place, block.nbytes / block.sizes["time"] * size, f"{size} times"
-                    )
-                yield block
-                advance(block.sizes["time"])
-
-        return store.write_blocks(blocks(), place)
+    return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:
@@ -369,11 +368,9 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
     Dataset
         Consecutive stretches of the series.
     """
-    question = load_scene(scene)
-    size = series_length(question)
-    length = max(1, BLOCK // members_of(question))
-    stretches = (Block(first, min(first + length, size)) for first in range(0, size, length))
-    return running.run_blocks(question, stretches)
+    series = _series(load_scene(scene))
+    for number in range(series.layout.count):
+        yield series.make(number)
 
 
 def chosen(question: Question) -> list[str]:

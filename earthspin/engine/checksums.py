@@ -10,7 +10,7 @@ have the same.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,13 +20,16 @@ if TYPE_CHECKING:
 
 #: Attributes of the root of a file.
 HEADER, DATA = "header_sha256", "data_sha256"
+#: Attribute of a store that was made block by block: the dimension and the length of a block. The
+#: data along it are summed up by block, so that blocks may be made in any order.
+BLOCKS = "made_in_blocks"
 
 #: Numbers that are read at once to be summed up, of a store that may be larger than memory.
 AT_ONCE = 1 << 22
 
 
 class Checksum:
-    """Sums up a result, whole or as it grows along its time.
+    """Sums up a result, whole or block by block.
 
     Examples
     --------
@@ -37,12 +40,19 @@ class Checksum:
 
     def __init__(self) -> None:
         self._told: dict[str, list[str]] = {}
-        self._sums: dict[tuple[str, str], Any] = {}
+        self._sums: dict[tuple[str, str], bytes] = {}
         self._sizes: dict[tuple[str, str], dict[str, int]] = {}
         self._kinds: dict[tuple[str, str], str] = {}
 
-    def add(self, group: str, node: xr.Dataset, *, data: bool = True) -> None:
-        """Add a node, or the next stretch of one that grows.
+    def add(
+        self,
+        group: str,
+        node: xr.Dataset,
+        *,
+        data: bool = True,
+        blocks: Iterable[Mapping[str, str]] | None = None,
+    ) -> None:
+        """Add a node.
 
         Parameters
         ----------
@@ -52,23 +62,32 @@ class Checksum:
             As a file has it.
         data : bool
             Whether the numbers count; the header alone opens no chunk.
+        blocks : iterable of mapping of str to str, optional
+            What `of_block` gave for each block, in order, of a node that was made in blocks; its
+            own numbers are not read then.
         """
-        if group not in self._told:
-            self._told[group] = list(_attributes(node.attrs))
+        self._told[group] = list(_attributes(node.attrs))
+        along, length = blocks_of(node)
+        summed = None if blocks is None else [*blocks]
         for name, variable in node.variables.items():
             place = (group, str(name))
-            first = place not in self._sums
-            if first:
-                self._sums[place] = hashlib.sha256()
-                self._sizes[place] = {str(d): n for d, n in variable.sizes.items()}
-                self._kinds[place] = _kind(variable.dtype)
-                self._told[group] += [f"{name} {line}" for line in _attributes(variable.attrs)]
-            elif "time" in variable.dims:
-                self._sizes[place]["time"] += variable.sizes["time"]
+            self._sizes[place] = {str(d): n for d, n in variable.sizes.items()}
+            self._kinds[place] = _kind(variable.dtype)
+            self._told[group] += [f"{name} {line}" for line in _attributes(variable.attrs)]
+            total = hashlib.sha256()
+            if not data:
+                pass
+            elif along not in variable.dims:
+                for stretch in _stretches(variable):
+                    total.update(stretch)
+            elif summed is None:
+                for first in range(0, variable.sizes[along], length):
+                    block = variable.isel({along: slice(first, first + length)})
+                    total.update(_sum(block, along).digest())
             else:
-                continue  # it is the same in every stretch
-            for stretch in _stretches(variable) if data else ():
-                self._sums[place].update(stretch)
+                for sums in summed:
+                    total.update(bytes.fromhex(sums[str(name)]))
+            self._sums[place] = total.digest()
 
     def attributes(self) -> dict[str, str]:
         """Give the two checksums by the names of their attributes."""
@@ -80,8 +99,27 @@ class Checksum:
         for place in sorted(self._sums):
             for line in (*place, str(sorted(self._sizes[place].items())), self._kinds[place]):
                 _put(header, line)
-            data.update(self._sums[place].digest())
+            data.update(self._sums[place])
         return {HEADER: header.hexdigest(), DATA: data.hexdigest()}
+
+
+def blocks_of(node: xr.Dataset) -> tuple[str, int]:
+    """Dimension and length of the blocks that a node was made in; empty if it was made whole."""
+    along, _, length = str(node.attrs.get(BLOCKS, "")).partition(" ")
+    return (along, int(length)) if length.isdecimal() and int(length) else ("", 0)
+
+
+def of_block(block: xr.Dataset, along: str) -> dict[str, str]:
+    """Sum up each variable of a block that grows along a dimension."""
+    return {
+        str(name): _sum(variable, along).hexdigest()
+        for name, variable in block.variables.items()
+        if along in variable.dims
+    }
+
+
+def _sum(block: xr.Variable, along: str) -> Any:
+    return hashlib.sha256(_bytes(block.transpose(along, ...).values))
 
 
 def checksums(groups: Mapping[str, xr.Dataset], *, data: bool = True) -> dict[str, str]:

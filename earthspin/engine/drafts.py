@@ -100,7 +100,7 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
         raise OutputError(
             path,
             f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free",
-            "choose a longer step or a shorter span",
+            "ask for less: a longer step, a shorter span, fewer members",
         )
 
 
@@ -124,21 +124,45 @@ def replacing(path: str | Path) -> Iterator[Path]:
     OutputError
         If the place cannot be written; it is then as it was.
     """
+    target = made_ready(path)
+    with told_as_output_error(path), box_of(target) as box:
+        clear_up_after_the_dead(target, box)
+        draft = box / target.name
+        yield draft
+        put_in_place(draft, target, box)
+
+
+def made_ready(path: str | Path) -> Path:
+    """Make the folder in which something is to stand, and give its place, links followed.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written, or a folder stands there that is none of ours.
+    """
     check_writable(as_path(path).parent)
-    try:
+    with told_as_output_error(path):
         target = Path(path).resolve()
         if target.is_dir() and not _is_zarr(target):
             raise OutputError(path, "a folder stands there that is no Zarr store", "move it away")
         target.parent.mkdir(parents=True, exist_ok=True)
-        with _box(target) as box:
-            _clear_up_after_the_dead(target, box)
-            draft = box / target.name
-            yield draft
-            _put_in_place(draft, target, box)
+        return target
+
+
+@contextmanager
+def told_as_output_error(path: str | Path, remedy: str = "") -> Iterator[None]:
+    """Say in one line what the system says of something that cannot be written.
+
+    Raises
+    ------
+    OutputError
+    """
+    try:
+        yield
     except EarthspinError:
         raise
     except (OSError, UnicodeEncodeError) as error:
-        raise OutputError(path, f"it cannot be written: {one_line(error)}") from None
+        raise OutputError(path, f"it cannot be written: {one_line(error)}", remedy) from None
 
 
 def _is_zarr(folder: Path) -> bool:
@@ -149,19 +173,19 @@ def _is_zarr(folder: Path) -> bool:
 
 
 @contextmanager
-def _box(target: Path) -> Iterator[Path]:
+def box_of(target: Path) -> Iterator[Path]:
     """Hidden folder beside the target, locked by its owner as long as he lives."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = os.open(box / _LOCK, os.O_CREAT | os.O_RDWR, 0o600)
     try:
-        _lock(lock)
+        take_lock(lock)
         yield box
     finally:
         shutil.rmtree(box, ignore_errors=True)
         os.close(lock)
 
 
-def _lock(file: int) -> bool:
+def take_lock(file: int) -> bool:
     """Take the lock of an open file, which the system gives back when its owner ends.
 
     Process ids would say nothing: each container counts its own. On Windows there is no such lock,
@@ -187,10 +211,10 @@ def put_back(path: str | Path) -> None:
     target = Path(path)
     with suppress(OSError):
         if not target.exists():
-            _clear_up_after_the_dead(target.resolve(), None)
+            clear_up_after_the_dead(target.resolve(), None)
 
 
-def _clear_up_after_the_dead(target: Path, own: Path | None) -> None:
+def clear_up_after_the_dead(target: Path, own: Path | None) -> None:
     """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
     for box in target.parent.glob(f".{_literal(target.name)}.*.draft"):
         if box == own or not _is_left(box, own):
@@ -217,7 +241,7 @@ def _is_left(box: Path, own: Path | None) -> bool:
     except OSError:
         return False
     try:
-        return _lock(lock)
+        return take_lock(lock)
     finally:
         os.close(lock)
 
@@ -225,9 +249,9 @@ def _is_left(box: Path, own: Path | None) -> bool:
 # --- into its place ------------------------------------------------------------------------------
 
 
-def _put_in_place(draft: Path, target: Path, box: Path) -> None:
+def put_in_place(draft: Path, target: Path, box: Path) -> None:
     """Keep the draft on the disk, then let it take its place, then keep that."""
-    _sync(draft)
+    sync(draft)
     if not target.is_dir():
         os.replace(draft, target)
     elif not _exchange(draft, target):
@@ -238,20 +262,21 @@ def _put_in_place(draft: Path, target: Path, box: Path) -> None:
         except BaseException:
             os.replace(aside, target)
             raise
-    _sync_one(target.parent)
+    sync_one(target.parent)
 
 
-def _sync(path: Path) -> None:
+def sync(path: Path) -> None:
     """Have a file, or a folder with all that is in it, written to the disk."""
     for folder, _, files in os.walk(path):
         for name in files:
-            _sync_one(Path(folder, name))
-        _sync_one(Path(folder))
+            sync_one(Path(folder, name))
+        sync_one(Path(folder))
     if not path.is_dir():
-        _sync_one(path)
+        sync_one(path)
 
 
-def _sync_one(path: Path) -> None:
+def sync_one(path: Path) -> None:
+    """Have one file written to the disk, or the names in one folder."""
     try:
         file = os.open(path, os.O_RDONLY)
     except OSError:

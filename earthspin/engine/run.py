@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from earthspin._version import __version__, version
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.plan import Plan, plan
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import UndefinedError
@@ -80,28 +79,44 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
     return xr.DataTree.from_dict(nodes | {"plan": _plan_data(ran.plan)})
 
 
-def run_blocks(question: Question, blocks: Iterable[Block]) -> Iterator[xr.Dataset]:
-    """Answer a question stretch by stretch; parts that take no block run once.
+class Again:
+    """A question that is asked again and again with something changed: the rest runs once.
 
     Parameters
     ----------
     question : Question
-    blocks : iterable of Block
-
-    Yields
-    ------
-    Dataset
-        The answer for each stretch.
+    changing : iterable of str
+        Names of the keys that change; ``"block"`` for stretches of a long series.
     """
-    planned = plan(question)
-    moving: set[str] = set()
-    for one in planned.parts:
-        if BLOCK in one.uses or moving & {*one.needs, *one.uses}:
-            moving.add(one.name)
-    still = replace(planned, parts=tuple(p for p in planned.parts if p.name not in moving))
-    before = _run_parts(still).given
-    for block in blocks:
-        yield _answer(_run_parts(planned, before | {BLOCK: block}))
+
+    def __init__(self, question: Question, changing: Iterable[str]) -> None:
+        planned, moving = plan(question), {*changing}
+        for one in planned.parts:
+            if moving & {*one.needs, *one.uses}:
+                moving.add(one.name)
+        still = tuple(one for one in planned.parts if one.name not in moving)
+        self.planned, self.moving = planned, moving
+        self.still = _run_parts(replace(planned, parts=still)).given
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """What the parts that run once say of where their numbers come from."""
+        return _provenance(self.still)
+
+    def __call__(self, question: Question | None = None, **given: object) -> Ran:
+        """Run the rest, of the question as it is or with keys changed."""
+        planned = self.planned if question is None else plan(question)
+        kept = {part.name for part in planned.parts} - self.moving
+        before = {name: value for name, value in self.still.items() if name in kept}
+        return _run_parts(planned, before | given)
+
+    def answer(self, question: Question | None = None, **given: object) -> xr.Dataset:
+        """Answer it, with all that an answer carries."""
+        return _answer(self(question, **given))
+
+    def numbers(self, question: Question | None = None, **given: object) -> xr.Dataset:
+        """Answer it, without the attributes of the whole."""
+        return _numbers(self(question, **given))
 
 
 def run_choosing(question: Question) -> list[Any]:
@@ -174,8 +189,7 @@ def _answer(ran: Ran) -> xr.Dataset:
     """The parts of the answer as one Dataset, with its attributes."""
     import earthspin.accessor  # noqa: F401 - registers ds.earthspin
 
-    graph = ran.plan.question.graph
-    result = _together([ran.given[name] for name in graph.answer if name in ran.given])
+    result = _numbers(ran)
     result.attrs = _attributes(ran)
     scene = result.attrs[SCENE]
     _SECONDS[scene] = dict(ran.plan.seconds)
@@ -183,6 +197,19 @@ def _answer(ran: Ran) -> xr.Dataset:
     if len(_SECONDS) > REMEMBERED:
         _SECONDS.popitem(last=False)
     return result
+
+
+def _numbers(ran: Ran) -> xr.Dataset:
+    """The parts of the answer as one Dataset."""
+    graph = ran.plan.question.graph
+    return _together([ran.given[name] for name in graph.answer if name in ran.given])
+
+
+def _provenance(given: Mapping[str, Any]) -> dict[str, str]:
+    told: dict[str, str] = {}
+    for value in given.values():
+        told |= getattr(value, "provenance", {})
+    return told
 
 
 def _section(ran: Ran, name: str, answer: xr.Dataset) -> xr.Dataset:
@@ -249,8 +276,7 @@ def _attributes(ran: Ran) -> dict[str, str]:
         elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    for value in ran.given.values():
-        attributes |= getattr(value, "provenance", {})
+    attributes |= _provenance(ran.given)
     attributes[NEGLECTED] = ran.given[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes

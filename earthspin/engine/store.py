@@ -12,7 +12,6 @@ from __future__ import annotations
 import datetime as dt
 import re
 import threading
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -110,7 +109,7 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
     for path, node in getattr(result, "subtree_with_keys", ()):
         if path != ".":
             groups[f"/{path}"] = node.to_dataset(inherit=False)
-    groups = {group: _spelled(node) for group, node in groups.items()}
+    groups = {group: spelled(node) for group, node in groups.items()}
     history = groups["/"].attrs.get("history")
     if history is not None:
         stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
@@ -129,7 +128,7 @@ def _guarded(groups: dict[str, xr.Dataset]) -> dict[str, xr.Dataset]:
 UNITS, SHOWN = "units", "units_shown"
 
 
-def _spelled(node: xr.Dataset) -> xr.Dataset:
+def spelled(node: xr.Dataset) -> xr.Dataset:
     """A copy whose units are spelled for files, the word for people kept beside."""
     node = node.copy()
     for name, variable in node.variables.items():
@@ -155,14 +154,14 @@ def _answer_of(result: xr.Dataset | xr.DataTree) -> xr.Dataset:
 
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> Path:
     """Write an answer with its sections to Zarr, a group for each node."""
-    zarr = _zarr()
+    zarr = zarr_of()
     with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
         for group, node in _guarded(_groups(result)).items():
             node.to_zarr(
                 draft,
                 mode="w" if group == "/" else "a",
                 group=group,
-                encoding=_zarr_encoding(node),
+                encoding=zarr_encoding(node),
                 **ZARR,
             )
     return path
@@ -178,54 +177,18 @@ def _refuse_other_endings(path: Path) -> None:
         raise OutputError(path, "it ends in neither .nc nor .zarr", "choose one of the two")
 
 
-def _zarr() -> Any:
+def zarr_of() -> Any:
+    """Zarr, if it is installed.
+
+    Raises
+    ------
+    MissingExtraError
+    """
     try:
         import zarr
     except ImportError:
         raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
     return zarr
-
-
-def write_blocks(blocks: Iterable[xr.Dataset], path: str | Path) -> Path:
-    """Write a long result to Zarr block after block, holding one block at a time.
-
-    Parameters
-    ----------
-    blocks : iterable of Dataset
-        Consecutive along `time`, all of one size but the last, which becomes the chunk.
-    path : str or Path
-        A folder; one that is there is replaced when all is written.
-
-    Raises
-    ------
-    OutputError
-        If the place cannot be written.
-    MissingExtraError
-        If zarr is not installed.
-    """
-    place = as_path(path)
-    if place.suffix != ".zarr":
-        raise OutputError(
-            place, "its name does not end in .zarr", "a long series goes to Zarr alone"
-        )
-    zarr = _zarr()
-    from earthspin.engine.checksums import Checksum
-
-    summed = Checksum()
-    # Each thread of zarr's would keep the memory of the largest chunk that it has ever packed.
-    with replacing(place) as draft, zarr.config.set({"threading.max_workers": 1}):
-        attributes: dict[Any, Any] = {}
-        for number, block in enumerate(blocks):
-            node = _groups(block)["/"]
-            if number == 0:
-                attributes = node.attrs
-                node.to_zarr(draft, mode="w", encoding=_zarr_encoding(node, chunked=True), **ZARR)
-            else:
-                grows = node.drop_vars([n for n in node.variables if "time" not in node[n].dims])
-                grows.assign_attrs(attributes).to_zarr(draft, append_dim="time", **ZARR)
-            summed.add("/", node)
-        zarr.open_group(draft, mode="r+", zarr_format=2).attrs.update(summed.attributes())
-    return place
 
 
 def open(path: str | Path) -> xr.Dataset | xr.DataTree:
@@ -315,7 +278,7 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
     put_back(path)
     try:
         if path.suffix == ".zarr":
-            _zarr()
+            zarr_of()
             from earthspin.engine.zarr_folder import ZarrFolder
 
             options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
@@ -369,9 +332,10 @@ def _hold_to_checksums(nodes: dict[str, xr.Dataset], path: Path, *, data: bool) 
 
 
 def _without_checksums(root: xr.Dataset) -> dict[Any, Any]:
-    from earthspin.engine.checksums import DATA, HEADER
+    from earthspin.engine.checksums import BLOCKS, DATA, HEADER
 
-    return {name: value for name, value in root.attrs.items() if name not in (HEADER, DATA)}
+    own = (HEADER, DATA, BLOCKS, MADE_OF)
+    return {name: value for name, value in root.attrs.items() if name not in own}
 
 
 def _loaded(node: xr.Dataset) -> xr.Dataset:
@@ -385,6 +349,8 @@ CHANGED = (
     "are not what was written",
     "if they were changed on purpose, read it with xarray.open_dataset",
 )
+#: Attribute of a store that was made in blocks: one word for what was asked, and of which versions.
+MADE_OF = "made_of_sha256"
 #: Date that a file's history begins with.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 
@@ -411,14 +377,21 @@ def _netcdf_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
     return encoding
 
 
-def _zarr_encoding(node: xr.Dataset, *, chunked: bool = False) -> dict[str, dict[str, Any]]:
-    """How variables are laid down in Zarr: a checksum for each chunk, and no number for none."""
+def zarr_encoding(node: xr.Dataset, *, chunked: str = "") -> dict[str, dict[str, Any]]:
+    """How variables are laid down in Zarr: a checksum for each chunk, and no number for none.
+
+    Parameters
+    ----------
+    node : Dataset
+    chunked : str
+        A dimension along which the node is one chunk of a longer one.
+    """
     from numcodecs import CRC32, Shuffle
 
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in node.variables.items():
         entry = _kind_encoding(variable)
-        if chunked and "time" in variable.dims:
+        if chunked in variable.dims:
             entry["chunks"] = variable.shape
         if variable.dtype.kind == "f":
             entry["_FillValue"] = np.nan

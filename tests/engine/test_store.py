@@ -88,19 +88,6 @@ def test_a_second_write_replaces_the_first(tmp_path: Path, kind: str) -> None:
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
-def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
-    path = store.write(small(1.0), tmp_path / "r.zarr")
-
-    def blocks() -> object:
-        yield small(2.0)
-        raise RuntimeError("half-way")
-
-    with pytest.raises(RuntimeError, match="half-way"):
-        store.write_blocks(blocks(), path)
-    assert np.all(store.open(path).x == 1.0)
-    assert [p.name for p in tmp_path.iterdir()] == ["r.zarr"]
-
-
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
     """Kill the process in the middle of a write: the old file is still whole."""

@@ -1,0 +1,292 @@
+"""One loop for many: whole or to be gone on with, and always the same bytes."""
+
+from __future__ import annotations
+
+import errno
+import itertools
+import os
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pytest
+import zarr
+
+import earthspin
+from earthspin import EarthspinError, OutputError, SceneError
+from earthspin.engine import drafts, loop, unfinished
+from tests.engine.work import Squares, bytes_of
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def undisturbed(tmp_path: Path) -> Path:
+    """A store that was made in one go."""
+    return loop.write(Squares(), tmp_path / "undisturbed.zarr")
+
+
+class _EndError(BaseException):
+    """An end from outside."""
+
+
+@dataclass
+class Ends(Squares):
+    """Work that is ended when a block is reached."""
+
+    at: int = 3
+    error: BaseException = field(default_factory=_EndError)
+
+    def make(self, number: int):  # type: ignore[no-untyped-def]
+        if number == self.at:
+            raise self.error
+        return super().make(number)
+
+
+def ended(path: Path, at: int = 3) -> Path:
+    """A store whose writer ended before a block."""
+    with pytest.raises(_EndError):
+        loop.write(Ends(at=at), path)
+    return path.with_name(path.name + ".partial")
+
+
+def test_a_store_holds_what_was_made(undisturbed: Path) -> None:
+    found = earthspin.open(undisturbed)
+    assert np.array_equal(found.square.sel(column="plus"), np.arange(20) ** 2.0)
+    assert found.day[19] == np.datetime64("2000-01-20")
+    assert found.identical(loop.hold(Squares()))
+    assert earthspin.verify(undisturbed) == undisturbed
+    assert [p.name for p in undisturbed.parent.iterdir()] == ["undisturbed.zarr"]
+
+
+def test_a_store_holds_no_date_and_no_path(undisturbed: Path, tmp_path: Path) -> None:
+    time.sleep(1.1)
+    (tmp_path / "elsewhere").mkdir()
+    again = loop.write(Squares(), tmp_path / "elsewhere" / "other.zarr")
+    assert bytes_of(again) == bytes_of(undisturbed)
+
+
+@pytest.mark.parametrize("at", range(1, 7))
+def test_it_goes_on_where_it_was_ended(tmp_path: Path, undisturbed: Path, at: int) -> None:
+    path = tmp_path / "r.zarr"
+    assert ended(path, at).is_dir()
+    assert not path.exists()
+    work = Squares()
+    loop.write(work, path)
+    assert work.made == list(range(at, 7))
+    assert bytes_of(path) == bytes_of(undisturbed)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["r.zarr", "undisturbed.zarr"]
+
+
+def test_an_end_from_outside_says_how_to_go_on(tmp_path: Path) -> None:
+    with pytest.raises(_EndError) as end:
+        loop.write(Ends(), tmp_path / "r.zarr")
+    assert end.value.__notes__ == [
+        "9 of 20 are kept in r.zarr.partial; the same command goes on from there"
+    ]
+
+
+def test_a_block_whose_line_was_cut_short_is_made_again(tmp_path: Path, undisturbed: Path) -> None:
+    folder = ended(tmp_path / "r.zarr")
+    ledger = folder / unfinished.LEDGER
+    ledger.write_bytes(ledger.read_bytes()[:-10])
+    (folder / unfinished.STORE / "square" / "2.0").write_bytes(b"half a chu")
+    work = Squares()
+    path = loop.write(work, tmp_path / "r.zarr")
+    assert work.made == [2, 3, 4, 5, 6]
+    assert bytes_of(path) == bytes_of(undisturbed)
+
+
+def test_a_complete_store_is_not_made_again(undisturbed: Path) -> None:
+    work = Squares()
+    assert loop.write(work, undisturbed) == undisturbed
+    assert work.made == []
+
+
+@pytest.mark.parametrize("done", [False, True])
+@pytest.mark.parametrize(
+    ("other", "words"),
+    [
+        (Squares(question="cubes"), "another question"),
+        (Squares(version="2"), "another version"),
+        (Squares(size=21), "another size"),
+        (Squares(block=4), "another size"),
+    ],
+)
+def test_a_store_of_something_else_is_left_alone(
+    tmp_path: Path, other: Squares, words: str, done: bool
+) -> None:
+    path = tmp_path / "r.zarr"
+    if done:
+        loop.write(Squares(), path)
+    else:
+        ended(path)
+    before = bytes_of(tmp_path)
+    with pytest.raises(OutputError, match="something else" if done else words):
+        loop.write(other, path)
+    assert bytes_of(tmp_path) == before
+    assert other.made == []
+
+
+def test_a_series_replaces_what_stands_there(tmp_path: Path) -> None:
+    path = loop.write(Squares(size=4), tmp_path / "r.zarr")
+    loop.write(Squares(), path, replace=True)
+    assert earthspin.open(path).sizes["member"] == 20
+    assert [p.name for p in tmp_path.iterdir()] == ["r.zarr"]
+
+
+def test_two_runs_on_one_store(tmp_path: Path) -> None:
+    path = tmp_path / "r.zarr"
+    partial = ended(path)
+    before = bytes_of(tmp_path)
+    with (partial / unfinished.OWNER).open() as owner:
+        assert drafts.take_lock(owner.fileno())
+        with pytest.raises(OutputError, match="another run is writing it"):
+            loop.write(Squares(), path)
+    assert bytes_of(tmp_path) == before
+    loop.write(Squares(), path)
+
+
+def test_a_disk_that_is_full(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, undisturbed: Path
+) -> None:
+    path, written = tmp_path / "r.zarr", itertools.count()
+    real = zarr.Array.__setitem__
+
+    def full(array: zarr.Array, where: object, values: object) -> None:
+        if next(written) > 6:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        real(array, where, values)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(zarr.Array, "__setitem__", full)
+        with pytest.raises(OutputError) as error:
+            loop.write(Squares(), path)
+    assert "No space left" in str(error.value)
+    assert "r.zarr.partial: make room and run it again" in str(error.value)
+    work = Squares()
+    loop.write(work, path)
+    assert 1 < len(work.made) < 7
+    assert bytes_of(path) == bytes_of(undisturbed)
+
+
+def test_a_disk_without_room_is_refused_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usage = (100, 90, 10)
+    monkeypatch.setattr(drafts.shutil, "disk_usage", lambda at: type("U", (), {"free": usage[2]}))
+    work = Squares()
+    with pytest.raises(OutputError, match=r"20 members take .* and 10 B of the disk are free"):
+        loop.write(work, tmp_path / "r.zarr")
+    assert work.made == [0]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_places_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder.zarr").mkdir()
+    for place in ("r.nc", "file/r.zarr", "folder.zarr"):
+        work = Squares()
+        with pytest.raises(OutputError):
+            loop.write(work, tmp_path / place)
+        assert work.made == []
+
+
+def test_a_block_that_does_not_fit(tmp_path: Path) -> None:
+    class Wider(Squares):
+        def make(self, number: int):  # type: ignore[no-untyped-def]
+            made = super().make(number)
+            return made if number < 2 else made.isel(column=[0])
+
+    with pytest.raises(OutputError, match="block 2 has another shape of 'square'"):
+        loop.write(Wider(), tmp_path / "r.zarr")
+
+
+def test_a_failure_is_told_and_what_was_made_is_kept(tmp_path: Path, undisturbed: Path) -> None:
+    path = tmp_path / "r.zarr"
+    with pytest.raises(RuntimeError, match="half-way"):
+        loop.write(Ends(error=RuntimeError("half-way")), path)
+    again = Squares()
+    loop.write(again, path)
+    assert again.made == [3, 4, 5, 6]
+    assert bytes_of(path) == bytes_of(undisturbed)
+
+
+# --- killed --------------------------------------------------------------------------------------
+
+KILLED = """
+import os, random, signal, sys, time
+from pathlib import Path
+import xarray, zarr, numcodecs                    # loaded once; each child is a copy
+from earthspin.engine import loop, unfinished
+from tests.engine.work import Squares
+path, times = Path(sys.argv[1]), int(sys.argv[2])
+partial, chance = path.with_name(path.name + ".partial"), random.Random(int(sys.argv[3]))
+for _ in range(times):
+    child = os.fork()
+    if not child:
+        loop.write(Squares(size=150, seconds=0.004), path)
+        os._exit(0)
+    time.sleep(chance.uniform(0.02, 0.35))
+    os.kill(child, signal.SIGKILL)
+    _, status = os.waitpid(child, 0)
+    print(int(os.WIFSIGNALED(status)), (partial / "ledger").read_bytes().count(b"\\n")
+          if (partial / "ledger").exists() else 0)
+    if path.exists():
+        path.rename(f"{path}.{_}")                # and once more from the beginning
+"""
+
+
+def killed(tmp_path: Path, times: int) -> None:
+    """Kill a run again and again; what comes out must be what an undisturbed run gives."""
+    path = tmp_path / "killed.zarr"
+    out = subprocess.run(
+        [sys.executable, "-c", KILLED, str(path), str(times), "20"],
+        check=True, capture_output=True, text=True, cwd=ROOT,
+    ).stdout  # fmt: skip
+    rows = [tuple(map(int, line.split())) for line in out.splitlines()]
+    assert len(rows) == times
+    assert sum(was for was, _ in rows) >= times / 2  # most were killed on their way
+    work = Squares(size=150)
+    had = rows[-1][1] if path.with_name("killed.zarr.partial").exists() else 0
+    loop.write(work, path)
+    assert len(work.made) == work.layout.count - had  # nothing that was in the ledger
+    straight = bytes_of(loop.write(Squares(size=150), tmp_path / "straight.zarr"))
+    made = sorted(tmp_path.glob("killed.zarr*"))
+    assert path in made
+    for store in made:
+        assert bytes_of(store) == straight
+
+
+def test_killed_ten_times(tmp_path: Path) -> None:
+    killed(tmp_path, 10)
+
+
+@pytest.mark.every_kill
+def test_killed_a_hundred_times(tmp_path: Path) -> None:
+    killed(tmp_path, 100)
+
+
+# --- by a cluster --------------------------------------------------------------------------------
+
+
+def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path) -> None:
+    path = loop.write(Squares(), tmp_path / "r.zarr", client=2)
+    assert bytes_of(path) == bytes_of(undisturbed)
+
+
+def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loop, "PATIENCE", 1)
+    with pytest.raises(SceneError, match="no scheduler answers there within 1 s"):
+        loop.write(Squares(), tmp_path / "r.zarr", client="tcp://127.0.0.1:9")
+    loop.write(Squares(), tmp_path / "r.zarr")
+
+
+@pytest.mark.parametrize("client", [0, -1, True, 2.5, "nonsense://x"])
+def test_what_is_no_client(tmp_path: Path, client: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loop, "PATIENCE", 1)
+    with pytest.raises(EarthspinError):
+        loop.write(Squares(), tmp_path / "r.zarr", client=client)
