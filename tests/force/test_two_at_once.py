@@ -41,6 +41,7 @@ def python(program: str, *arguments: str) -> subprocess.Popen[bytes]:
 #: Writes when it is told to, under a process id that means nothing here: another container's.
 ELSEWHERE = """
     import os, sys
+    import distributed  # xarray imports it when it writes, and it asks what process this is
     os.getpid = lambda: 4_194_000
     from earthspin.engine import drafts, store
     from tests.force.test_two_at_once import small
