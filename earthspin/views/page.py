@@ -68,7 +68,7 @@ def page(
             footer=footer,
             figure_on_page=figure_on_page,
             sheet=source("page.css"),
-            script=source("solid.js"),
+            script=source("touch.js") + source("solid.js"),
         )
     )
 

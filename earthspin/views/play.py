@@ -206,7 +206,7 @@ def play_page(name: str) -> str:
             given=numbers.replace("<", "\\u003c"),
             sheet=source("page.css"),
             formulas=source("formulas.js"),
-            engine=source("play.js"),
+            engine=source("touch.js") + source("play.js"),
             script=source(f"play_{name}.js"),
             footer=f"earthspin {__version__}.",
         )

@@ -187,31 +187,9 @@ const play = (() => {
       button.addEventListener("click", () => run(!state.playing));
       find("step").addEventListener("click", () => one(1));
       find("speed").addEventListener("input", (e) => { state.speed = 2 ** Number(e.target.value); });
-      const touched = (yes) => canvas.classList.toggle("touched", yes);
-      const keys = {
-        ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0), ArrowUp: () => turn(0, -0.1), ArrowDown: () => turn(0, 0.1),
-        "+": () => zoom(1.15), "-": () => zoom(1 / 1.15), " ": () => run(!state.playing), ".": () => one(1), ",": () => one(-1), Escape: () => touched(false),
-      };
-      canvas.addEventListener("keydown", (e) => {
-        if (!keys[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
-        e.preventDefault();
-        keys[e.key]();
+      makeTouchable(canvas, turn, zoom, {
+        " ": () => run(!state.playing), ".": () => one(1), ",": () => one(-1),
       });
-      // The wheel and a finger scroll the page until the picture is touched.
-      canvas.addEventListener("click", () => touched(true));
-      addEventListener("pointerdown", (e) => { if (e.target !== canvas) touched(false); });
-      canvas.addEventListener("pointerdown", (e) => {
-        if (e.pointerType === "mouse") touched(true);
-        if (canvas.classList.contains("touched")) canvas.setPointerCapture(e.pointerId);
-      });
-      canvas.addEventListener("pointermove", (e) => {
-        if (e.buttons && canvas.classList.contains("touched")) turn(e.movementX / 150, e.movementY / 150);
-      });
-      canvas.addEventListener("wheel", (e) => {
-        if (!canvas.classList.contains("touched")) return;
-        e.preventDefault();
-        zoom(Math.exp(-e.deltaY / 600));
-      }, { passive: false });
     }
     resize();
   }

@@ -1,5 +1,5 @@
-// Draws each <figure class="solid"> from the JSON beside it: turn with the mouse, a finger or the
-// arrow keys, play in time. The wheel and a finger scroll the page until the picture is touched.
+// Draws each <figure class="solid"> from the JSON beside it: turned as touch.js has it, played in
+// time.
 // Plain canvas, no library: faces and lines are sorted by depth and painted from the back.
 "use strict";
 
@@ -148,34 +148,9 @@ function makeSolid(figure) {
     paint();
   }
 
-  const touched = (yes) => canvas.classList.toggle("touched", yes);
-  const keys = {
-    ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0),
-    ArrowUp: () => turn(0, -0.1), ArrowDown: () => turn(0, 0.1),
-    "+": () => zoom(1.15), "-": () => zoom(1 / 1.15),
+  makeTouchable(canvas, turn, zoom, {
     " ": () => start(!view.playing), ".": () => { start(false); show(view.frame + 1); },
-    Escape: () => touched(false),
-  };
-
-  canvas.addEventListener("keydown", (e) => {
-    if (!keys[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
-    e.preventDefault();
-    keys[e.key]();
   });
-  canvas.addEventListener("click", () => touched(true));
-  addEventListener("pointerdown", (e) => { if (e.target !== canvas) touched(false); });
-  canvas.addEventListener("pointerdown", (e) => {
-    if (e.pointerType === "mouse") touched(true);
-    if (canvas.classList.contains("touched")) canvas.setPointerCapture(e.pointerId);
-  });
-  canvas.addEventListener("pointermove", (e) => {
-    if (e.buttons && canvas.classList.contains("touched")) turn(e.movementX / 150, e.movementY / 150);
-  });
-  canvas.addEventListener("wheel", (e) => {
-    if (!canvas.classList.contains("touched")) return;
-    e.preventDefault();
-    zoom(Math.exp(-e.deltaY / 600));
-  }, { passive: false });
   slider.max = frames - 1;
   slider.value = frames - 1;
   slider.addEventListener("input", () => { start(false); show(Number(slider.value)); });

@@ -179,24 +179,11 @@ MEASURED = [
         for family, words in ROTOR.items()
     ),
     *(
-        Sentence(
-            ROTORS,
-            f"| heavy top, {words} | 500 | {{}}; {{}} of the effect",
-            partial(worst_of_top, family, 500),
-            factor=3.0,
-            slow=True,
+        Sentence(ROTORS, f"| heavy top, {row}", partial(worst, family, 500), factor=3.0, slow=True)
+        for family, row, worst in (
+            *((f, f"{w} | 500 | {{}}; {{}} of the effect", worst_of_top) for f, w in TOPS.items()),
+            *((f, f"{f} | 500 | {{}} |", worst_error_of_top) for f in ("fast", "cusp")),
         )
-        for family, words in TOPS.items()
-    ),
-    *(
-        Sentence(
-            ROTORS,
-            f"| heavy top, {family} | 500 | {{}} |",
-            partial(worst_error_of_top, family, 500),
-            factor=3.0,
-            slow=True,
-        )
-        for family in ("fast", "cusp")
     ),
     Sentence(
         THEORY,
