@@ -80,6 +80,15 @@ PRINTED = {
         (rf"elastic .* = {NUMBER} days\n(?:.*\n)*elastic +{NUMBER} days", 3e-4),
         (rf"C/\(M a²\) = {NUMBER}; moment factor of PREM {NUMBER}", 1e-3),
     ],
+    "long-run": [
+        (rf"off the formula by {NUMBER}", 1e-14),
+        (rf"by hand {NUMBER}, library {NUMBER} arcsec a year", 1e-4),
+        (rf"swings by {NUMBER}°, to first order {NUMBER}°", 2e-2),
+        (rf"by hand {NUMBER}°, library {NUMBER}°", 1e-3),
+        (rf"the two part by {NUMBER}°", 0.05),
+        (rf"by the plane alone {NUMBER}, found {NUMBER} arcsec", 1e-3),
+        (rf"{NUMBER} W/m² by hand, {NUMBER} by the library", 1e-4),
+    ],
 }
 
 
@@ -118,7 +127,7 @@ def results() -> dict[str, dict[str, str]]:
 def test_every_lesson_is_in_the_contents() -> None:
     there = {path.stem for path in (DOCS / "course").glob("*.md")} - {"index"}
     assert set(NAMES) == there
-    assert len(NAMES) == 10
+    assert len(NAMES) == 11
 
 
 def test_every_number_has_its_place_in_the_lesson_of_its_section() -> None:
