@@ -285,8 +285,12 @@ class _Segment:
         """Angular momentum where the next segment joins."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
-        signs = (-1.0) ** np.arange(self.momentum.shape[-1])
-        return np.asarray(self.momentum[:, 0] @ signs)
+        return np.asarray(self.momentum[:, 0] @ _signs(self.momentum.shape[-1]))
+
+
+def _signs(terms: int) -> FloatArray:
+    """Legendre polynomials at -1, where a window begins."""
+    return np.asarray((-1.0) ** np.arange(terms))
 
 
 def _directions(
@@ -376,8 +380,8 @@ def _chain(
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
     """Value where the segment begins, shape (3,)."""
-    edge = windows.edges[:1] if forward else windows.edges[-1:]
-    return windows.evaluate(windows.coefficients(values), edge)[:, 0]
+    series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
+    return np.asarray(series @ _signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
 
 def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:

@@ -23,6 +23,9 @@ from earthspin.torque.quadrupole import cross
 
 FloatArray = NDArray[np.float64]
 
+#: Terms below this change no digit of a unit vector, rad.
+_ROUNDING = 1e-17
+
 
 def tilt_of_figure(
     windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
@@ -57,6 +60,8 @@ def tilt_of_figure(
             break
         tilt = next_tilt
         sizes.append(size)
+        if size < _ROUNDING:
+            break
     return tilt, sizes
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.harmonics import zonal_torque
+from earthspin.torque.harmonics import zonal_law
 from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
 
 FloatArray = NDArray[np.float64]
@@ -115,21 +115,25 @@ class Forces:
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
         mean = self._mean_pole_at(windows.times)
+        zonals = self._zonal_laws(place) if figure.zonal else []
         added = [torque(self, windows, place) for torque in self.torques]
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
             seen = axis if mean is None else mean
             total = quadrupole_torque(scaled, seen)
-            for degree, coefficient in figure.zonal.items():
-                for name in self.near:
-                    total += (figure.inverse_polar_moment / figure.spin_rate) * zonal_torque(
-                        degree, coefficient, figure.radius, self.gm[name], place[name], seen
-                    )
+            for zonal in zonals:
+                total += zonal(seen)
             for of in added:
                 total += of(axis, momentum)
             return total
 
         return rate, tensor
+
+    def _zonal_laws(self, place: Places) -> list[Callable[[FloatArray], FloatArray]]:
+        figure = self.figure
+        scale = figure.inverse_polar_moment / figure.spin_rate
+        scaled = {degree: scale * coefficient for degree, coefficient in figure.zonal.items()}
+        return [zonal_law(scaled, figure.radius, self.gm[name], place[name]) for name in self.near]
 
     def _mean_pole_at(self, times: FloatArray) -> FloatArray | None:
         if self.mean_pole is None:

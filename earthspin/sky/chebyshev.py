@@ -4,7 +4,7 @@ A segment of a kernel is a table of records of equal length in time, each with a
 and z. Two ways of laying them out give the same bits, because each time sees the same products in
 the same order:
 
-- times in order, many to a record: one row a record, and its coefficients stand at the side;
+- times in order, several to a record: the coefficients of a record stand at the side of its times;
 - any other times: each is given the coefficients of its record.
 
 The sums are Clenshaw's, in arrays that stay in the processor's cache. Against jplephem, which gives
@@ -31,7 +31,7 @@ BLOCK = 1 << 13
 _BLOCK_OF_ANY = 1 << 11
 
 #: Times to a record below which coefficients are given to each time.
-_FEWEST_TO_A_RECORD = 12
+_FEWEST_TO_A_RECORD = 2
 
 #: How much longer than the mean the fullest record may be: rows are as long as it.
 _UNEVEN = 1.5
@@ -78,7 +78,7 @@ class Table(NamedTuple):
             if (high - low) * _FEWEST_TO_A_RECORD < days.size and np.all(np.diff(record) >= 0):
                 counts = np.bincount(record - low)
                 if counts.max() * counts.size <= _UNEVEN * days.size + counts.max():
-                    return self._in_order(low, counts, place)
+                    return self._in_order(record, counts, place)
         return self._in_any_order(record, place)
 
     def _places(self, days: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -92,14 +92,25 @@ class Table(NamedTuple):
         seconds -= 1
         return record, seconds
 
-    def _in_order(self, low: int, counts: IntArray, place: FloatArray) -> FloatArray:
-        """Times in order: a row for each record, as long as the fullest."""
-        row = np.arange(int(counts.max()))
+    def _in_order(self, record: IntArray, counts: IntArray, place: FloatArray) -> FloatArray:
+        """Times in order, in rows as long as the fullest record, coefficients at the side.
+
+        Many times to a record: the rows are records. Few: the rows are the first times of all
+        records, the second ones, and so on; long rows are what numpy is fast on.
+        """
+        low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
-        rows = place[np.minimum(starts[:, None] + row, place.size - 1)]
-        series = self._coefficients(self.series[low : low + counts.size])[..., None]
-        summed = _clenshaw(series, rows).reshape(3, -1)
-        return np.take(summed, np.flatnonzero(row < counts[:, None]), axis=1)
+        within = np.arange(place.size) - starts[record - low]
+        row = np.arange(longest)
+        series = self._coefficients(self.series[low : low + counts.size])
+        if longest >= counts.size:
+            at = starts[:, None] + row
+            series, own = series[..., None], (record - low) * longest + within
+        else:
+            at = starts + row[:, None]
+            series, own = series[:, :, None], within * counts.size + (record - low)
+        rows = place[np.minimum(at, place.size - 1)]
+        return np.take(_clenshaw(series, rows).reshape(3, -1), own, axis=1)
 
     def _in_any_order(self, record: IntArray, place: FloatArray) -> FloatArray:
         """Any times: the coefficients of its record to each, in blocks that the cache holds."""

@@ -11,11 +11,13 @@ which for n = 2 is (I.9.34). Per unit of C it is proportional to M a2/C = H/J2.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from earthspin.torque.quadrupole import cross
+from earthspin.torque.quadrupole import cross, dot
 
 FloatArray = NDArray[np.float64]
 
@@ -45,9 +47,41 @@ def zonal_torque(
     axis : ndarray, shape (3, ...)
         Unit vectors of the figure axis.
     """
-    distance = np.sqrt(np.sum(position * position, axis=0))
+    return zonal_law({degree: coefficient}, radius, gm, position)(axis)
+
+
+def zonal_law(
+    coefficients: Mapping[int, float], radius: float, gm: float, position: FloatArray
+) -> Callable[[FloatArray], FloatArray]:
+    """Torque of a mass on several zonal harmonics, made ready for many directions of the axis.
+
+    Parameters
+    ----------
+    coefficients : mapping of int to float
+        J_n by degree.
+    radius, gm, position
+        As for `zonal_torque`.
+
+    Returns
+    -------
+    callable
+        From unit vectors of the figure axis, shape (3, ...), to the torque per unit of M a2, s-2.
+    """
+    distance = np.sqrt(dot(position, position))
     direction = position / distance
-    slope = legendre.legder(np.eye(degree + 1)[degree])
-    u = np.sum(direction * axis, axis=0)
-    size = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
-    return np.asarray(size * legendre.legval(u, slope) * cross(direction, axis))
+    pulls = [
+        (
+            gm / distance**3 * coefficient * (radius / distance) ** (degree - 2),
+            legendre.legder(np.eye(degree + 1)[degree]),
+        )
+        for degree, coefficient in coefficients.items()
+    ]
+
+    def torque(axis: FloatArray) -> FloatArray:
+        u = dot(direction, axis)
+        size = np.zeros_like(u)
+        for pull, slope in pulls:
+            size += pull * legendre.legval(u, slope)
+        return size * cross(direction, axis)
+
+    return torque

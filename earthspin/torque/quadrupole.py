@@ -50,13 +50,35 @@ def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
     """Symmetric tensor, shape (6, ...), times a vector, shape (3, ...)."""
     xx, yy, zz, xy, xz, yz = tensor
     x, y, z = vector
-    return np.stack([xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z])
+    result = np.empty(np.broadcast_shapes((3, *np.shape(xx)), np.shape(vector)))
+    for row, first, second, third in zip(
+        result, (xx, xy, xz), (xy, yy, yz), (xz, yz, zz), strict=True
+    ):
+        np.multiply(first, x, out=row)  # rows are filled in place: fresh memory costs more
+        row += second * y
+        row += third * z
+    return result
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Vector product of two vectors, shape (3, ...)."""
     (ax, ay, az), (bx, by, bz) = a, b
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+    result = np.empty(np.broadcast_shapes(np.shape(a), np.shape(b)))
+    for row, a1, b2, a2, b1 in zip(
+        result, (ay, az, ax), (bz, bx, by), (az, ax, ay), (by, bz, bx), strict=True
+    ):
+        np.multiply(a1, b2, out=row)
+        row -= a2 * b1
+    return result
+
+
+def dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Scalar product of two vectors, shape (3, ...)."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    result: FloatArray = ax * bx
+    result += ay * by
+    result += az * bz
+    return result
 
 
 def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:

@@ -101,7 +101,7 @@ def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch)
     def never(*args: object) -> None:
         raise AssertionError("this effect is switched off")
 
-    monkeypatch.setattr(forces_module, "zonal_torque", never)
+    monkeypatch.setattr(forces_module, "zonal_law", never)
     monkeypatch.setattr("earthspin.motion.effects.geodesic.geodesic_rate", never)
     monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
     axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
