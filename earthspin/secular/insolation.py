@@ -19,13 +19,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.numerics.kepler import mean_anomaly, true_anomaly
+
 FloatArray = NDArray[np.float64]
 
 #: Nodes of Gauss and Legendre over a window of days; where a polar night begins inside it the
 #: integrand has a kink, of which so many leave some 1e-5.
 NODES = 48
-#: Newton steps for Kepler's equation; from the mean anomaly plus e sin(M), five do up to e = 0.9.
-KEPLER_STEPS = 12
 
 
 class Season(NamedTuple):
@@ -99,22 +99,3 @@ def over_days(
         at = true_longitude(season, middle + np.pi * days * node)
         total = total + weight * daily(season, latitude, at)
     return np.asarray(total)
-
-
-def mean_anomaly(true: FloatArray, e: FloatArray) -> FloatArray:
-    """Mean anomaly from a true one, rad, in the same turn."""
-    # E - v, by the form that has no jump
-    eccentric = true - 2 * np.arctan2(e * np.sin(true), 1 + np.sqrt(1 - e * e) + e * np.cos(true))
-    return np.asarray(eccentric - e * np.sin(eccentric))
-
-
-def true_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
-    """True anomaly from a mean one, rad, in the same turn: Kepler's equation by Newton."""
-    eccentric = mean + e * np.sin(mean) / np.maximum(1 - e * np.cos(mean), 1 - e)
-    for _ in range(KEPLER_STEPS):
-        off = eccentric - e * np.sin(eccentric) - mean
-        eccentric = eccentric - off / (1 - e * np.cos(eccentric))
-    return np.asarray(
-        eccentric
-        + 2 * np.arctan2(e * np.sin(eccentric), 1 + np.sqrt(1 - e * e) - e * np.cos(eccentric))
-    )

@@ -9,10 +9,8 @@ from scipy.integrate import quad
 from earthspin.secular.insolation import (
     Season,
     daily,
-    mean_anomaly,
     mean_longitude,
     over_days,
-    true_anomaly,
     true_longitude,
 )
 
@@ -99,17 +97,6 @@ def test_a_year_over_the_globe_holds_no_season(
     each = daily(of, np.arcsin(latitude)[:, np.newaxis], sun)
     over_year = np.mean(each * (1 - e * np.cos(eccentric)), axis=1)  # dM = (1 - e cos E) dE
     assert over_year @ weights / 2 == pytest.approx(0.25 / np.sqrt(1 - e * e), rel=2e-4, abs=0)
-
-
-@given(angle, ellipse)
-def test_keplers_equation_there_and_back(anomaly: float, e: float) -> None:
-    true = true_anomaly(np.array(anomaly), np.array(e))
-    assert mean_anomaly(true, np.array(e)) == pytest.approx(anomaly, rel=0, abs=1e-12)
-    # areas are swept evenly: dM/dv = (r/a)^2/sqrt(1 - e^2)
-    h = 1e-5
-    rate = (mean_anomaly(true + h, np.array(e)) - mean_anomaly(true - h, np.array(e))) / (2 * h)
-    radius = (1 - e * e) / (1 + e * np.cos(true))
-    assert rate == pytest.approx(radius**2 / np.sqrt(1 - e * e), rel=1e-5, abs=0)
 
 
 @given(season, angle)

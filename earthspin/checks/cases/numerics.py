@@ -11,6 +11,7 @@ from earthspin.checks.case import Cases, Distances, hard_because, held_against
 from earthspin.numerics import quaternion
 from earthspin.numerics.double_double import DoubleDouble, as_double_double, two_product, two_sum
 from earthspin.numerics.elliptic import jacobi, landen_descent
+from earthspin.numerics.kepler import eccentric_anomaly
 
 CASES = Cases("numerics")
 
@@ -68,3 +69,20 @@ def _products() -> Distances:
         turn = quaternion.multiply(one, turn)
     exact = float(Fraction(step / 2) * 100_000)
     yield np.hypot(turn[0] - math.cos(exact), turn[3] - math.sin(exact))
+
+
+@CASES.case("Kepler's equation next to a parabola")
+@hard_because("e is 1 - 1e-12: near the pericentre M is a difference of nearly equal angles")
+@held_against("the angle whose mean anomaly was summed in exact fractions", bound=2e-15)
+def _next_to_a_parabola() -> Distances:
+    e, eccentric = 1 - 1e-12, np.concatenate([10.0 ** np.arange(-12.0, 0.0), [1.5, 3.0]])
+    mean = np.array([float(_mean_anomaly(angle, e)) for angle in eccentric])
+    yield eccentric_anomaly(mean, np.array(e)) / eccentric - 1
+
+
+def _mean_anomaly(angle: float, e: float) -> Fraction:
+    """E - e sin(E), the sine by its series; the last term is below 1e-27 up to E = 3."""
+    x = Fraction(angle)
+    terms = [Fraction(x ** (2 * k + 1)) / math.factorial(2 * k + 1) for k in range(18)]
+    sine = sum(terms[::2], Fraction()) - sum(terms[1::2], Fraction())
+    return x - Fraction(e) * sine

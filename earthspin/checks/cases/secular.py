@@ -16,7 +16,7 @@ from earthspin.checks.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
-from earthspin.secular.insolation import Season, daily, mean_anomaly, true_anomaly
+from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.orbit import Orbit, Shape
 from earthspin.secular.strength import Strength, Tides
@@ -168,15 +168,6 @@ def _coarse() -> Distances:
 def _all_but_round() -> Distances:
     tree = run_tree(LongTerm(span=["-10 Myr", "0 kyr"], step="20 kyr"), sections="budget")
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
-
-
-@CASES.case("Kepler's equation at an eccentricity of 0.9")
-@hard_because("near the pericentre Newton's method overshoots")
-@held_against("the mean anomaly that was put in", bound=2e-14, unit="rad")
-def _kepler() -> Distances:
-    mean = np.concatenate([np.linspace(-7, 7, 2001), 10.0 ** np.arange(-15.0, 0.0)])
-    e = np.full_like(mean, 0.9)
-    yield mean_anomaly(true_anomaly(mean, e), e) - mean
 
 
 @CASES.case("an axis upright on its orbit")
