@@ -1,0 +1,166 @@
+r"""Cassini states: axes that keep in step with an orbit that precesses.
+
+The normal k of an orbit goes round a fixed pole at the inclination i and the rate -nu (nu > 0 where
+the node regresses). A spin axis s is in a Cassini state if it goes round with k: all three lie in
+one plane. Averaged over spin, orbit and pericentre, the energy of a body over its spin C omega is
+
+    W = -(3/4) [K0 cos^2 eps + Kr (1 + cos eps)^2],
+    K0 = (n^2/omega) (J2/c) (1 - e^2)^(-3/2),     Kr = (n^2/omega) (C22/c) |X(e)|,   c = C/(M R^2),
+
+with the second term for a spin that is locked at the ratio p = omega/n, where Hansen's coefficient
+X(e) = X^{-3,2}_{2p}(e) is 1 - 5 e^2/2 + ... at 1:1 and 7 e/2 - 123 e^3/16 + ... at 3:2. In axes
+that turn with the orbit, H = W + nu cos(eps - i), and the states are where
+
+    -dH/d(eps) = nu sin(eps - i) - (3/2) [K0 cos eps + Kr (1 + cos eps)] sin eps = 0
+
+(Colombo 1966, AJ 71, 891; Peale 1969, AJ 74, 483; Ward 1975, AJ 80, 64; for a locked spin Peale
+1988, in Mercury, 461). eps is positive towards the fixed pole. A state is stable where H has a
+maximum or a minimum on the sphere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+from earthspin.numerics.kepler import true_anomaly
+
+FloatArray = NDArray[np.float64]
+
+#: Nodes over a revolution for Hansen's coefficients; they converge as a power of e.
+NODES = 4096
+#: How close to the unit circle a root of the quartic lies that stands for an angle.
+ON_CIRCLE = 1e-6
+
+
+@dataclass(frozen=True)
+class Precessing:
+    """A body and the orbit that it keeps in step with.
+
+    Attributes
+    ----------
+    axial : float
+        K0, rad/s.
+    locked : float
+        Kr, rad/s; 0 for a spin that is not locked.
+    inclination : float
+        Of the orbit to the plane on which its node turns, i, rad.
+    node_rate : float
+        nu, rad/s, positive where the node regresses.
+    """
+
+    axial: float
+    locked: float
+    inclination: float
+    node_rate: float
+
+    def slope(self, obliquity: FloatArray) -> FloatArray:
+        """-dH/d(eps), rad/s."""
+        cosine, sine = np.cos(obliquity), np.sin(obliquity)
+        torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
+        return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
+
+    def curvature(self, obliquity: FloatArray) -> FloatArray:
+        """Derivative of the slope, rad/s."""
+        cosine, double = np.cos(obliquity), np.cos(2 * obliquity)
+        torque = 1.5 * (self.axial * double + self.locked * (cosine + double))
+        return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
+
+
+class States(NamedTuple):
+    """Cassini states in the order of their numbers, shape (n,) each; n is 2 or 4.
+
+    Attributes
+    ----------
+    number : ndarray of int
+        After Peale (1969): 1 leans away from the fixed pole, 2 towards it, 3 turns backwards, 4 is
+        the unstable one. 1 and 4 are missing where the orbit precesses too fast.
+    obliquity : ndarray
+        To the orbit, positive towards the fixed pole, rad.
+    stable : ndarray of bool
+    """
+
+    number: NDArray[np.int64]
+    obliquity: FloatArray
+    stable: NDArray[np.bool_]
+
+
+def strengths(
+    motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
+) -> tuple[float, float]:
+    """K0 and Kr, rad/s; Kr as for a spin that is locked at the ratio next to its own.
+
+    Parameters
+    ----------
+    motion, spin_rate : float
+        Of the orbit and of the body, rad/s.
+    j2, c22 : float
+        Unnormalised.
+    polar : float
+        C/(M R2), with the radius that they refer to.
+    eccentricity : float
+    """
+    scale = motion**2 / (spin_rate * polar)
+    ratio = round(2 * spin_rate / motion)
+    locked = scale * c22 * abs(hansen(ratio, eccentricity))
+    return scale * j2 * (1 - eccentricity**2) ** -1.5, locked
+
+
+def hansen(multiple: int, eccentricity: float) -> float:
+    """Hansen's coefficient X^{-3,2}_k(e): mean of (a/r)^3 cos(2 v - k M).
+
+    Parameters
+    ----------
+    multiple : int
+        k: twice the turns in a revolution.
+    eccentricity : float
+    """
+    mean = 2 * np.pi * (np.arange(NODES) + 0.5) / NODES
+    true = true_anomaly(mean, np.asarray(eccentricity))
+    nearness = (1 + eccentricity * np.cos(true)) / (1 - eccentricity**2)
+    return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
+
+
+def cassini_states(of: Precessing) -> States:
+    """Solve for the states.
+
+    Parameters
+    ----------
+    of : Precessing
+
+    Raises
+    ------
+    UndefinedError
+        If the orbit does not precess, or stands upright on the plane on which it would.
+    """
+    i, nu = of.inclination, of.node_rate
+    if nu == 0 or np.sin(i) == 0:
+        raise UndefinedError(
+            "an orbit whose plane does not move has no Cassini states; give it an inclination and "
+            "a period of its node"
+        )
+    # with z = exp(i eps) the slope is a quartic in z
+    single = nu * np.cos(i) - 1.5 * of.locked
+    double = -0.75 * (of.axial + of.locked)
+    found = np.roots(
+        [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
+    )
+    angles = np.angle(found[np.abs(np.abs(found) - 1) < ON_CIRCLE])
+    for _ in range(3):  # to the last place
+        angles = angles - of.slope(angles) / of.curvature(angles)
+    stable = of.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
+    number = _numbers(angles * np.sign(nu), stable)
+    order = np.argsort(number)
+    return States(number[order], angles[order], stable[order])
+
+
+def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Numbers of the states: what turns backwards is that of the largest obliquity."""
+    number = np.where(angles < 0, 1, 2)
+    number[~stable] = 4
+    number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3
+    return number
