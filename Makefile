@@ -12,9 +12,12 @@ report: $(VENV)/.core
 test: $(VENV)/.test
 	$(BIN)/python -m pytest -q --numprocesses=auto --dist=loadfile
 
-# The oldest versions that pyproject.toml allows; what they themselves need is the newest.
+# The oldest versions that pyproject.toml allows; what they themselves need is the newest. Two things
+# do not hold for them: numbers of the pages stand on the newest tables of polar motion, and the
+# BLAS of numpy 2.0 sums in an order that hangs on its threads.
+OF_THE_NEWEST := tests/docs/test_numbers.py tests/engine/test_same_bits.py
 test-lowest: $(LOWEST)/.test
-	$(LOWEST)/bin/python -m pytest -q --numprocesses=auto --dist=loadfile $(TESTS)
+	$(LOWEST)/bin/python -m pytest -q --numprocesses=auto --dist=loadfile $(OF_THE_NEWEST:%=--ignore=%) $(TESTS)
 
 check: $(VENV)/.check
 	$(BIN)/ruff check .

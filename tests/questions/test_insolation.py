@@ -99,7 +99,8 @@ def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
     assert float(daily_insolation(still, "65 deg", "90 deg").daily_insolation_error.max()) == 0
     one = still.assign(obliquity_error=past.obliquity_error)
     by_tilt = daily_insolation(one, "65 deg", "90 deg").daily_insolation_error
-    up = past.assign(obliquity=past.obliquity + past.obliquity_error)
+    higher = (past.obliquity + past.obliquity_error).assign_attrs(past.obliquity.attrs)
+    up = past.assign(obliquity=higher)
     moved = np.abs(daily_insolation(up, "65 deg", "90 deg") - found)
     assert np.allclose(by_tilt, moved, rtol=0.02, atol=1e-9)
 
