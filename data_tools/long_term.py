@@ -57,9 +57,10 @@ def earths() -> Setting:
     pulling = SUN, MOON
     sky = skies.sky(scene.ephemeris, skies.places(EARTH, pulling), scene.source)
     samples = averages.torque_samples(sky, question.stretch(sky), EARTH, pulling, None)
-    rates = averages.mean_rates(samples, EARTH, pulling, None)
+    means = averages.mean_torques(averages.window_means(samples, pulling))
+    rates = averages.mean_rates(means, EARTH, pulling)
     table = orbits.orbit_table("own", EARTH)
-    strength = question.strength(rates, samples, EARTH, pulling, table, 1.0, 1.0, None)
+    strength = question.strength(rates, means, EARTH, pulling, table, 1.0, 1.0, None)
     return Setting(strength, table, EARTH.needed("pole").mean(np.zeros(1))[0])
 
 

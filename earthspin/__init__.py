@@ -11,7 +11,7 @@ from importlib import import_module as _import_module
 from earthspin._version import __version__ as __version__
 
 _HOME = {
-    "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body"),
+    "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.questions.precession": ("precession",),
     "earthspin.questions.torque": ("torque_series",),
     "earthspin.questions.pole": ("pole",),

@@ -30,6 +30,7 @@ from earthspin.bodies import MARS as MARS
 from earthspin.bodies import MOON as MOON
 from earthspin.bodies import SUN as SUN
 from earthspin.bodies import Body as Body
+from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
 from earthspin.parts.insolation import daily_insolation as daily_insolation
 from earthspin.questions.polar_motion import excitation as excitation
@@ -227,6 +228,7 @@ __all__ = [
     "MARS",
     "MOON",
     "MissingExtraError",
+    "Orbit",
     "OutputError",
     "SUN",
     "Scene",

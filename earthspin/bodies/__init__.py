@@ -4,12 +4,13 @@ from earthspin.bodies.body import BODIES, NUMBERS, Body, Numeric, all_of, body
 from earthspin.bodies.earth import EARTH
 from earthspin.bodies.mars import MARS
 from earthspin.bodies.moon import MOON
+from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.planets import PLANETS
 from earthspin.bodies.sun import SUN
 
 __all__ = [
-    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric", "all_of",
-    "body", "in_a_sentence", "proper",
+    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric",
+    "Orbit", "all_of", "body", "in_a_sentence", "proper",
 ]  # fmt: skip
 
 _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)

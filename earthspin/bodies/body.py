@@ -22,6 +22,7 @@ from earthspin.bodies.kinds import (
     OwnPlace,
     Uncertainties,
 )
+from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
@@ -89,6 +90,9 @@ class Body:
     position : vector function, Trajectory or None
         What gives its place, where a kernel does not: a vector function of Skyfield's, or an object
         as `earthspin.sky.protocol` describes it.
+    orbit : Orbit or None
+        Its elements, where neither gives its place. Of a body that spins `orbit_pole` follows from
+        them, if it is not given.
     relative_uncertainty : mapping
         One standard deviation over value, by field name.
     reference : str
@@ -130,6 +134,7 @@ class Body:
     interior: Annotated[str | None, Text()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     position: Annotated[Any, OwnPlace()] = None
+    orbit: Annotated[Orbit | None, OrbitTable()] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
@@ -166,6 +171,7 @@ class Body:
             object.__setattr__(
                 self, "position", read_position(self.position, Where(f"{self.name}.position"))
             )
+        self._check_orbit()
         self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
         self._require("gm", lambda gm: gm <= _LARGEST_GM, f"give at most {_LARGEST_GM:g} m3 s-2")
         self._require("cycle", lambda t: t > 0, "a cycle lasts longer than zero")
@@ -268,6 +274,24 @@ class Body:
                 object.__setattr__(self, name, of(value))
             except (ValueError, TypeError):
                 raise BodyError(self.name, name, value, allowed) from None
+
+    def _check_orbit(self) -> None:
+        """Read the elements; of what spins, take the normal of its orbit from them."""
+        if self.orbit is None:
+            return
+        object.__setattr__(self, "orbit", Orbit.read(self.orbit, Where(f"{self.name}.orbit")))
+        if self.position is not None:
+            raise BodyError(self.name, "orbit", str(self.orbit), "position places it; set one")
+        if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
+            from earthspin.sky.elements import Plane
+
+            if self.orbit.plane == "orbit":
+                raise BodyError(
+                    self.name, "orbit.plane", "orbit", "of its own orbit it is circular"
+                )
+            plane = Plane.of(self.orbit.plane, self.pole, None)
+            normal = plane.mean_normal(self.orbit.i, self.orbit.node, self.orbit.node_period)
+            object.__setattr__(self, "orbit_pole", normal)
 
     def _require(self, name: str, holds: Any, allowed: str) -> None:
         value = getattr(self, name)
@@ -696,6 +720,8 @@ class Body:
             changes["dynamical_flattening"] = (
                 self.needed("dynamical_flattening") * changes["j2"] / self.j2
             )
+        if changes.get("orbit") is not None and self.orbit is not None:
+            changes = {"orbit_pole": None} | changes  # that of the orbit before
         # A changed number is the user's own: what was known about the old one no longer holds.
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         made = _replace(self, **({"relative_uncertainty": known} | changes))

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from earthspin.constants import Constant
-from earthspin.errors import EarthspinError, Where
+from earthspin.errors import EarthspinError, Where, nearest
 
 #: What a scene file can hold. The border itself is loaded when there is something to read.
 Plain = Any
@@ -104,6 +104,35 @@ class Uncertainties:
     def write(self, value: Mapping[str, float]) -> Plain:
         """Give the table."""
         return dict(value)
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """One of a few words.
+
+    Attributes
+    ----------
+    allowed : tuple of str
+    """
+
+    allowed: tuple[str, ...]
+
+    hint = "str"
+
+    @property
+    def words(self) -> str:
+        """What may be given."""
+        return " or ".join(f'"{word}"' for word in self.allowed)
+
+    def read(self, given: object, where: Where) -> str:
+        """Check."""
+        if not isinstance(given, str) or given not in self.allowed:
+            raise where.error(given, nearest(given, self.allowed))
+        return given
+
+    def write(self, value: str) -> Plain:
+        """Give the word."""
+        return value
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._version import version
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
+from earthspin.parts.elements import exact_means, no_exact_means, ways
 from earthspin.parts.sky import Sky, Stretch
 
 if TYPE_CHECKING:
@@ -61,7 +64,7 @@ class Samples:
     no_error: str = ""
 
 
-@part
+@part(unless=exact_means)
 def torque_samples(
     sky: Sky,
     stretch: Stretch,
@@ -75,7 +78,7 @@ def torque_samples(
     from earthspin.torque.gravity import torque_from_position
 
     pole, orbit = body.needed("pole"), body.orbit_pole
-    cycle = max(p.cycle for p in perturbers)
+    cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
     if chosen_average is not None:
         chosen = chosen_average.settings
@@ -117,10 +120,153 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]
         for name, position in sky.positions(times / DAY).items():
             turns = locking.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
-                raise UndefinedError(
-                    f"{in_a_sentence(body.name)} turns {turns:g} times in each orbit with "
-                    f"'{name}': an average over orbits does not hold for a spin that is locked"
-                )
+                raise _locked(body, name, turns)
+
+
+def _locked(body: Body, perturber: str, turns: float) -> UndefinedError:
+    """What is said of a spin that is locked."""
+    return UndefinedError(
+        f"{in_a_sentence(body.name)} turns {turns:g} times in each orbit with "
+        f"'{perturber}': an average over orbits does not hold for a spin that is locked"
+    )
+
+
+def slowest_cycle(perturber: Body) -> float:
+    """The slowest cycle of a pull that averages must span, s."""
+    turning = perturber.orbit is not None and perturber.orbit.node_period
+    return max(perturber.cycle, abs(turning or 0.0))
+
+
+@dataclass(frozen=True)
+class MeanTorques:
+    """Means over orbits of the torque per unit of C - A; the last label is the sum of several.
+
+    Attributes
+    ----------
+    labels : list of str
+    precessing, precessing_error : ndarray, shape (label,)
+        Share that makes the axis precess, and its half-width, s-2.
+    torque, torque_error : ndarray, shape (label, 3)
+        Along equator and equinox of date, s-2.
+    epoch : float
+        That they refer to, s from J2000.0 TDB.
+    obliquity : float
+        Of the axis to the orbit at the epoch, rad.
+    over, method : str
+        What was averaged over, and with how many samples, in words.
+    evaluations : int
+        Epochs at which the sky was evaluated.
+    no_error : str
+        Why errors are not given; empty if they are.
+    provenance : mapping of str to str
+        What the answer says of where they come from, beside the sky.
+    """
+
+    labels: list[str]
+    precessing: NDArray[np.float64]
+    precessing_error: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    torque_error: NDArray[np.float64]
+    epoch: float
+    obliquity: float
+    over: str
+    method: str
+    evaluations: int
+    no_error: str = ""
+    provenance: Mapping[str, str] = field(default_factory=dict)
+
+
+@part(unless=exact_means)
+def window_means(
+    torque_samples: Samples,
+    perturbers: tuple[Body, ...],
+    chosen_average: Choice[Averaging] | None = None,
+) -> MeanTorques:
+    """Weighted means over the window, with what its neighbours say of them."""
+    from earthspin.torque.average import window_mean_and_error
+
+    samples = torque_samples
+    window, times = samples.window, samples.times
+    swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
+    of_precessing, of_torque = _measured_errors(perturbers, chosen_average)
+    precessing, precessing_error = window_mean_and_error(
+        window, times, samples.precessing, swing, of_precessing
+    )
+    if of_precessing is not None and times[1] - times[0] == SAMPLING:
+        # daily samples: what the neighbours say counts as well, where it is less
+        _, by_neighbours = window_mean_and_error(window, times, samples.precessing, swing)
+        precessing_error = np.minimum(precessing_error, by_neighbours)
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
+    spacing = np.median(np.diff(times)) / DAY
+    return MeanTorques(
+        labels=samples.labels,
+        precessing=precessing,
+        precessing_error=precessing_error,
+        torque=vector,
+        torque_error=vector_error,
+        epoch=window.centre,
+        obliquity=samples.obliquity,
+        over=taken(window),
+        method=f"{taken(window)}, a sample each {spacing:g} d",
+        evaluations=times.size,
+        no_error=samples.no_error,
+    )
+
+
+@part(unless=no_exact_means)
+def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
+    """Exact means over each ellipse, and over its node if that turns, with the axis of J2000.0."""
+    from earthspin.sky.elements import Elements
+    from earthspin.sky.equator import angle
+    from earthspin.torque import average, locking, mean_orbit
+
+    pole, now = body.needed("pole"), np.zeros(1)
+    equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
+    axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
+    found = ways(body, perturbers)
+    torques, errors = [], []
+    for one in perturbers:
+        ((ellipse, _),) = found[one.name].ellipses
+        forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
+        for spin_rate in np.ravel(body.spin_rate):
+            turns = locking.locked_turns(float(spin_rate), forward)
+            if turns is not None:
+                raise _locked(body, one.name, turns)
+        square = (
+            mean_orbit.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
+            if ellipse.node_rate
+            else mean_orbit.square_of_normal(ellipse.normal)
+        )
+        tide = mean_orbit.mean_tide(float(one.gm), ellipse.a, ellipse.e, square)
+        torques.append(mean_orbit.mean_torque(tide, axis))
+        errors.append(mean_orbit.rounding(tide))
+    vectors = average.with_total(np.stack(torques)[np.newaxis])[0]
+    error = average.with_total(np.array(errors)[np.newaxis])[0]
+    obliquity = angle(axis, normal)
+    return MeanTorques(
+        labels=[one.name for one in perturbers] + ["total"] * (len(perturbers) > 1),
+        precessing=average.precessing_torque(vectors, axis, normal),
+        precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
+        torque=vectors @ equator.T,
+        torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
+        epoch=0.0,
+        obliquity=obliquity,
+        over="all turns of each orbit by its elements",
+        method="exact means of orbits by their elements",
+        evaluations=len(perturbers),
+        provenance=Elements().provenance | {"pyerfa_version": version("pyerfa")},
+    )
+
+
+@part
+def mean_torques(
+    window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
+) -> MeanTorques:
+    """Means of the torque per unit of C - A: exact ones if there are, else over windows."""
+    found = orbit_means if window_means is None else window_means
+    if found is None:
+        raise UndefinedError("nothing was averaged")
+    return found
 
 
 @dataclass(frozen=True)
@@ -159,61 +305,47 @@ class MeanRates:
 
 
 @part
-def mean_rates(
-    torque_samples: Samples,
-    body: Body,
-    perturbers: tuple[Body, ...],
-    chosen_average: Choice[Averaging] | None = None,
-) -> MeanRates:
+def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
     """Averages over orbits: rate, period, mean torque, with errors."""
     import xarray as xr
 
     from earthspin.mass.inertia import moment_difference
     from earthspin.torque import rates
-    from earthspin.torque.average import window_mean_and_error
 
-    samples = torque_samples
-    window, times = samples.window, samples.times
+    means = mean_torques
 
     def along(values: NDArray[np.float64]) -> xr.DataArray:
-        return xr.DataArray(values, {"perturber": samples.labels}, ("perturber",))
+        return xr.DataArray(values, {"perturber": means.labels}, ("perturber",))
 
-    swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
-    of_precessing, of_torque = _measured_errors(perturbers, chosen_average)
-    precessing, precessing_error = window_mean_and_error(
-        window, times, samples.precessing, swing, of_precessing
-    )
-    if of_precessing is not None and times[1] - times[0] == SAMPLING:
-        # daily samples: what the neighbours say counts as well, where it is less
-        _, by_neighbours = window_mean_and_error(window, times, samples.precessing, swing)
-        precessing_error = np.minimum(precessing_error, by_neighbours)
-    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = along(rates.total_uncertainty(precessing, u_each))
+    u_gm = along(rates.total_uncertainty(means.precessing, u_each))
     rate = rates.precession_estimate(
-        along(precessing),
-        along(precessing_error),
+        along(means.precessing),
+        along(means.precessing_error),
         body.needed("dynamical_flattening"),
         body.spin_rate,
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
     torque = rates.torque_estimate(
-        along(np.linalg.norm(vector, axis=-1)),
-        along(np.linalg.norm(vector_error, axis=-1)),
+        along(np.linalg.norm(means.torque, axis=-1)),
+        along(np.linalg.norm(means.torque_error, axis=-1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
         body.relative_uncertainty_of_bulge(),
         u_gm,
     )
-    spacing = np.median(np.diff(times)) / DAY
     return MeanRates(
         rate=rate,
         torque=torque,
-        ratio=rates.rate_ratio(precessing),
-        method=f"{taken(window)}, a sample each {spacing:g} d",
-        evaluations=times.size,
-        no_error=samples.no_error,
+        ratio=rates.rate_ratio(means.precessing),
+        method=means.method,
+        evaluations=means.evaluations,
+        no_error=means.no_error,
     )
+
+
+#: What stands between the sky and `mean_rates`, for the questions that use it.
+MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
 
 
 def taken(window: Window) -> str:

@@ -17,6 +17,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import Where
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
+from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
 from earthspin.units import Plain, Several, Word
@@ -54,6 +55,21 @@ class Moved(Series):
     effects: Annotated[tuple[str, ...], Several(EffectWord())] = key(
         RIGID, doc="effects besides the torque of the perturbers on the bulge"
     )
+
+    def check(self) -> None:
+        """Where elements place everything there is no kernel that could place the planets."""
+        super().check()
+        if PLANETS.name not in self.effects or not all_by_elements(self.body, self.perturbers):
+            return
+        if "effects" in self.given:
+            raise self.error(
+                "effects",
+                PLANETS.name,
+                "all is placed by elements, without a kernel; leave it out, and give the orbits of "
+                "planets among the perturbers",
+            )
+        left = tuple(effect for effect in self.effects if effect != PLANETS.name)
+        object.__setattr__(self, "effects", left)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.sky.protocol import OfDate, Place, Source, words
+from earthspin.parts.elements import Way, all_by_elements, largest, ways
+from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
     describe_position,
@@ -30,6 +31,7 @@ from earthspin.sky.sources import (
 )
 
 if TYPE_CHECKING:
+    from earthspin.sky.elements import Ellipse
     from earthspin.sky.iau import Nutation
     from earthspin.sky.poles import Pole
 
@@ -102,8 +104,11 @@ class Pulled(Question):
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
+        ways(self.body, self.perturbers)  # refuses elements that do not fit together
+        mixed = not all_by_elements(self.body, self.perturbers)
         for one in (self.body, *self.perturbers):
-            if getattr(self, "accuracy", None) is not None and unmeasured(one):
+            of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)
+            if getattr(self, "accuracy", None) is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
                     getattr(self, "accuracy", None),
@@ -118,11 +123,35 @@ def unmeasured(body: Body) -> bool:
 
 
 class Address(NamedTuple):
-    """How a body is known to a source: name, NAIF codes, and its own place, if it has one."""
+    """How a body is known to a source.
+
+    Attributes
+    ----------
+    name : str
+    codes : tuple of int
+        NAIF; of a body that has ellipses, the codes of where the first one begins.
+    position : vector function or Trajectory or None
+        Its own place, if it has one.
+    ellipses : tuple of (Ellipse, int)
+        That lead to it, if it has elements; -1 where one is gone back.
+    """
 
     name: str
     codes: tuple[int, ...]
     position: Any = None
+    ellipses: tuple[tuple[Ellipse, int], ...] = ()
+
+    def in_source(self, source: Source) -> Place:
+        """Where a source finds it."""
+        if not self.ellipses:
+            return place_of(source, self.name, self.codes, self.position)
+        return self.by_elements(source.code(self.codes, self.name))
+
+    def by_elements(self, centre: int) -> Place:
+        """Where ellipses put it, from a NAIF code on."""
+        from earthspin.sky.elements import ByElements
+
+        return ByElements(self.ellipses, centre)
 
 
 @dataclass(frozen=True)
@@ -137,11 +166,14 @@ class Places:
         Of each perturber.
     radius : float
         Of the body that spins, m; the largest, where it is an array.
+    by_elements : bool
+        Whether ellipses lead from the centre to all of them: no kernel is needed.
     """
 
     centre: Address
     targets: tuple[Address, ...]
     radius: float
+    by_elements: bool = False
 
 
 @dataclass(frozen=True)
@@ -168,7 +200,9 @@ class Sky:
     def provenance(self) -> dict[str, str]:
         """Kernel and readers, for the attributes of an answer."""
         own = {
-            name: words(place) for name, place in self.targets.items() if not isinstance(place, int)
+            name: words(place)
+            for name, place in self.targets.items()
+            if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
         told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
         return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
@@ -307,20 +341,38 @@ def address(body: Body) -> Address:
     return Address(body.name, body.naif, body.position)
 
 
+def _address_by_way(body: Body, way: Way | None) -> Address:
+    """How a body is known to a source, or where ellipses to it begin."""
+    if way is None:
+        return address(body)
+    start = way.start
+    if start.position is not None:
+        raise SceneError(
+            f"{body.name}.orbit",
+            str(body.orbit),
+            f"'{start.name}' has no NAIF code, but a position",
+        )
+    return Address(body.name, start.naif, None, way.ellipses)
+
+
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
-    """Names, codes and own places of the bodies."""
-    radius = 0.0 if body.radius is None else body.radius
+    """Names, codes, own places and elements of the bodies."""
+    found = ways(body, perturbers)
     return Places(
         address(body),
-        tuple(map(address, perturbers)),
-        float(radius.max() if hasattr(radius, "max") else radius),
+        tuple(_address_by_way(one, found.get(one.name)) for one in perturbers),
+        0.0 if body.radius is None else largest(body.radius),
+        all_by_elements(body, perturbers),
     )
 
 
 def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
     """Say which source the positions come from."""
+    if all_by_elements(body, perturbers):
+        return "positions by the elements of orbits; no kernel is opened"
     told = [f"positions {describe_source(source, ephemeris)}"]
+    told += [f"{name} by the elements of its orbit" for name in ways(body, perturbers)]
     told += [
         f"{one.name} by {describe_position(one.position)}"
         for one in (body, *perturbers)
@@ -332,10 +384,14 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
 @part(tells=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
+    if places.by_elements:
+        from earthspin.sky.elements import CENTRE, Elements
+
+        ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
+        return Sky(Elements(), CENTRE, ellipses, places.radius)
     opened = open_source(source, ephemeris)
-    name, codes, position = places.centre
-    centre = place_of(opened, name, codes, position)
-    targets = {name: place_of(opened, name, *of) for name, *of in places.targets}
+    centre = places.centre.in_source(opened)
+    targets = {one.name: one.in_source(opened) for one in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
@@ -345,9 +401,13 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
     """The span asked for, if the source covers it, or all that the source covers."""
+    from earthspin.sky.elements import USUAL_REACH, Elements
+
     if span is not None:
         sky.check_times(span.days)
         return Stretch(*span.days)
+    if isinstance(sky.source, Elements):
+        return Stretch(-USUAL_REACH, USUAL_REACH)
     first, last = sky.coverage()
     if not math.isfinite(last - first):
         raise SceneError("span", None, "nothing limits these positions in time; give a span")

@@ -76,7 +76,7 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
         """What is compared to the microarcsecond stands on positions whose error is known."""
         super().check()
         for one in (self.body, *self.perturbers):
-            if unmeasured(one):
+            if unmeasured(one) or one.orbit is not None:
                 raise self.error(
                     "perturbers",
                     one.name,

@@ -17,7 +17,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
 from earthspin.errors import Where
-from earthspin.parts.averages import MeanRates, Samples, mean_rates, torque_samples
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_the_iaus_earth
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
@@ -121,7 +121,7 @@ def stretch(sky: Sky) -> Stretch:
 @part
 def strength(
     mean_rates: MeanRates,
-    torque_samples: Samples,
+    mean_torques: MeanTorques,
     body: Body,
     perturbers: tuple[Body, ...],
     orbit_table: OrbitTable,
@@ -136,8 +136,8 @@ def strength(
     """
     from earthspin.secular import strength as of
 
-    cosine = math.cos(torque_samples.obliquity)
-    rates = dict(zip(torque_samples.labels, mean_rates.rate.value.values.tolist(), strict=True))
+    cosine = math.cos(mean_torques.obliquity)
+    rates = dict(zip(mean_torques.labels, mean_rates.rate.value.values.tolist(), strict=True))
     as_published = not_the_iaus_earth(body, perturbers) is None
     more = sum(
         float(effect.value) * ARCSEC / JULIAN_YEAR
@@ -397,7 +397,7 @@ made_of(
     answer=(series, long_term_accuracy),
     sections={"budget": budget, "matrices": matrices, "neglected": neglected},
     parts=(
-        places, sky, stretch, wanted, torque_samples, mean_rates, orbit_table,
+        places, sky, stretch, wanted, *MEANS, orbit_table,
         strength, solved, readings,
     ),
     without=("chosen_average",),

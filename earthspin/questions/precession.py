@@ -17,7 +17,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
 from earthspin.errors import UndefinedError
-from earthspin.parts.averages import MeanRates, Samples, mean_rates, taken, torque_samples
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.parts.reasons import no_accuracy, no_moon, not_sun_and_moon, not_the_iaus_earth
@@ -128,7 +128,7 @@ RATES = {
 
 
 @part(gives=RATES)
-def precession_rates(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
+def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dataset:
     """Rates, periods and torques by perturber, each with its error."""
     from earthspin.torque import rates
 
@@ -145,12 +145,12 @@ def precession_rates(mean_rates: MeanRates, torque_samples: Samples) -> xr.Datas
             "rate_ratio": mean_rates.ratio,
             "mean_torque": torque.value,
             "mean_torque_error": torque.error,
-            "obliquity": torque_samples.obliquity,
-            "reference_epoch": datetime64(np.array(torque_samples.window.centre / DAY)),
+            "obliquity": mean_torques.obliquity,
+            "reference_epoch": datetime64(np.array(mean_torques.epoch / DAY)),
         },
         no_error=mean_rates.no_error,
     )
-    result["precession_rate"].attrs["window"] = taken(torque_samples.window)
+    result["precession_rate"].attrs["window"] = mean_torques.over
     result["precession_rate_error"].attrs |= {
         "method": mean_rates.method,
         "evaluations": mean_rates.evaluations,
@@ -234,7 +234,7 @@ FIGURE_MODELS = without_error(
 
 
 @part(gives=FIGURE_MODELS, unless=no_figure)
-def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
+def figure_models(mean_torques: MeanTorques, body: Body) -> xr.Dataset:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
 
@@ -242,9 +242,8 @@ def figure_models(torque_samples: Samples, body: Body) -> xr.Dataset:
     from earthspin.rotor.axisymmetric import free_wobble_period
     from earthspin.torque import rates
 
-    samples = torque_samples
     j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
-    precessing = samples.window.mean(samples.times, samples.precessing.sum(axis=1))
+    precessing = mean_torques.precessing[-1]
     h = xr.concat(
         [
             xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
@@ -329,15 +328,15 @@ SEASONS = without_error(
 
 
 @part(gives=SEASONS, unless=not_sun_and_moon)
-def seasons(mean_rates: MeanRates, torque_samples: Samples, body: Body) -> xr.Dataset:
+def seasons(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> xr.Dataset:
     """General precession, years per degree, drift of the calendar."""
     from earthspin.nutation import seasons as s
     from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
 
     rate, error = mean_rates.total()
-    chi_rate = precession_rates(torque_samples.window.centre / DAY).chi_a
-    general = s.general_precession(rate, chi_rate, torque_samples.obliquity)
+    chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
+    general = s.general_precession(rate, chi_rate, mean_torques.obliquity)
     year = s.tropical_year(general, body.needed("orbital_period"))
     return build(
         SEASONS,
@@ -370,13 +369,13 @@ IAU_2006 = {
 
 
 @part(gives=IAU_2006, unless=not_the_iaus_earth)
-def iau_2006(mean_rates: MeanRates, torque_samples: Samples) -> xr.Dataset:
+def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dataset:
     """IAU 2006 precession compared with the computed one, published effects included."""
     from earthspin.nutation.budget import closure
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
-    iau_rate = precession_rates(torque_samples.window.centre / DAY).psi_a
+    iau_rate = precession_rates(mean_torques.epoch / DAY).psi_a
     return build(
         IAU_2006,
         {
@@ -458,7 +457,7 @@ made_of(
         "standstills": standstills,
         "neglected": neglected,
     },
-    parts=(places, sky, stretch, chosen_average, torque_samples, mean_rates),
+    parts=(places, sky, stretch, chosen_average, *MEANS),
 )
 
 precession = ask(Precession)

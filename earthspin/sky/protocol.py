@@ -52,6 +52,9 @@ class Trajectory(Protocol):
         """
 
 
+#: Name of the source that needs no kernel, as everything has elements.
+BY_ELEMENTS = "elements of orbits"
+
 #: Where a body is found: by a NAIF code in the source, or along a trajectory.
 Place: TypeAlias = "int | Trajectory"
 

@@ -41,6 +41,19 @@ def locked_ratio(
     mean_motion = (angle[-1] - angle[0]) / (times[-1] - times[0])
     if mean_motion <= 0:
         return None
+    return locked_turns(spin_rate, mean_motion)
+
+
+def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
+    """Turns of a body in an orbit if its spin is locked, None if it is not.
+
+    Parameters
+    ----------
+    spin_rate : float
+        rad/s.
+    mean_motion : float
+        Of the orbit about the axis of the spin, rad/s; negative if it goes the other way.
+    """
     ratio = spin_rate / mean_motion
     half_turns = round(2 * ratio)
     if not 1 <= half_turns <= MOST_HALF_TURNS:

@@ -16,20 +16,19 @@ import numpy as np
 
 from earthspin._version import __version__
 from earthspin.bodies import EARTH, MOON, SUN
-from earthspin.constants import ARCSEC, DAY, EPSILON_0, Constant
+from earthspin.bodies.mean_orbits import (
+    MOON_DISTANCE,
+    MOON_ECCENTRICITY,
+    MOON_INCLINATION,
+    SUN_DISTANCE,
+    SUN_ECCENTRICITY,
+)
+from earthspin.constants import ARCSEC, DAY, EPSILON_0
 from earthspin.engine import drafts
 from earthspin.errors import SceneError
 
-MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0), as recalled"
-LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342, as recalled"
-#: Mean orbits about the Earth: half the long axis, eccentricity, inclination to the ecliptic.
-SUN_DISTANCE = Constant(1.000001018 * 149597870700.0, "m", None, MEAN_ELEMENTS)
-SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS)
-MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS)
-MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS)
 #: One turn of the Earth, s.
 EARTH_TURNS = float(np.asarray(EARTH.spin_period))
-MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS)
 
 
 @dataclass(frozen=True)

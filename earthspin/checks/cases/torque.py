@@ -15,7 +15,7 @@ from earthspin.bodies import MOON, SUN, Body
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import DAY, JULIAN_YEAR, G
-from earthspin.parts.averages import mean_rates, torque_samples
+from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
 from earthspin.parts.sky import places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import precession, precession_rates
@@ -40,7 +40,8 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     both = body, (perturber,)
     above = sky("de421", places(*both), "jplephem")
     samples = torque_samples(above, stretch(above, None), *both)
-    return precession_rates(mean_rates(samples, *both), samples)
+    means = mean_torques(window_means(samples, both[1]))
+    return precession_rates(mean_rates(means, *both), means)
 
 
 @lru_cache

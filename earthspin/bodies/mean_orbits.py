@@ -1,0 +1,62 @@
+"""The mean orbits of Sun and Moon about the Earth: bodies that pull without a kernel."""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.bodies.moon import MOON
+from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.sun import SUN
+from earthspin.constants import AU, DAY, DAYS_PER_CENTURY, SIDEREAL_MONTH, SIDEREAL_YEAR, Constant
+
+MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0), as recalled"
+LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342, as recalled"
+
+#: Half the long axis, eccentricity, inclination to the ecliptic.
+SUN_DISTANCE = Constant(1.000001018 * AU, "m", None, MEAN_ELEMENTS)
+SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS)
+#: ELP's constant; that of an ellipse with the same month is 384748 km, the mean of 1/r is 1/384400.
+MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS)
+MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS)
+MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS)
+
+#: Longitudes at J2000.0 on the ecliptic and equinox of that date: mean, and of the pericentre.
+SUN_LONGITUDE = Constant(280.46645683, "deg", None, MEAN_ELEMENTS)
+SUN_PERIGEE = Constant(282.93734808, "deg", None, MEAN_ELEMENTS)
+MOON_LONGITUDE = Constant(218.31664563, "deg", None, MEAN_ELEMENTS)
+MOON_PERIGEE = Constant(83.35324312, "deg", None, MEAN_ELEMENTS)
+MOON_NODE = Constant(125.04455501, "deg", None, MEAN_ELEMENTS)
+#: Of the longitudes of the Moon's perigee and node, from the fixed equinox of J2000.0.
+PERIGEE_RATE = Constant(14643420.2632, "arcsec / (100 yr)", None, MEAN_ELEMENTS)
+NODE_RATE = Constant(-6967919.3631, "arcsec / (100 yr)", None, MEAN_ELEMENTS)
+
+_TURN = 1296000.0 * DAYS_PER_CENTURY * DAY  # arcsec s / (100 yr)
+
+#: The Sun on its apparent ellipse about the Earth.
+MEAN_SUN = SUN.replace(
+    orbit=Orbit(
+        a=SUN_DISTANCE.value,
+        period=SIDEREAL_YEAR.value,
+        e=SUN_ECCENTRICITY.value,
+        pericentre=math.radians(SUN_PERIGEE.value),
+        mean_anomaly=math.radians(SUN_LONGITUDE.value - SUN_PERIGEE.value),
+        about="earth",
+        reference=MEAN_ELEMENTS,
+    )
+)
+#: The Moon on an ellipse of its own month, with node and perigee that go round.
+MEAN_MOON = MOON.replace(
+    orbit=Orbit(
+        period=SIDEREAL_MONTH.value,
+        e=MOON_ECCENTRICITY.value,
+        i=math.radians(MOON_INCLINATION.value),
+        node=math.radians(MOON_NODE.value),
+        pericentre=math.radians(MOON_PERIGEE.value - MOON_NODE.value),
+        mean_anomaly=math.radians(MOON_LONGITUDE.value - MOON_PERIGEE.value),
+        node_period=_TURN / NODE_RATE.value,
+        # the argument counts from the node, which comes to meet the perigee
+        pericentre_period=_TURN / (PERIGEE_RATE.value - NODE_RATE.value),
+        about="earth",
+        reference=f"{LUNAR_ELEMENTS}; {MEAN_ELEMENTS}",
+    )
+)

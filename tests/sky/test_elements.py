@@ -1,0 +1,139 @@
+"""Ellipses by their elements: against the equations of motion, and what does not change."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from earthspin import EARTH, MARS
+from earthspin.constants import DAY
+from earthspin.errors import SceneError, UndefinedError
+from earthspin.sky.elements import CENTRE, ByElements, Elements, Ellipse, Plane
+from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.poles import Direction
+
+GM = 4e14
+ICRF = Plane.of("icrf", None, None)
+
+
+def ellipse(**elements: float | Plane) -> Ellipse:
+    given = {"a": 4e8, "e": 0.3, "i": 0.4, "node": 1.0, "pericentre": 2.0, "mean_anomaly": 0.5}
+    given |= {"epoch": 0.0, "node_rate": 0.0, "pericentre_rate": 0.0, "plane": ICRF} | elements
+    return Ellipse(motion=math.sqrt(GM / given["a"] ** 3), **given)
+
+
+def test_the_equations_of_motion() -> None:
+    """Integrated over three turns, with the velocity by differences at the start."""
+    one = ellipse()
+    h = 1e-4
+    near = one.positions(np.array([-2 * h, -h, 0.0, h, 2 * h]))
+    start = (8 * (near[3] - near[1]) - (near[4] - near[0])) / (12 * h * DAY)
+    days = np.linspace(0, 90, 40)
+    solved = solve_ivp(
+        lambda t, y: [*y[3:], *(-GM * y[:3] / np.linalg.norm(y[:3]) ** 3)],
+        (0, days[-1] * DAY),
+        [*near[2], *start],
+        t_eval=days * DAY,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-6,
+    )
+    # the velocity by differences is the least exact: its error grows over the turns
+    np.testing.assert_allclose(one.positions(days), solved.y[:3].T, rtol=0, atol=2e2)
+
+
+@given(st.floats(0, 0.95), st.floats(0, np.pi), st.floats(0, 6), st.floats(-3000, 3000))
+def test_what_an_ellipse_keeps(e: float, i: float, node: float, day: float) -> None:
+    one = ellipse(e=e, i=i, node=node)
+    ((x, y, z),) = one.positions(np.array([day]))
+    distance = math.hypot(x, y, z)
+    assert one.a * (1 - e) * (1 - 1e-12) <= distance <= one.a * (1 + e) * (1 + 1e-12)
+    normal = one.plane.normal(i, node)
+    assert abs(np.dot([x, y, z], normal)) <= 1e-12 * distance
+    turn = 2 * math.pi / one.motion / DAY
+    np.testing.assert_allclose(
+        one.positions(np.array([day + turn])), [[x, y, z]], rtol=0, atol=1e-6 * distance
+    )
+
+
+def test_a_node_that_goes_round() -> None:
+    """After half a turn of the node the orbit leans the other way."""
+    day = 1e5
+    one = ellipse(node_rate=math.pi / (day * DAY), node=0.0, e=0.0)
+    track = one.positions(day + np.linspace(0, 1e-3, 2))
+    normal = np.cross(track[0], track[1])
+    normal /= np.linalg.norm(normal)
+    np.testing.assert_allclose(normal, one.plane.normal(one.i, math.pi), rtol=0, atol=1e-3)
+
+
+def test_planes() -> None:
+    np.testing.assert_allclose(
+        Plane.of("ecliptic", None, None).matrix[2], ecliptic_pole(), rtol=0, atol=1e-15
+    )
+    mars, orbit = MARS.pole, MARS.orbit_pole
+    np.testing.assert_allclose(
+        Plane.of("equator", mars, orbit).matrix[2], mars.vector(), rtol=0, atol=1e-15
+    )
+    np.testing.assert_allclose(
+        Plane.of("orbit", mars, orbit).matrix[2], orbit.vector(), rtol=0, atol=1e-15
+    )
+    # without an orbit longitudes count from where the equator rises above that of the ICRF
+    x = Plane.of("equator", mars, None).matrix[0]
+    ra = mars.right_ascension + math.pi / 2
+    np.testing.assert_allclose(x, [math.cos(ra), math.sin(ra), 0.0], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        Plane.of("equator", EARTH.pole, None).matrix[2], EARTH.pole.mean(np.zeros(1))[0],
+        rtol=0, atol=1e-15,
+    )  # fmt: skip
+    with pytest.raises(UndefinedError, match="needs the body's pole"):
+        Plane.of("equator", None, None)
+    assert ICRF.mean_normal(0.3, 1.0, 5.0) == Direction(0.0, math.pi / 2)
+    ra, dec = ICRF.mean_normal(0.3, 1.0, None)
+    assert (ra, dec) == pytest.approx((1.0 - math.pi / 2, math.pi / 2 - 0.3), rel=0, abs=1e-15)
+
+
+def test_the_source() -> None:
+    source, one = Elements(), ellipse()
+    back = ByElements(((one, -1),), CENTRE)
+    days = np.array([0.0, 10.0])
+    found = source.positions({"back": back}, CENTRE, days)["back"]
+    np.testing.assert_array_equal(found, -one.positions(days))
+    assert source.coverage([back]) == (-math.inf, math.inf)
+    with pytest.raises(SceneError, match=r"'mars'.*no orbit by elements"):
+        source.code((499,), "mars")
+    with pytest.raises(UndefinedError, match="not finite"):
+        source.check_times(np.array([math.nan]), [back])
+
+
+@pytest.mark.parametrize("e", [0.0, 0.3, 0.9])
+def test_rounding_is_within_its_bound(e: float) -> None:
+    """Against 40 digits; measured over two centuries: 0.46 of the 2 that are claimed."""
+    one = ellipse(e=e)
+    days = np.linspace(-36525, 36525, 11)
+    with mpmath.workdps(40):
+        for day, found in zip(days.tolist(), one.positions(days), strict=True):
+            assert float(apart(one, day, found)) <= one.error(day)[1]
+
+
+def apart(one: Ellipse, day: float, found: np.ndarray) -> mpmath.mpf:
+    """Distance of a place from where the textbook's formulas put it, m."""
+    mean = mpmath.mpf(one.mean_anomaly) + mpmath.mpf(one.motion) * mpmath.mpf(day) * 86400
+    mean -= 2 * mpmath.pi * mpmath.nint(mean / (2 * mpmath.pi))
+    e = mpmath.mpf(one.e)
+    start = mean + (math.copysign(min(math.pi - abs(mean), one.e), mean) if one.e > 0.5 else 0)
+    angle = mpmath.findroot(lambda x: x - e * mpmath.sin(x) - mean, start)
+    x, y = mpmath.cos(angle) - e, mpmath.sqrt(1 - e * e) * mpmath.sin(angle)
+    w, node, i = (mpmath.mpf(angle) for angle in (one.pericentre, one.node, one.i))
+    u, v = x * mpmath.cos(w) - y * mpmath.sin(w), x * mpmath.sin(w) + y * mpmath.cos(w)
+    true = (
+        u * mpmath.cos(node) - v * mpmath.cos(i) * mpmath.sin(node),
+        u * mpmath.sin(node) + v * mpmath.cos(i) * mpmath.cos(node),
+        v * mpmath.sin(i),
+    )
+    return mpmath.sqrt(
+        sum((one.a * c - mpmath.mpf(float(f))) ** 2 for c, f in zip(true, found, strict=True))
+    )
