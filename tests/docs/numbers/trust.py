@@ -162,7 +162,6 @@ TOLD: list[Told | Part] = [
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
     Told("README.md", "# {} % half-widths", ERROR),
     Told(QUICK, "are half-widths of {} % intervals", ERROR),
-    Told("docs/architecture.md", "itself uses: {} µs a position", "run time of jplephem"),
     Told(
         FILES,
         "({} MB) are written in {} s and verified in {} s, of which the last line takes {} s",
