@@ -17,6 +17,7 @@ _HOME = {
     "earthspin.questions.pole": ("pole",),
     "earthspin.questions.iau": ("compare_iau",),
     "earthspin.questions.long_term": ("long_term",),
+    "earthspin.questions.cassini": ("cassini_states",),
     "earthspin.sky.orbit_files": ("read_orbit",),
     "earthspin.parts.insolation": ("daily_insolation",),
     "earthspin.questions.wobble": ("wobble_ladder",),

@@ -214,6 +214,10 @@ def spheroid_field(
     point_mass: Value | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
+def cassini_states(
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    orbit: Orbit | Mapping[str, Any] | None = ...,
+) -> xr.Dataset: ...
 
 __all__ = [
     "__version__",
@@ -238,6 +242,7 @@ __all__ = [
     "UnitsError",
     "VersionWarning",
     "accuracy",
+    "cassini_states",
     "compare_iau",
     "daily_insolation",
     "excitation",

@@ -16,6 +16,7 @@ from earthspin.engine import plan as planning
 from earthspin.engine import run as running
 from earthspin.engine.question import Question
 from earthspin.errors import SceneError, nearest, no_plain_file
+from earthspin.questions.cassini import CassiniStates
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.iau import IAU
 from earthspin.questions.long_term import LongTerm
@@ -37,6 +38,7 @@ QUESTIONS: dict[str, type[Question]] = {
     question.word: question
     for question in (
         Precession, Torque, Pole, IAU, LongTerm, Wobble, PolarMotion, FreeRotor, Top, Spheroid,
+        CassiniStates,
     )
 }  # fmt: skip
 

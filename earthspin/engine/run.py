@@ -266,6 +266,7 @@ def _attributes(ran: Ran) -> dict[str, str]:
         several = value if isinstance(value, tuple) else (value,)
         if several and all(hasattr(one, "reference") for one in several):
             references += [one.reference for one in several if one.reference]
+        if several and all(hasattr(one, "changes") for one in several):
             attributes[name] = " ".join(one.name for one in several)
             changed = [one for one in several if one.changes]
             if changed:

@@ -127,7 +127,8 @@ def _locked(body: Body, perturber: str, turns: float) -> UndefinedError:
     """What is said of a spin that is locked."""
     return UndefinedError(
         f"{in_a_sentence(body.name)} turns {turns:g} times in each orbit with "
-        f"'{perturber}': an average over orbits does not hold for a spin that is locked"
+        f"'{perturber}': an average over orbits does not hold for a spin that is locked; ask "
+        "cassini_states where its axis stands"
     )
 
 

@@ -116,7 +116,7 @@ def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
 
     given = one.orbit
     assert given is not None
-    a, motion = _size_and_motion(one, centre)
+    a, motion = size_and_motion(one, centre)
     if body in (one, centre) and body.radius is not None:
         reached = largest(body.radius)
         if a * (1 - given.e) <= reached:
@@ -148,7 +148,7 @@ def largest(radius: Numeric) -> float:
     return float(radius.max() if hasattr(radius, "max") else radius)
 
 
-def _size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
+def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
     """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law."""
     given = one.orbit
     assert given is not None

@@ -33,6 +33,8 @@ FloatArray = NDArray[np.float64]
 
 #: Nodes over a revolution for Hansen's coefficients; they converge as a power of e.
 NODES = 4096
+#: Share by which a spin may be off a multiple of half a turn in an orbit and still be locked to it.
+LOCKED = 1e-4
 #: How close to the unit circle a root of the quartic lies that stands for an angle.
 ON_CIRCLE = 1e-6
 
@@ -87,6 +89,12 @@ class States(NamedTuple):
     number: NDArray[np.int64]
     obliquity: FloatArray
     stable: NDArray[np.bool_]
+
+
+def is_locked(spin_rate: float, motion: float) -> bool:
+    """Whether a body turns a multiple of half a turn in each orbit, forwards."""
+    halves = round(2 * spin_rate / motion)
+    return halves > 0 and abs(2 * spin_rate / motion / halves - 1) < LOCKED
 
 
 def strengths(

@@ -24,6 +24,7 @@ DIMENSIONS = {
     "free-rotor": {"time", "component", "quaternion"},
     "top": {"time", "component", "quaternion"},
     "spheroid": {"point", "component"},
+    "cassini-states": {"state"},
 }
 
 

@@ -42,6 +42,10 @@ FULL: dict[str, dict[str, Any]] = {
         }
     },
     "spheroid": {"spheroid": {"position": [[7e6, 0.0, 0.0]]}},
+    "cassini-states": {
+        "body": {"from": "mars"},
+        "orbit": {"period": "687 d", "i": "3 deg", "node_period": "-70 kyr"},
+    },
 }
 FOREIGN = [
     (word, name) for word, q in QUESTIONS.items() for name in sorted(HEADS - set(keys_of(q)))

@@ -25,6 +25,7 @@ SCENES = {
     "free-rotor": "poinsot",
     "top": "top-loop",
     "spheroid": "spheroid",
+    "cassini-states": "cassini-states",
 }
 NAMES = {
     "precession": {
@@ -43,6 +44,7 @@ NAMES = {
     "free-rotor": {"poinsot", "neglected"},
     "top": {"turning", "potential", "neglected"},
     "spheroid": {"neglected"},
+    "cassini-states": {"neglected"},
 }
 
 
