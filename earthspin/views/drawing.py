@@ -41,8 +41,8 @@ STYLE: Any = {
 }
 
 
-#: Width of figures on a phone, inches.
-NARROW = 5.2
+#: Width of figures on a phone, inches: 9 points are then 10 pixels of 390.
+NARROW = 4.4
 
 #: Settings of windows and of where things lie, which are none of a picture's.
 _NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "savefig.directory")
@@ -88,42 +88,55 @@ class Drawing:
     figure : Figure
     square : bool
         Whether it is as high as wide, and is then drawn narrower.
+    phone : Figure or None
+        The same drawn anew for a phone, where it does not do to make the figure narrower.
     """
 
     title: str
     caption: str
     figure: Figure
     square: bool = False
+    phone: Figure | None = None
 
     @property
     def svg(self) -> str:
         """Text of the picture, without an XML head."""
-        return self._saved()
+        return _saved(self.figure)
 
     @property
     def narrow(self) -> str:
         """The same for a phone, where words would be too small to read; empty if it is narrow."""
+        if self.phone is not None:
+            return _saved(self.phone)
         width, height = self.figure.get_size_inches()
         if width <= 1.2 * NARROW:
             return ""
         try:
             self.figure.set_size_inches(NARROW, height)
-            return self._saved()
+            return _saved(self.figure)
         finally:
             self.figure.set_size_inches(width, height)
 
-    def _saved(self) -> str:
-        text = io.StringIO()
-        with style():
-            self.figure.savefig(text, format="svg", metadata={"Date": None})
-        svg = text.getvalue()
-        # The metadata name the drawing library, and addresses that no page needs.
-        return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
+
+def _saved(figure: Figure) -> str:
+    text = io.StringIO()
+    with style():
+        figure.savefig(text, format="svg", metadata={"Date": None})
+    svg = text.getvalue()
+    # The metadata name the drawing library, and addresses that no page needs.
+    return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
 
 
-def drawn(title: str, caption: str, ax: Axes, *, square: bool = False) -> Drawing:
-    """Figure of some axes, ready for the page."""
-    return Drawing(title, caption, figure_of(ax), square)
+def for_phone(height: float) -> Axes:
+    """Axes on a figure of their own, as wide as a phone; height in inches."""
+    return axes(None, NARROW, height)
+
+
+def drawn(
+    title: str, caption: str, ax: Axes, *, square: bool = False, phone: Axes | None = None
+) -> Drawing:
+    """Figure of some axes, ready for the page, and the same drawn for a phone if need be."""
+    return Drawing(title, caption, figure_of(ax), square, phone and figure_of(phone))
 
 
 def figure_of(ax: Axes) -> Figure:

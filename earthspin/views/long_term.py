@@ -14,11 +14,13 @@ from earthspin.views.drawing import (
     CYCLE,
     GREEN,
     GREY,
+    NARROW,
     RED,
     Drawing,
     axes,
     drawn,
     empty,
+    for_phone,
     legend_above,
     style,
 )  # fmt: skip
@@ -76,7 +78,10 @@ def drawings(tree: Result) -> list[Drawing]:
             "the present. It does not close: the plane of the orbit moves, too. The cross is the "
             "pole of the ecliptic of J2000.0; stars stand where they stood then."
         )
-        found.append(drawn("The pole among the stars", caption, plot_pole(tree), square=True))
+        phone = plot_pole(tree, ax=for_phone(NARROW))
+        found.append(
+            drawn("The pole among the stars", caption, plot_pole(tree), square=True, phone=phone)
+        )
     found += [
         drawn(
             "Obliquity, eccentricity and climatic precession",

@@ -10,7 +10,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
-from earthspin.views.drawing import CYCLE, RED, Drawing, axes, drawn, note, style
+from earthspin.views.drawing import (
+    CYCLE,
+    NARROW,
+    RED,
+    Drawing,
+    axes,
+    drawn,
+    for_phone,
+    note,
+    style,
+)
 from earthspin.views.reading import (
     Result,
     answer_of,
@@ -285,8 +295,9 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 @style()
 def circle_of_pole(tree: Result) -> Drawing:
     """The circle of the pole among the stars."""
-    ax = plot_pole_circle(tree)
-    ax.set_title("the pole's path at the rate of this model")
+    ax, phone = plot_pole_circle(tree), plot_pole_circle(tree, ax=for_phone(NARROW))
+    for one in (ax, phone):
+        one.set_title("the pole's path at the rate of this model")
     return drawn(
         "The circle of the pole among the stars",
         "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
@@ -294,6 +305,7 @@ def circle_of_pole(tree: Result) -> Drawing:
         f"{_passes(tree)}",
         ax,
         square=True,
+        phone=phone,
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.views.drawing import GREY, RED, axes, note
+from earthspin.views.drawing import GREY, RED, axes, figure_of, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -121,6 +121,7 @@ def plot_path(
         names.append(Label(name, (x, y), GREY))
     for _, (x, y), colour in dates:
         ax.plot(x, y, "o", color=colour, ms=4)
+    figure_of(ax).draw_without_rendering()  # only now do the axes lie where they will
     _put(ax, [*dates, *names], path)
     return ax
 
@@ -135,13 +136,16 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
     for label, dot in zip(labels, dots, strict=True):
         half = np.array([LETTER * len(label.text), LINE]) * TEXT / 2
         shifts = [np.array(side) * (half + GAP / np.hypot(*side)) for side in SIDES]
-        covered = [_covered(dot + shift, half, boxes, line) for shift in shifts]
+        covered = [
+            _covered(dot + shift, half, boxes, line) + _beyond(dot + shift, half, points * REACH)
+            for shift in shifts
+        ]
         shift = shifts[int(np.argmin(covered))]
         boxes.append((*(dot + shift - half), *(dot + shift + half)))
         place = float(shift[0]), float(shift[1])
         note(
             ax, label.text, label.at, place, ha="center", va="center", color=label.colour,
-            fontsize=TEXT,
+            fontsize=TEXT, in_layout=False,
         )  # fmt: skip
 
 
@@ -150,6 +154,12 @@ def _even(path: FloatArray) -> FloatArray:
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
     wanted = np.arange(0.0, along[-1], 2.0)
     return np.stack([np.interp(wanted, along, of) for of in path.T], axis=-1)
+
+
+def _beyond(middle: FloatArray, half: FloatArray, edge: float) -> float:
+    """How much a label would lie beyond the chart, points squared, counted ten times."""
+    out = np.clip(np.abs(middle) + half - edge, 0.0, None)
+    return float(10 * (out[0] * 2 * half[1] + out[1] * 2 * half[0]))
 
 
 def _covered(
