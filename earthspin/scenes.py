@@ -296,12 +296,12 @@ def _say_what_differs(scene: Any, answer: Any) -> None:
 
 
 def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path:
-    """Write a torque series of any length to chunked Zarr, in bounded memory.
+    """Write a series of torques or of the pole of any length to Zarr, in bounded memory.
 
     Parameters
     ----------
     scene : str, Path, Question or answer
-        One that computes ``torque``.
+        One that computes ``torque`` or ``pole``.
     path : str or Path
         The Zarr folder; what is there is replaced when all is written. If the run is ended before,
         the same call goes on from what it had written.
@@ -338,13 +338,15 @@ def _series(question: Question) -> Series:
 
     size = series_length(question)
     if size == 0:
-        raise SceneError("compute", question.word, "only a torque series is written by region")
+        raise SceneError(
+            "compute", question.word, "only a series of torques or of the pole is written by region"
+        )
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not isinstance(question, Torque):
+    if not isinstance(question, (Torque, Pole)):
         return 0
     from earthspin.parts.times import epochs
 
@@ -358,12 +360,12 @@ def members_of(question: Question) -> int:
 
 
 def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
-    """Run a torque series block by block, for times that do not fit into memory.
+    """Run a series of torques or of the pole block by block, for times that do not fit into memory.
 
     Parameters
     ----------
     scene : str, Path or Question
-        One that computes ``torque``.
+        One that computes ``torque`` or ``pole``.
 
     Yields
     ------

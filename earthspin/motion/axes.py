@@ -101,6 +101,11 @@ class AxisPath:
         """First and last time, s."""
         return float(self.windows.edges[0]), float(self.windows.edges[-1])
 
+    def at_starts(self) -> FloatArray:
+        """Unit vectors of the angular momentum where each window begins, shape (w, 3)."""
+        found = (self.momentum @ _signs(self.momentum.shape[-1])).T
+        return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+
     def at(self, times: FloatArray, *, semidiurnal: bool = True) -> dict[str, FloatArray]:
         """Unit vectors of the three axes.
 

@@ -34,6 +34,11 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
     return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z)], axis=-1)
 
 
+def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
+    """Longitudes with the whole turns that bring them nearest to a guide, rad, one shape."""
+    return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
+
+
 def pole_from(psi: FloatArray, omega: FloatArray) -> FloatArray:
     """Unit vector of the pole in the axes of the fixed ecliptic, shape (n, 3)."""
     return np.stack(

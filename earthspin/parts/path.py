@@ -15,8 +15,7 @@ from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.motion.effects import NONRIGID
 from earthspin.parts.pulls import Pulls, forces_of, start_of
-from earthspin.parts.reasons import no_iau_model
-from earthspin.parts.times import refuse_what_does_not_fit
+from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.progress import progress
 from earthspin.units import FloatArray
 
@@ -34,6 +33,9 @@ if TYPE_CHECKING:
 HALF_SPAN = 27200.0  # d
 SAMPLING = 4.0  # d
 
+#: Times at which errors are looked at at once.
+_AT_ONCE = 1 << 16
+
 
 @part
 def axis_path(
@@ -48,7 +50,6 @@ def axis_path(
 
     The windows that were chosen are taken if they will do, the finest otherwise.
     """
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
     tried: list[AxisPath] = []
     for choice in (*(chosen_windows or ()), None):
         try:
@@ -58,28 +59,142 @@ def axis_path(
                 raise
             continue  # windows that are too wide for the slow manifold of this spin
         tried.append(path)
-        if choice is None or _worst_error(body, pulls, path, epochs) <= (accuracy or 0.0):
+        if choice is None or _largest(path, epochs, body, pulls) <= (accuracy or 0.0):
             break
     if not tried[1:]:
         return tried[0]
-    return min(tried, key=lambda path: _worst_error(body, pulls, path, epochs))
+    return min(tried, key=lambda path: _largest(path, epochs, body, pulls))
 
 
-def _worst_error(body: Body, pulls: Pulls, path: AxisPath, epochs: TimeGrid | TimeList) -> float:
-    """Largest error of a direction at the times wanted, H and the sky included, rad."""
+@dataclass(frozen=True)
+class Errors:
+    """95 % half-widths of directions by what they come from, rad.
+
+    Attributes
+    ----------
+    method, given, kernel : ndarray, shape (t,)
+        From the integration, from the uncertainty of H, from the positions of the bodies.
+    """
+
+    method: FloatArray
+    given: FloatArray
+    kernel: FloatArray
+
+    @property
+    def total(self) -> FloatArray:
+        """All three together."""
+        return np.asarray(np.sqrt(self.method**2 + self.given**2 + self.kernel**2))
+
+
+def errors_of(
+    path: AxisPath, figure: FloatArray, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
+) -> Errors:
+    """Errors of some directions of a series.
+
+    Parameters
+    ----------
+    path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axis at some of the times.
+    epochs : TimeGrid or TimeList
+        All times of the series: how well the sky is known depends on the farthest.
+    body : Body
+    pulls : Pulls
+    """
     from earthspin.motion.axes import error_of_input
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    now = epochs.days(0, epochs.size)
-    figure = path.at(now * DAY)["figure"]
-    given = np.hypot(
-        error_of_input(path, figure, u_h), error_of_sky(path, figure, now, body, pulls)
+    return Errors(
+        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
+        given=error_of_input(path, figure, u_h),
+        kernel=_error_of_sky(path, figure, epochs, body, pulls),
     )
-    return float(np.hypot(path.error, given.max()))
 
 
-def error_of_sky(
-    path: AxisPath, figure: FloatArray, days: FloatArray, body: Body, pulls: Pulls
+@dataclass(frozen=True)
+class Largest:
+    """Largest error of a series.
+
+    Attributes
+    ----------
+    error : float
+        rad.
+    remedy : str
+        What would make its largest share smaller.
+    """
+
+    error: float
+    remedy: str
+
+
+@part(unless=no_accuracy)
+def largest_error(
+    axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
+) -> Largest:
+    """The largest error of the whole series, before the first of its stretches is written."""
+    method, given, kernel = _largest_shares(axis_path, epochs, body, pulls)[1:]
+    shares = {
+        "the sky is no better known that far from J2000.0": kernel,
+        "stay nearer to J2000.0 or give the body a better known H": given,
+        "the integration takes the finest windows": method,
+    }
+    return Largest(
+        _largest(axis_path, epochs, body, pulls), max(shares, key=lambda why: shares[why])
+    )
+
+
+def _largest(path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls) -> float:
+    return _largest_shares(path, epochs, body, pulls)[0]
+
+
+def _largest_shares(
+    path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
+) -> tuple[float, float, float, float]:
+    """Largest error of a direction at the times wanted, and of each share, rad."""
+    largest = np.zeros(4)
+    for first in range(0, epochs.size, _AT_ONCE):
+        now = epochs.days(first, min(first + _AT_ONCE, epochs.size))
+        of = errors_of(path, path.at(now * DAY)["figure"], epochs, body, pulls)
+        largest = np.maximum(largest, [one.max() for one in (of.total, *vars(of).values())])
+    total, method, given, kernel = map(float, largest)
+    return total, method, given, kernel
+
+
+@dataclass(frozen=True)
+class Turns:
+    """How often a path has gone round the orbit's normal, so that longitudes do not jump.
+
+    Attributes
+    ----------
+    times : ndarray, shape (w,)
+        Where windows begin, s.
+    psi : ndarray, shape (w,)
+        Longitude there, without jumps, rad.
+    """
+
+    times: FloatArray
+    psi: FloatArray
+
+    def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
+        """Longitudes at given times, shapes (t, k) and (t,), with their whole turns."""
+        from earthspin.nutation.angles import followed
+
+        return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
+
+
+def turns_of(path: AxisPath, first: float, ecliptic: FloatArray) -> Turns:
+    """Follow the longitude through all windows; it is a principal value at the first time, s."""
+    from earthspin.nutation.angles import on_fixed_ecliptic
+
+    psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
+    times = path.windows.edges[:-1]
+    there = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
+    off = np.interp(first, times, psi) - there
+    return Turns(times, psi - 2 * np.pi * np.rint(off / (2 * np.pi)))
+
+
+def _error_of_sky(
+    path: AxisPath, figure: FloatArray, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
 ) -> FloatArray:
     """95 % half-width of a direction from where the bodies may be off, rad, shape (t,)."""
     from earthspin.motion import axes
@@ -95,7 +210,7 @@ def error_of_sky(
         float(body.spin_rate),
         [(pulls.gm[name], far) for name, far in distance.items()],
     )
-    grown = max(growth(float(days.min())), growth(float(days.max())))
+    grown = max(map(growth, epochs.span()))
     return grown * axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
 
 

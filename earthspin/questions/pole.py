@@ -11,25 +11,29 @@ from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by, si
+from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.part import part
+from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
+    Largest,
     Shift,
+    Turns,
     axis_path,
     core_response,
-    error_of_sky,
+    errors_of,
+    largest_error,
     nonrigid_shift,
     pole_analysis,
+    turns_of,
 )
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
-from earthspin.parts.times import DATES, epochs
-from earthspin.units import AngleError
+from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.units import AngleError, FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -126,24 +130,18 @@ def axes(
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
+    largest_error: Largest | None = None,
     response: Shift | None = None,
+    block: Block | None = None,
 ) -> xr.Dataset:
     """Directions of angular-momentum, rotation and figure axis at every time."""
-    from earthspin.motion.axes import AXES, error_of_input
+    from earthspin.motion.axes import AXES
 
-    now = epochs.days(0, epochs.size)
+    if largest_error is not None:
+        refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
+    now = _days(epochs, block)
     found = axis_path.at(now * DAY)
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    method = np.full(now.size, np.nan if pulls.sky.unmeasured else axis_path.error)
-    from_input = error_of_input(axis_path, found["figure"], u_h)
-    from_kernel = error_of_sky(axis_path, found["figure"], now, body, pulls)
-    error = np.sqrt(method**2 + from_input**2 + from_kernel**2)
-    shares = {
-        "the sky is no better known that far from J2000.0": from_kernel.max(),
-        "stay nearer to J2000.0 or give the body a better known H": from_input.max(),
-        "the integration takes the finest windows": method.max(),
-    }
-    refuse_unkept(accuracy, float(error.max()), "mas", max(shares, key=lambda why: shares[why]))
+    errors = errors_of(axis_path, found["figure"], epochs, body, pulls)
     if response is not None:
         response.apply(found, now)
     vectors = np.stack([found[axis] for axis in AXES], axis=1)
@@ -153,10 +151,10 @@ def axes(
             "X": vectors[..., 0],
             "Y": vectors[..., 1],
             "Z": vectors[..., 2],
-            "direction_error": error,
-            "direction_error_method": method,
-            "direction_error_input": from_input,
-            "direction_error_kernel": from_kernel,
+            "direction_error": errors.total,
+            "direction_error_method": errors.method,
+            "direction_error_input": errors.given,
+            "direction_error_kernel": errors.kernel,
         },
         coords={"time": ("time", datetime64(now), dict(DATES)), "axis": list(AXES)},
         no_error=pulls.sky.no_error,
@@ -169,6 +167,16 @@ def axes(
         "evaluations": axis_path.evaluations,
     }
     return result
+
+
+def _days(epochs: TimeGrid | TimeList, block: Block | None) -> FloatArray:
+    """Days of a stretch, or of all times if they fit into memory."""
+    if block is None:
+        refuse_what_does_not_fit(
+            epochs, "write them by region with write_series(scene, 'pole.zarr') or run --out"
+        )
+        block = Block(0, epochs.size)
+    return epochs.days(block.first, block.last)
 
 
 def no_longitude(body: Body) -> str | None:
@@ -192,17 +200,31 @@ ANGLES = covered_by(
 )
 
 
+@part(unless=no_longitude)
+def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns:
+    """Whole turns of the longitude psi, counted from the first time of the series."""
+    ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
+    return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+
+
 @part(gives=ANGLES, unless=no_longitude)
-def pole_angles(axes: xr.Dataset, body: Body) -> xr.Dataset:
+def pole_angles(
+    axes: xr.Dataset,
+    turns: Turns,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    block: Block | None = None,
+) -> xr.Dataset:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
     from earthspin.nutation.angles import on_fixed_ecliptic
 
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
+    psi = turns.unwrapped(angles[..., 0], _days(epochs, block) * DAY)
     return build(
         ANGLES,
-        {"psi": np.unwrap(angles[..., 0], axis=0), "eps": angles[..., 1]},
+        {"psi": psi, "eps": angles[..., 1]},
         coords={"time": axes.time, "axis": axes.axis},
     )
 
@@ -211,12 +233,10 @@ PROMISE = promise("uas", "in direction")
 
 
 @part(gives=PROMISE, unless=no_accuracy)
-def pole_accuracy(axes: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+def pole_accuracy(axes: xr.Dataset, largest_error: Largest, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the pole: asked, estimated, and the method chosen."""
-    error = axes.direction_error
-    return report(
-        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
-    )
+    by = axes.direction_error.attrs
+    return report(PROMISE, accuracy, largest_error.error, by["method"], by["evaluations"])
 
 
 @part
@@ -238,7 +258,7 @@ made_of(
     answer=(axes, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
     parts=(
-        places, sky, epochs, pulls, chosen_windows, axis_path,
+        places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
         pole_analysis, core_response, nonrigid_shift, response,
     ),
 )  # fmt: skip

@@ -143,7 +143,7 @@ def test_an_accuracy_that_cannot_be_met() -> None:
 
 
 def test_a_scene_that_cannot_be_written_by_region(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="only a torque series"):
+    with pytest.raises(SceneError, match="only a series of torques"):
         earthspin.write_series("wobble", tmp_path / "x.zarr")
 
 
