@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
+from earthspin.bodies.mean_orbits import MEAN_SUN
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
 from earthspin.checks.sky import BODY, J2, H
-from earthspin.constants import DAY, JULIAN_YEAR, G
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
 from earthspin.parts.sky import places, sky, stretch
 from earthspin.questions.pole import pole
@@ -336,3 +337,51 @@ def _ten_thousand() -> Distances:
 def _sky_poles() -> Distances:
     yield direction(1.0, math.pi / 2) - NORTH
     yield -direction(1.0, -math.pi / 2) - NORTH
+
+
+@CASES.case("a Sun on an ellipse next to a parabola")
+@hard_because("e is 1 - 1e-9: almost all of the pull comes in a moment at the pericentre")
+@held_against("the closed form of the mean over the orbit, relative", bound=1e-12)
+def _next_to_a_parabola() -> Distances:
+    e, a = 1 - 1e-9, 1e20
+    body, normal = _leaning(0.4), ecliptic_pole()
+    found = precession(body=body, perturbers=[SUN.replace(orbit={"a": a, "e": e})])
+    obliquity = math.acos(float(np.dot(body.needed("pole").vector(), normal)))
+    torque = circular_orbit_torque(float(SUN.gm), a, obliquity) * ((1 - e) * (1 + e)) ** -1.5
+    spin = float(body.needed("dynamical_flattening") / body.spin_rate)
+    yield float(found.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1
+
+
+@CASES.case("a Moon whose orbit stands upright, its node going round")
+@hard_because("the factor 1 - (3/2) sin2(i) is -1/2: the pull turns the axis the other way")
+@held_against("minus half of that of the flat orbit, relative", bound=1e-13)
+def _upright_orbit() -> Distances:
+    flat, upright = (
+        precession(
+            body=BODY,
+            perturbers=[MOON.replace(orbit={"a": 4e8, "i": i, "node_period": "-18 yr"})],
+        ).precession_rate[0]
+        for i in (0.0, math.pi / 2)
+    )
+    yield float(upright / flat) + 0.5
+
+
+@CASES.case("an orbit that leaves its star")
+@hard_because("the elements of a hyperbola would go into the formulas of an ellipse")
+@refused("elements are those of an ellipse")
+def _hyperbola() -> None:
+    SUN.replace(orbit={"a": "1 au", "e": 1.2})
+
+
+@CASES.case("an orbit through the body")
+@hard_because("its mean has a closed form, though no such orbit is")
+@refused("lies inside")
+def _through_the_body() -> None:
+    precession(perturbers=[MEAN_SUN, MOON.replace(orbit={"a": "20000 km", "e": 0.7})])
+
+
+@CASES.case("elements that contradict Kepler's third law")
+@hard_because("each of the two gives a rate, a factor of two apart")
+@refused("contradict each other")
+def _contradiction() -> None:
+    precession(perturbers=[MEAN_SUN, MOON.replace(orbit={"a": "384399 km", "period": "40 d"})])
