@@ -25,7 +25,8 @@ from earthspin.bodies.kinds import (
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
-from earthspin.sky.poles import NAMED_POLES, Angles, Direction, Pole, pole_of
+from earthspin.sky.pole_tables import Angles
+from earthspin.sky.poles import NAMED_POLES, Direction, Pole, pole_of
 from earthspin.text import Text
 
 #: A float, or an array with named dimensions (anything numpy can read element by element).

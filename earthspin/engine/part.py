@@ -1,7 +1,8 @@
 """A part: a typed function that computes one thing.
 
 What it needs follows from its signature: each parameter is a key of the question or the result of
-another part, by name; one whose default is None is used if it is there.
+another part, by name; one whose default is None is used if it is there. A part all of whose
+parameters may be None stands on one part or more of those.
 """
 
 from __future__ import annotations

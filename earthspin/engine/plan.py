@@ -127,7 +127,12 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         if why is not None:
             reasons[name] = why
             return False
-        used = (other for other in one.uses if other in graph.parts and choose(other))
+        offered = [other for other in one.uses if other in graph.parts]
+        used = [other for other in offered if choose(other)]
+        if offered and not used and not one.needs:
+            # it stands on one of several, and none of them is there
+            reasons[name] = "; ".join(f"no {graph.parts[of].title}: {reasons[of]}" for of in offered)
+            return False
         chosen[name] = (*(other for other in one.needs if other in graph.parts), *used)
         return True
 

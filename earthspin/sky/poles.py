@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
-from earthspin.errors import UndefinedError, Where
+from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -227,26 +227,3 @@ def pole_of(given: object) -> Pole:
             raise ValueError(given)
         return NAMED_POLES[given]
     return given if hasattr(given, "of_the_iau") else FixedPole.of(given)  # type: ignore[return-value]
-
-
-class Angles:
-    """Kind of a direction in a scene: right ascension and declination."""
-
-    words, hint = "right ascension and declination", "tuple[float | str, float | str]"
-    example = '["317.7 deg", "52.9 deg"]'
-
-    def read(self, given: object, where: Where) -> object:
-        """Read two angles, in radians if they have no unit; a name is left to the body."""
-        from earthspin.units import quantity
-
-        if isinstance(given, str) or hasattr(given, "of_the_iau"):
-            return given
-        if not isinstance(given, (list, tuple)) or len(given) != 2:
-            raise where.error(given, f"give {self.words}")
-        return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in given)
-
-    def write(self, value: Direction | Pole) -> str | list[str]:
-        """Give the name, or two angles."""
-        if isinstance(value, Direction):
-            return [f"{float(angle)!r} rad" for angle in value]
-        return str(value)

@@ -1,0 +1,225 @@
+"""A spin axis that moves by published rates and periodic terms, as the IAU gives them.
+
+The working group on cartographic coordinates writes right ascension and declination of a pole as
+
+    alpha = alpha_0 + alpha_1 T + sum a_k sin(phi_k + phi'_k T),
+    delta = delta_0 + delta_1 T + sum d_k cos(psi_k + psi'_k T)
+
+with T in Julian centuries of TDB from J2000.0, in the axes of the ICRF (Archinal et al. 2018,
+Celest. Mech. Dyn. Astron. 130, 22).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+from earthspin.constants import DAY, DAYS_PER_CENTURY
+from earthspin.errors import Where, nearest
+from earthspin.sky.poles import Direction, FixedPole
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from earthspin.sky.iau import Nutation
+
+    FloatArray = NDArray[np.float64]
+
+_CENTURY = DAYS_PER_CENTURY * DAY
+
+
+class Swing(NamedTuple):
+    """A periodic term of an angle of a pole.
+
+    Attributes
+    ----------
+    size : float
+        Of the sine (right ascension) or cosine (declination), rad.
+    phase : float
+        At J2000.0, rad.
+    rate : float
+        rad/s.
+    """
+
+    size: float
+    phase: float
+    rate: float
+
+
+_NAMES = ("right_ascension", "declination")
+_RATES = ("right_ascension_rate", "declination_rate")
+_SWINGS = ("right_ascension_swings", "declination_swings")
+
+
+@dataclass(frozen=True)
+class MovingPole:
+    """A pole that moves.
+
+    Attributes
+    ----------
+    right_ascension, declination : float
+        At J2000.0 without periodic terms, ICRF, rad.
+    right_ascension_rate, declination_rate : float
+        rad/s.
+    right_ascension_swings, declination_swings : tuple of Swing
+    """
+
+    right_ascension: float
+    declination: float
+    right_ascension_rate: float = 0.0
+    declination_rate: float = 0.0
+    right_ascension_swings: tuple[Swing, ...] = ()
+    declination_swings: tuple[Swing, ...] = ()
+
+    of_the_iau = False
+
+    @classmethod
+    def published(
+        cls,
+        alpha: tuple[float, float],
+        delta: tuple[float, float],
+        alpha_terms: Sequence[tuple[float, float, float]] = (),
+        delta_terms: Sequence[tuple[float, float, float]] = (),
+    ) -> Self:
+        """Make one of numbers in degrees and degrees a Julian century, as they stand in print.
+
+        Parameters
+        ----------
+        alpha, delta : tuple of float
+            Angle and rate.
+        alpha_terms, delta_terms : sequence of (size, phase, rate)
+            Of the sines, and of the cosines.
+        """
+
+        def swings(terms: Sequence[tuple[float, float, float]]) -> tuple[Swing, ...]:
+            return tuple(
+                Swing(math.radians(size), math.radians(phase), math.radians(rate) / _CENTURY)
+                for size, phase, rate in terms
+            )
+
+        return cls(
+            math.radians(alpha[0]),
+            math.radians(delta[0]),
+            math.radians(alpha[1]) / _CENTURY,
+            math.radians(delta[1]) / _CENTURY,
+            swings(alpha_terms),
+            swings(delta_terms),
+        )
+
+    def __str__(self) -> str:
+        return f"moving; at J2000.0 {Direction(*self.at(0.0))}"
+
+    def at(self, day: float) -> FixedPole:
+        """Where it points on a day from J2000.0 TDB."""
+        time = day * DAY
+        ra = self.right_ascension + self.right_ascension_rate * time
+        dec = self.declination + self.declination_rate * time
+        ra += sum(s.size * math.sin(s.phase + s.rate * time) for s in self.right_ascension_swings)
+        dec += sum(s.size * math.cos(s.phase + s.rate * time) for s in self.declination_swings)
+        return FixedPole(ra, dec)
+
+    def orbit_normal(self, orbit: Direction | None) -> FloatArray:
+        """Normal of the body's orbit."""
+        return self.at(0.0).orbit_normal(orbit)
+
+    def is_upright(self, orbit: Direction | None) -> bool:
+        """Whether at J2000.0 it stands on the orbit too closely to have a longitude."""
+        return self.at(0.0).is_upright(orbit)
+
+    def orbit_axes(self, orbit: Direction | None) -> FloatArray:
+        """Plane of the orbit, from the equinox of J2000.0."""
+        return self.at(0.0).orbit_axes(orbit)
+
+    def mean(self, days: FloatArray) -> FloatArray:
+        """Unit vectors of the axis, all published terms included, shape (n, 3)."""
+        import numpy as np
+
+        time = np.asarray(days) * DAY
+        ra = self.right_ascension + self.right_ascension_rate * time
+        dec = self.declination + self.declination_rate * time
+        for size, phase, rate in self.right_ascension_swings:
+            ra = ra + size * np.sin(phase + rate * time)
+        for size, phase, rate in self.declination_swings:
+            dec = dec + size * np.cos(phase + rate * time)
+        level = np.cos(dec)
+        return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
+
+    def true(self, day: float) -> FloatArray:
+        """Unit vector of the axis on a day, shape (3,)."""
+        import numpy as np
+
+        return np.asarray(self.mean(np.array([day]))[0])
+
+    def equator(
+        self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
+    ) -> FloatArray:
+        """Equator of date and the equinox on the fixed orbit, shape (n, 3, 3)."""
+        import numpy as np
+
+        from earthspin.sky.equator import fixed_equator
+
+        normal = self.orbit_normal(orbit)
+        axes = self.mean(days)
+        if self.is_upright(orbit):
+            return np.stack([fixed_equator(axis, normal) for axis in axes])
+        x = np.cross(axes, normal)
+        x /= np.linalg.norm(x, axis=-1, keepdims=True)
+        return np.stack([x, np.cross(axes, x), axes], axis=1)
+
+    # --- from and to a scene ---------------------------------------------------------------------
+
+    @classmethod
+    def read(cls, table: Mapping[str, Any], where: Where) -> Self:
+        """Read the table that `write` gives.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            If a key is unknown or missing, or a value is no angle or rate.
+        """
+        from earthspin.units import quantity
+
+        every = (*_NAMES, *_RATES, *_SWINGS)
+        for name in table:
+            if name not in every:
+                raise where.at(name).error(table[name], nearest(name, every))
+        read: dict[str, Any] = {}
+        for name in _NAMES:
+            if name not in table:
+                raise where.at(name).error(None, f"give it, like {name} = '52.9 deg'")
+            read[name] = float(quantity(table[name], "rad", where.at(name), "52.9 deg"))
+        if abs(read["declination"]) > math.pi / 2:
+            raise where.at("declination").error(table["declination"], "it is -90 to 90 deg")
+        for name in _RATES:
+            rate = quantity(table.get(name, 0.0), "rad/s", where.at(name), "-1e-12 rad/s")
+            read[name] = float(rate)
+        for name in _SWINGS:
+            read[name] = tuple(_swing(one, where.at(name)) for one in table.get(name, ()))
+        return cls(**read)
+
+    def write(self) -> dict[str, Any]:
+        """Give the table of its numbers."""
+        table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
+        table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
+        return table | {
+            name: [
+                [f"{size!r} rad", f"{phase!r} rad", f"{rate!r} rad/s"]
+                for size, phase, rate in getattr(self, name)
+            ]
+            for name in _SWINGS
+        }
+
+
+def _swing(given: object, where: Where) -> Swing:
+    """Size, phase and rate of one term."""
+    from earthspin.units import quantity
+
+    if not isinstance(given, (list, tuple)) or len(given) != 3:
+        raise where.error(given, "give size, phase and rate of each term")
+    units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")
+    return Swing(
+        *(float(quantity(*of)) for of in zip(given, units, (where,) * 3, examples, strict=True))
+    )

@@ -1,0 +1,37 @@
+"""Poles in scenes: a name, two angles, or a table of rates and periodic terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from earthspin.errors import Where
+from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import Direction, Pole
+
+
+class Angles:
+    """Kind of a direction in a scene: right ascension and declination, or how they move."""
+
+    words, hint = "right ascension and declination", "tuple[float | str, float | str]"
+    example = '["317.7 deg", "52.9 deg"]'
+
+    def read(self, given: object, where: Where) -> object:
+        """Read two angles, in radians if they have no unit; a name is left to the body."""
+        from earthspin.units import quantity
+
+        if isinstance(given, str) or hasattr(given, "of_the_iau"):
+            return given
+        if isinstance(given, Mapping):
+            return MovingPole.read(given, where)
+        if not isinstance(given, (list, tuple)) or len(given) != 2:
+            raise where.error(given, f"give {self.words}")
+        return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in given)
+
+    def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
+        """Give the name, two angles, or the table of a pole that moves."""
+        if isinstance(value, MovingPole):
+            return value.write()
+        if isinstance(value, Direction):
+            return [f"{float(angle)!r} rad" for angle in value]
+        return str(value)
