@@ -131,7 +131,8 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         used = [other for other in offered if choose(other)]
         if offered and not used and not one.needs:
             # it stands on one of several, and none of them is there
-            reasons[name] = "; ".join(f"no {graph.parts[of].title}: {reasons[of]}" for of in offered)
+            several = (f"no {graph.parts[of].title}: {reasons[of]}" for of in offered)
+            reasons[name] = "; ".join(several)
             return False
         chosen[name] = (*(other for other in one.needs if other in graph.parts), *used)
         return True

@@ -116,15 +116,16 @@ def test_a_made_up_world() -> None:
     rate = 3e-3 * 20 * 3600 / (2 * math.pi) * torque / ARCSEC_PER_YEAR
     assert float(found.precession_rate[0]) == pytest.approx(rate, rel=1e-13, abs=0)
     # the star on its apparent orbit is the same
-    apparent = STAR.replace(orbit=Orbit(period="40 d", e=0.2, plane="orbit"))
+    apparent = STAR.replace(orbit=Orbit(period="40 d", e=0.2, pericentre="180 deg", plane="icrf"))
     flat = PLANET.replace(orbit=None)
     other = earthspin.precession(body=flat, perturbers=[apparent])
     np.testing.assert_allclose(other.precession_rate, found.precession_rate, rtol=1e-13, atol=0)
-    # and so is the place of the star, half a turn on
+    # and so is the place of the star: half a turn from where the star sees the planet
     span = ("2000-01-01", "2000-03-01", "1 d")
     seen = earthspin.torque_series(*span, body=PLANET, perturbers=[STAR])
     given = earthspin.torque_series(*span, body=flat, perturbers=[apparent])
     np.testing.assert_allclose(given.distance, seen.distance, rtol=1e-12, atol=0)
+    np.testing.assert_allclose(given.right_ascension, seen.right_ascension, rtol=0, atol=1e-10)
 
 
 def test_a_moon_of_a_moon_is_averaged_over_windows() -> None:
