@@ -136,7 +136,8 @@ def drawn(
     title: str, caption: str, ax: Axes, *, square: bool = False, phone: Axes | None = None
 ) -> Drawing:
     """Figure of some axes, ready for the page, and the same drawn for a phone if need be."""
-    return Drawing(title, caption, figure_of(ax), square, phone and figure_of(phone))
+    narrow = None if phone is None else figure_of(phone)
+    return Drawing(title, caption, figure_of(ax), square, narrow)
 
 
 def figure_of(ax: Axes) -> Figure:
