@@ -274,6 +274,11 @@ class Body:
             try:
                 object.__setattr__(self, name, of(value))
             except (ValueError, TypeError):
+                several = value if isinstance(value, (list, tuple)) else (value,)
+                if any(getattr(one, "ndim", 0) for one in several):
+                    raise BodyError(
+                        self.name, name, "an array", f"it is one direction: {allowed}"
+                    ) from None
                 raise BodyError(self.name, name, value, allowed) from None
 
     def _check_orbit(self) -> None:
@@ -671,7 +676,12 @@ class Body:
     @property
     def labelled(self) -> bool:
         """Whether it stands for many bodies: some field is a labelled array."""
-        return any(hasattr(getattr(self, name), "dims") for name in UNITS)
+        return self.labelled_field is not None
+
+    @property
+    def labelled_field(self) -> str | None:
+        """The first field that is a labelled array; None if there is none."""
+        return next((name for name in UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
         """Return a body with some fields changed, the rest kept consistent.

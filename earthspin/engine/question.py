@@ -243,7 +243,11 @@ class Question:
 
     def replace(self, **changes: Any) -> Self:
         """Return the question with some keys changed, checked again."""
+        keys = keys_of(type(self))
         kept = {name: getattr(self, name) for name in self.given if name not in changes}
+        for name, value in kept.items():
+            if isinstance(value, float) and name in keys:  # a kind may want its unit with it
+                kept[name] = keys[name].kind.write(value)
         made = type(self).__new__(type(self))
         made._fill(kept | {"title": self.title} | changes, self.read_from, in_scene=False)
         return made

@@ -96,8 +96,12 @@ class Pulled(Question):
         if not names:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
         for one in self.perturbers:
-            if hasattr(one.gm, "dims"):
-                raise self.error("perturbers", one.name, "the mass of what pulls is one number")
+            if one.labelled_field is not None:
+                raise self.error(
+                    f"perturbers.{one.name}.{one.labelled_field}",
+                    "an array",
+                    "what pulls is one body: one number each; ask again for every other",
+                )
             if names.count(one.name) > 1:
                 raise self.error("perturbers", names, f"'{one.name}' is named twice")
         if "total" in names:

@@ -102,8 +102,12 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
                 names,
                 "over millennia it is the Sun, or Sun and Moon; give no others",
             )
-        if self.body.labelled:
-            raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
+        if self.body.labelled_field is not None:
+            raise self.error(
+                f"body.{self.body.labelled_field}",
+                "an array",
+                "give single numbers here, no labelled arrays: one body at a time",
+            )
 
 
 @part

@@ -24,6 +24,9 @@ class Angles:
             return given
         if isinstance(given, Mapping):
             return MovingPole.read(given, where)
+        several = given if isinstance(given, (list, tuple)) else (given,)
+        if any(getattr(one, "ndim", 0) or isinstance(one, (list, tuple)) for one in several):
+            raise where.error("an array", f"it is one direction: give {self.words}")
         if not isinstance(given, (list, tuple)) or len(given) != 2:
             raise where.error(given, f"give {self.words}")
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in given)
