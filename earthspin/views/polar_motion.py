@@ -19,6 +19,7 @@ from earthspin.views.drawing import (
     axes,
     drawn,
     empty,
+    for_phone,
     note,
     style,
 )
@@ -182,6 +183,7 @@ def path(tree: Result, years: float | None = 6.0) -> Drawing:
         "Path of the pole over the ground. The annual and the free wobble beat with a period of "
         "6.4 years, and the mean position drifts.",
         plot_polhode(tree, years=years),
+        phone=plot_polhode(tree, years=years, ax=for_phone(5.4)),
     )
 
 
@@ -202,7 +204,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     """
     from matplotlib.ticker import MaxNLocator
 
-    ax = axes(ax, 7.6, 6)
+    ax = axes(ax, 6.6, 7.4)
     answer = answer_of(result)
     if years is not None:
         first = answer.time.values[-1] - np.timedelta64(round(years * 365.25), "D")
@@ -219,7 +221,9 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     if metres := _metres(answer):
         ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("y (m)")
         ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("x (m)")
-    bar = ax.figure.colorbar(dots, ax=ax, pad=0.05, aspect=35, format="%.0f", label="time (years)")
+    bar = ax.figure.colorbar(
+        dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f", label="time (years)"
+    )
     bar.locator = MaxNLocator(8, integer=True)
     return ax
 

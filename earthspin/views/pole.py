@@ -8,7 +8,7 @@ import numpy as np
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY
-from earthspin.views.drawing import Drawing, axes, drawn, style
+from earthspin.views.drawing import Drawing, axes, drawn, for_phone, style
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Table, along, date
 
@@ -49,7 +49,8 @@ def drawings(tree: Result) -> list[Drawing]:
         "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
         "is removed."
     )
-    return [drawn("The path of the pole", caption, plot_pole_path(tree))]
+    phone = plot_pole_path(tree, ax=for_phone(5.8))
+    return [drawn("The path of the pole", caption, plot_pole_path(tree), phone=phone)]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
@@ -65,7 +66,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     """
     from matplotlib.collections import LineCollection
 
-    ax = axes(ax, 6.4, 5.0)
+    ax = axes(ax, 6.4, 6.4)
     of = answer_of(result).sel(axis=axis)
     days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
     angles = np.stack([of.psi * np.sin(np.radians(of.eps / 3600)), of.eps], axis=1)
@@ -82,7 +83,8 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     )
     ax.add_collection(path)
     ax.autoscale_view()
-    ax.figure.colorbar(path, ax=ax, label="time from the start (years)")
+    words = "time from the start (years)"
+    ax.figure.colorbar(path, ax=ax, location="bottom", shrink=0.8, aspect=40, label=words)
     ax.set_aspect("equal")
     ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
     ax.set_ylabel("eps, straight line removed (arcsec)")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import CYCLE, Drawing, axes, empty, legend_above, style
+from earthspin.views.drawing import CYCLE, Drawing, axes, empty, few_dates, legend_above, style
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Table, along, date
 
@@ -131,6 +131,7 @@ def plot_torque(
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")
     ax.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
+    few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:
         legend_above(ax)
