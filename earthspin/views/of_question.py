@@ -23,6 +23,26 @@ if TYPE_CHECKING:
     from earthspin.views.solids import Solid
 
 
+_TORQUES = ("theory", "Precession, from the torque to the period")
+_POLE = ("pole", "The path of the pole, and its comparison with the IAU")
+_WOBBLE = ("wobble", "From 304 to 433 days: the free wobble")
+_ROTORS = ("rotors", "Rotors and tops, from the tensor to the torque")
+#: Page of the documentation that explains the method of a question: its file, and its title.
+EXPLAINED = {
+    "precession": _TORQUES,
+    "torque": _TORQUES,
+    "pole": _POLE,
+    "iau": _POLE,
+    "long-term": ("long_term", "Over millennia and millions of years"),
+    "wobble": _WOBBLE,
+    "polar-motion": _WOBBLE,
+    "free-rotor": _ROTORS,
+    "top": _ROTORS,
+    "spheroid": _ROTORS,
+}
+ERRORS = ("accuracy", "Errors and run times")
+
+
 def tables_for(tree: Result) -> list[Table]:
     """Tables of an answer and its sections, in the order in which they are read.
 
@@ -138,7 +158,7 @@ def page_of(
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
         lead=lead,
-        note=BRACKETS,
+        note=f"{BRACKETS}\n{_explained(trees[0])}",
         links=links,
         last=what_ran(*trees),
         footer=_footer(answer_of(trees[0])),
@@ -177,6 +197,13 @@ def _view(tree: Result) -> ModuleType:
     """Module of the question of an answer; a plain table for one that has none."""
     name = f"earthspin.views.{str(tree.attrs['compute']).replace('-', '_')}"
     return import_module(name if find_spec(name) else "earthspin.views.plain")
+
+
+def _explained(tree: Result) -> str:
+    """Where the documentation, which has no address of its own, explains a page."""
+    place = EXPLAINED.get(str(answer_of(tree).attrs["compute"]))
+    method = f'the method under "{place[1]}" (docs/{place[0]}.md), ' if place else ""
+    return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
 
 
 def _accuracy(answer: xr.Dataset) -> Table:

@@ -10,8 +10,16 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
-from earthspin.scenes import shipped_scenes
-from earthspin.views.of_question import drawings_for, figures_of, scene_page, solids_for, tables_for
+from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.views.of_question import (
+    ERRORS,
+    EXPLAINED,
+    drawings_for,
+    figures_of,
+    scene_page,
+    solids_for,
+    tables_for,
+)
 from earthspin.views.report import write_report
 from earthspin.views.typeset import typeset
 from tests import shipped
@@ -78,6 +86,16 @@ def test_a_plain_answer_can_be_drawn(scene: str, count: int) -> None:
     for figure in figures:
         assert isinstance(figure, Figure)
         figure.draw_without_rendering()
+
+
+def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
+    docs = Path(__file__).parents[2] / "docs"
+    assert set(EXPLAINED) == set(QUESTIONS)
+    for name, title in (*EXPLAINED.values(), ERRORS):
+        assert f"\n# {title}\n" in f"\n{(docs / f'{name}.md').read_text(encoding='utf-8')}"
+    page = scene_page(shipped.answer("spheroid"))
+    assert "Rotors and tops, from the tensor to the torque" in page
+    assert "Errors and run times" in page
 
 
 def test_every_question_is_drawn_here() -> None:
