@@ -1,0 +1,94 @@
+"""Linear equations dy/dr = M(r) y, carried from one radius to another by Gauss collocation.
+
+A stretch is cut into panels. On each the solution is the polynomial that meets the equation at
+the Gauss-Legendre nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations II,
+sect. IV.5): one small linear system a panel, all panels at once. What comes out is the matrix
+that takes y at one end to y at the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+
+Array = NDArray[Any]
+
+#: Nodes of a panel; the result of a panel is of order twice that.
+NODES = 8
+#: Largest ratio of the ends of a panel at first: M grows as 1/r towards a centre.
+FIRST_RATIO = 1.5
+#: By how much the matrix may change, over its largest element, when panels are halved; and where
+#: rounding lets it settle no further, as in a layer much softer than its own weight.
+SETTLED, ROUNDED = 1e-13, 1e-8
+MOST_HALVINGS = 6
+
+
+def _rule(order: int) -> tuple[Array, Array, Array]:
+    """Nodes and weights on [0, 1], and the integrals from 0 to each node."""
+    x, weights = legendre.leggauss(order)
+    project = (legendre.legvander(x, order - 1) * weights[:, None]) * (np.arange(order) + 0.5)
+    integrals = legendre.legval(x, legendre.legint(np.eye(order), lbnd=-1))
+    return (x + 1) / 2, weights / 2, (project @ integrals).T / 2
+
+
+_NODES, _WEIGHTS, _INTEGRATE = _rule(NODES)
+
+
+def transfer(matrix: Callable[[Array], Array], start: float, stop: float) -> Array:
+    """Matrix that takes a solution from one radius to another.
+
+    Parameters
+    ----------
+    matrix : callable
+        Of an array of radii, shape (r,), gives M, shape (..., r, n, n).
+    start, stop : float
+        Positive, in any unit.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
+
+    Raises
+    ------
+    UndefinedError
+        If ever smaller panels still change it: the layer is too soft to be a solid.
+    """
+    count = max(1, int(np.ceil(np.log(stop / start) / np.log(FIRST_RATIO))))
+    coarse, last = _through(matrix, start, stop, count), np.inf
+    for _ in range(MOST_HALVINGS):
+        count *= 2
+        fine = _through(matrix, start, stop, count)
+        change = float(np.max(abs(fine - coarse)) / np.max(abs(fine)))
+        if change <= SETTLED or last / 4 < change <= ROUNDED:
+            return fine
+        coarse, last = fine, change
+    raise UndefinedError(
+        f"the equations between {start:.4g} and {stop:.4g} radii do not settle: a layer there is "
+        "too soft to be a solid; make it a liquid, without vs, or stiffer"
+    )
+
+
+def _through(matrix: Callable[[Array], Array], start: float, stop: float, count: int) -> Array:
+    """The matrix with a number of panels whose ends keep one ratio."""
+    edges = np.geomspace(start, stop, count + 1)
+    width = np.diff(edges)
+    radii = edges[:-1, None] + width[:, None] * _NODES
+    m = matrix(radii.ravel())
+    n = m.shape[-1]
+    m = m.reshape(*m.shape[:-3], count, NODES, n, n) * width[:, None, None, None]
+    # y at the nodes from y at the start: (1 - I M) Y = 1, for all panels at once.
+    system = -np.einsum("jk,...kab->...jakb", _INTEGRATE, m)
+    system = system.reshape(*system.shape[:-4], NODES * n, NODES * n) + np.eye(NODES * n)
+    ones = np.broadcast_to(np.tile(np.eye(n), (NODES, 1)), (*system.shape[:-2], NODES * n, n))
+    at_nodes = np.linalg.solve(system, ones).reshape(*system.shape[:-2], NODES, n, n)
+    panels = np.eye(n) + np.einsum("k,...kab,...kbc->...ac", _WEIGHTS, m, at_nodes)
+    product = panels[..., 0, :, :]
+    for panel in range(1, count):
+        product = panels[..., panel, :, :] @ product
+    return np.asarray(product)

@@ -1,0 +1,48 @@
+"""Linear equations carried by collocation, beside closed forms."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.linalg import expm
+from scipy.special import iv, kv
+
+from earthspin import UndefinedError
+from earthspin.numerics.collocation import transfer
+
+
+@given(st.floats(0.1, 3.0), st.integers(0, 50))
+def test_constant_coefficients(length: float, seed: int) -> None:
+    matrix = np.random.default_rng(seed).standard_normal((3, 3))
+    found = transfer(lambda r: np.broadcast_to(matrix, (r.size, 3, 3)), 1.0, 1.0 + length)
+    expected = expm(matrix * length)
+    assert np.allclose(found, expected, rtol=0, atol=2e-12 * np.max(abs(expected)))
+
+
+@given(st.floats(1e-3, 0.3))
+def test_towards_a_centre(start: float) -> None:
+    """r2 y'' + r y' - (r2 + 4) y = 0: modified Bessel functions of order two."""
+
+    def matrix(r: np.ndarray) -> np.ndarray:
+        zero, one = np.zeros_like(r), np.ones_like(r)
+        return np.moveaxis(np.array([[zero, one], [1 + 4 / r**2, -1 / r]]), -1, 0)
+
+    def basis(r: float) -> np.ndarray:
+        slopes = [(f(1, r) + s * f(3, r)) / 2 * s for f, s in ((iv, 1.0),)]
+        slopes.append(-(kv(1, r) + kv(3, r)) / 2)
+        return np.array([[iv(2, r), kv(2, r)], slopes])
+
+    found = transfer(matrix, start, 1.0)
+    expected = basis(1.0) @ np.linalg.inv(basis(start))
+    assert np.allclose(found, expected, rtol=2e-10, atol=1e-12 * np.max(abs(expected)))
+
+
+def test_many_at_once() -> None:
+    rates = np.array([1.0, 2.0 + 1j])
+    found = transfer(lambda r: rates[:, None, None, None] * np.ones((1, r.size, 1, 1)), 1.0, 2.0)
+    assert np.allclose(found[:, 0, 0], np.exp(rates), rtol=1e-13, atol=0)
+
+
+def test_what_never_settles_is_refused() -> None:
+    with pytest.raises(UndefinedError, match="too soft"):
+        transfer(lambda r: 1e5 * np.sin(1e5 * r)[:, None, None], 1.0, 2.0)
