@@ -1,4 +1,4 @@
-"""The static elastic-gravitational equations of degree two, and their integration.
+"""The static elastic-gravitational equations of degree two.
 
 In the notation of Takeuchi & Saito (1972, Methods in Computational Physics 11, eq. 82):
 
@@ -24,18 +24,15 @@ from earthspin.interior.layers import Layer, LayeredBody
 Array = NDArray[Any]
 
 FOUR_PI_G = 3.0
-#: Local relative error of the integration; k2 then holds to 1e-9.
-_RTOL = 1e-9
 #: The integration starts here, not at the centre, where the equations are singular.
 START = 1e-3
 
 
 class Profile:
-    """Density, moduli and gravity of a body in its own units."""
+    """Density, moduli and gravity of a body in its own units, at one radius or many."""
 
     def __init__(self, body: LayeredBody) -> None:
         self.layers = body.layers
-        self.core = body.core_radius / body.radius
         self.tops = [layer.top / body.radius for layer in body.layers]
         self.density_unit = body.mass / (4 / 3 * np.pi * body.radius**3)
         gravity = G.value * body.mass / body.radius**2
@@ -51,74 +48,70 @@ class Profile:
         density = tuple(d / self.density_unit for d in layer.density)
         return FOUR_PI_G * np.polynomial.Polynomial((0.0, 0.0, *density)).integ()
 
-    def density(self, i: int, r: float) -> float:
+    def density(self, i: int, r: Any) -> Any:
         """Density of layer i at radius r."""
         return _horner(self.layers[i].density, r) / self.density_unit
 
-    def gravity(self, i: int, r: float) -> float:
+    def gravity(self, i: int, r: Any) -> Any:
         """G m(r)/r2, with 4 pi G = 3."""
-        return float((self._mass[i](r) + self._below[i]) / r**2)
+        return (self._mass[i](r) + self._below[i]) / r**2
 
-    def moduli(self, i: int, r: float, strain: Array) -> tuple[Array, Array]:
-        """Lame's lambda and mu; the bulk modulus stays when mu changes."""
+    def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
+        """Lame's lambda and mu, shape (strain, r); the bulk modulus stays when mu changes."""
         layer, rho = self.layers[i], _horner(self.layers[i].density, r)
         seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
         bulk = rho * _horner(layer.vp, r) ** 2 / self.modulus_unit - 4 / 3 * seismic
-        mu = seismic * (1 + strain / layer.shear_q)
+        mu = seismic * (1 + strain / layer.shear_q)[:, None]
         return bulk - 2 / 3 * mu, mu
 
 
-def _horner(coefficients: tuple[float, ...], x: float) -> float:
-    total = 0.0
+def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
+    total = 0.0 * x
     for c in reversed(coefficients):
         total = total * x + c
     return total
 
 
-def _solid_matrix(profile: Profile, i: int, r: float, strain: Array) -> Array:
-    """Matrix of dy/dr = M y in a solid, shape (strain, 6, 6); degree two."""
-    rho, g = profile.density(i, r), profile.gravity(i, r)
-    lam, mu = profile.moduli(i, r, strain)
-    p = lam + 2 * mu
-    shear = 2 * mu * (3 * lam + 2 * mu) / p / r**2
-    m = np.zeros((strain.size, 6, 6), dtype=strain.dtype)
-    m[:, 0, 0], m[:, 0, 1], m[:, 0, 2] = -2 * lam / (p * r), 1 / p, 6 * lam / (p * r)
-    m[:, 1, 0], m[:, 1, 1] = 2 * shear - 4 * rho * g / r, -4 * mu / (p * r)
-    m[:, 1, 2], m[:, 1, 3] = 6 * (rho * g / r - shear), 6 / r
-    m[:, 1, 4], m[:, 1, 5] = 3 * rho / r, -rho
-    m[:, 2, 0], m[:, 2, 2], m[:, 2, 3] = -1 / r, 1 / r, 1 / mu
-    m[:, 3, 0], m[:, 3, 1] = rho * g / r - shear, -lam / (p * r)
-    m[:, 3, 2] = 2 * mu / (p * r**2) * (11 * lam + 10 * mu)
-    m[:, 3, 3], m[:, 3, 4] = -3 / r, -rho / r
-    m[:, 4, 0], m[:, 4, 4], m[:, 4, 5] = FOUR_PI_G * rho, -3 / r, 1
-    m[:, 5, 0], m[:, 5, 2], m[:, 5, 5] = 3 * FOUR_PI_G * rho / r, -6 * FOUR_PI_G * rho / r, 1 / r
-    return m
+def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
+    """M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6); degree two."""
+
+    def matrix(r: Array) -> Array:
+        rho, g = profile.density(i, r), profile.gravity(i, r)
+        lam, mu = profile.moduli(i, r, strain)
+        p = lam + 2 * mu
+        shear = 2 * mu * (3 * lam + 2 * mu) / p / r**2
+        m = np.zeros((strain.size, r.size, 6, 6), dtype=strain.dtype)
+        m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = -2 * lam / (p * r), 1 / p, 6 * lam / (p * r)
+        m[..., 1, 0], m[..., 1, 1] = 2 * shear - 4 * rho * g / r, -4 * mu / (p * r)
+        m[..., 1, 2], m[..., 1, 3] = 6 * (rho * g / r - shear), 6 / r
+        m[..., 1, 4], m[..., 1, 5] = 3 * rho / r, -rho
+        m[..., 2, 0], m[..., 2, 2], m[..., 2, 3] = -1 / r, 1 / r, 1 / mu
+        m[..., 3, 0], m[..., 3, 1] = rho * g / r - shear, -lam / (p * r)
+        m[..., 3, 2] = 2 * mu / (p * r**2) * (11 * lam + 10 * mu)
+        m[..., 3, 3], m[..., 3, 4] = -3 / r, -rho / r
+        m[..., 4, 0], m[..., 4, 4], m[..., 4, 5] = FOUR_PI_G * rho, -3 / r, 1
+        m[..., 5, 0], m[..., 5, 2] = 3 * FOUR_PI_G * rho / r, -6 * FOUR_PI_G * rho / r
+        m[..., 5, 5] = 1 / r
+        return m
+
+    return matrix
 
 
-def _liquid_matrix(profile: Profile, i: int, r: float) -> Array:
-    """Matrix of the pair (y5, y7) in a liquid (Saito 1974, eq. 17)."""
-    s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
-    return np.array([[s - 3 / r, 1.0], [2 * s / r, 1 / r - s]])
+def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
+    """M of the pair (y5, y7) in liquid layer i (Saito 1974, eq. 17), shape (r, 2, 2)."""
 
+    def matrix(r: Array) -> Array:
+        s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
+        rows = ([s - 3 / r, np.ones_like(r)], [2 * s / r, 1 / r - s])
+        return np.moveaxis(np.array(rows), -1, 0)
 
-def carry(matrix: Callable[[float], Array], start: float, stop: float, y: Array) -> Array:
-    """Integrate dy/dr = M y for all columns at once."""
-
-    def slope(r: float, flat: Array) -> Array:
-        return np.asarray(matrix(r) @ flat.reshape(y.shape)).ravel()
-
-    from scipy.integrate import solve_ivp  # late: plans read layers and integrate nothing
-
-    solution = solve_ivp(
-        slope, (start, stop), y.ravel(), "DOP853", rtol=_RTOL, atol=1e-12, t_eval=[stop]
-    )
-    return np.asarray(solution.y[:, -1].reshape(y.shape))
+    return matrix
 
 
 def solid_centre(profile: Profile, strain: Array) -> Array:
     """Three regular solutions near the centre to leading order in r, shape (strain, 6, 3)."""
     r = START
-    lam, mu = profile.moduli(0, r, strain)
+    lam, mu = (modulus[:, 0] for modulus in profile.moduli(0, np.array([r]), strain))
     rho = profile.density(0, r)
     y = np.zeros((strain.size, 6, 3), dtype=strain.dtype)
     y[:, 0, 0], y[:, 1, 0], y[:, 2, 0], y[:, 3, 0] = 2 * r, 4 * mu, r, 2 * mu
@@ -134,13 +127,3 @@ def liquid_centre(profile: Profile) -> Array:
     """The regular solution (y5, y7) near the centre of a liquid."""
     s = FOUR_PI_G * profile.density(0, START) / profile.gravity(0, START)
     return np.array([START**2, (5 / START - s) * START**2])
-
-
-def solid(profile: Profile, i: int, strain: Array) -> Callable[[float], Array]:
-    """The matrix of solid layer i, for `carry`."""
-    return lambda r: _solid_matrix(profile, i, r, strain)
-
-
-def liquid(profile: Profile, i: int) -> Callable[[float], Array]:
-    """The matrix of liquid layer i, for `carry`."""
-    return lambda r: _liquid_matrix(profile, i, r)

@@ -1,4 +1,4 @@
-"""The figure of a layered body in hydrostatic equilibrium, to first order."""
+"""The figure of a layered body in hydrostatic equilibrium, to first order (Clairaut 1743)."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from earthspin.interior.equations import START, Profile, carry, liquid, liquid_centre
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import G
+from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
+from earthspin.numerics.collocation import transfer
 
 Numeric = Any
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -22,28 +28,46 @@ class Equilibrium:
         Love number of the liquid body.
     core_k : float
         Of the masses of its core, as `Yielding.core_k`.
+    tops : ndarray, shape (n,)
+        Where layers end, over R.
+    potential : ndarray, shape (n,)
+        There: of the deforming potential r2 and of all masses.
+    enclosed : ndarray, shape (n,)
+        What the masses inside answer, as a k: to first order (C - A) of them.
+    outside : ndarray, shape (n,)
+        Factor of r2 in the potential there: 1 for what deforms, the rest for the masses outside.
     """
 
     k: float
     core_k: float
+    tops: Array
+    potential: Array
+    enclosed: Array
+    outside: Array
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def equilibrium(body: LayeredBody) -> Equilibrium:
     """Clairaut's hydrostatic figure to first order, by the equations of a liquid."""
     profile = Profile(body)
-    pair = liquid_centre(profile)[:, None]
-    r, at_core = START, pair
+    pair, r, found = liquid_centre(profile), START, []
     for i, top in enumerate(profile.tops):
-        pair = carry(liquid(profile, i), r, top, pair)
+        pair = transfer(liquid(profile, i), r, top) @ pair
+        found.append(pair)
         r = top
-        if top == profile.core:
-            at_core = pair
     # The equation of a free liquid surface: the potential of degree two comes from outside.
-    scale = 5 / pair[1, 0]
-    b = profile.core
-    y5, y7 = scale * at_core[:, 0]
-    return Equilibrium(k=float(scale * pair[0, 0] - 1), core_k=float(b**3 * (y5 - b * y7 / 5)))
+    y5, y7 = (5 / pair[1] * np.array(found)).T
+    tops = np.array(profile.tops)
+    enclosed = tops**3 * (y5 - tops * y7 / 5)
+    at_core = profile.tops.index(body.core_radius / body.radius) if body.core_radius else None
+    return Equilibrium(
+        k=float(y5[-1] - 1),
+        core_k=0.0 if at_core is None else float(enclosed[at_core]),
+        tops=tops,
+        potential=y5,
+        enclosed=enclosed,
+        outside=y7 / (5 * tops),
+    )
 
 
 def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
@@ -56,3 +80,104 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
         rad/s.
     """
     return tidal_inertia(layers, spin_rate) * equilibrium(layers).core_k / layers.core_fraction
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Ellipticities of a body in hydrostatic equilibrium and of its parts, and their moments.
+
+    Attributes
+    ----------
+    e, e_f, e_s : float
+        (C - A)/A of the whole, the fluid core and the inner core; 0 for a part that is missing.
+    e_core : float
+        Of fluid and inner core together.
+    fluid, inner : float
+        A_f/A and A_s/A.
+    a1, a2, a3 : float
+        Coupling numbers of the inner core (Mathews, Buffett, Herring & Shapiro 1991, JGR 96,
+        8219, eq. 20 and 24, recalled): the share of its C - A that the liquid would have in its
+        place; the pull of all others on it, pressure included; and 1 - a1, the excess.
+    unit : float
+        Omega2 R5/(3 G A): product of inertia over A per radian and unit of a Love number.
+    surface : float
+        Flattening of the surface.
+    """
+
+    e: float
+    e_f: float
+    e_s: float
+    e_core: float
+    fluid: float
+    inner: float
+    a1: float
+    a2: float
+    a3: float
+    unit: float
+    surface: float
+
+
+def figure(layers: LayeredBody, spin_rate: float) -> Figure:
+    """Figure of equilibrium of a body that spins, by Clairaut's equation.
+
+    Parameters
+    ----------
+    layers : LayeredBody
+    spin_rate : float
+        rad/s.
+
+    Notes
+    -----
+    The ellipticity of a level surface is W'/(2 g r), W' the potential of degree two there; the
+    moments A follow from the mean ones, I = A (1 + e/3).
+    """
+    rest = equilibrium(layers)
+    scale = tidal_inertia(layers, spin_rate)  # over the mean moment
+    whole = float(scale * rest.enclosed[-1])
+    core = float(scale * rest.core_k)
+    moment = layers.moment_of_inertia()
+    excess, share = {"core": core, "inner": 0.0}, {"core": 0.0, "inner": 0.0}
+    if layers.core_radius:
+        share["core"] = layers.core_fraction
+    a1 = a2 = a3 = 0.0
+    gravity = G.value * layers.mass / layers.radius**2
+    centrifugal = spin_rate**2 * layers.radius / gravity
+    if layers.inner_core_radius:
+        r = layers.inner_core_radius / layers.radius
+        profile = Profile(layers)
+        i = profile.tops.index(r)
+        excess["inner"] = float(scale * rest.enclosed[i])
+        share["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment
+        ellipticity = centrifugal * rest.potential[i] / (2 * profile.gravity(i, r) * r)
+        density = float(profile.density(i + 1, r))
+        # Of an even spheroid of the liquid: (8 pi/15) rho eps r5, in units of (3/5) (C - A)/unit.
+        liquid_excess = 8 * np.pi / 15 * density * profile.density_unit * ellipticity
+        liquid_excess *= layers.inner_core_radius**5 / moment
+        a1 = float(liquid_excess / excess["inner"])
+        a3 = 1 - a1
+        # 8 pi G rho eps/(5 Omega2), the liquid that the inner core has put aside.
+        aside = 2 * FOUR_PI_G / 5 * density * ellipticity / centrifugal
+        a2 = float(a1 - a3 * (rest.outside[i] - 1 + aside))
+    e = _over_equatorial(whole, 1.0)
+    e_s = _over_equatorial(excess["inner"], share["inner"])
+    fluid_share = share["core"] - share["inner"]
+    e_f = _over_equatorial(excess["core"] - excess["inner"], fluid_share)
+    equatorial = 1 / (1 + e / 3)  # A over the mean moment
+    return Figure(
+        e=e,
+        e_f=e_f,
+        e_s=e_s,
+        e_core=_over_equatorial(core, share["core"]),
+        fluid=fluid_share / (1 + e_f / 3) / equatorial,
+        inner=share["inner"] / (1 + e_s / 3) / equatorial,
+        a1=a1,
+        a2=a2,
+        a3=a3,
+        unit=float(scale / equatorial),
+        surface=float(centrifugal * rest.potential[-1] / 2),
+    )
+
+
+def _over_equatorial(difference: float, mean: float) -> float:
+    """(C - A)/A from C - A and the mean moment (2 A + C)/3."""
+    return difference / (mean - difference / 3) if mean else 0.0

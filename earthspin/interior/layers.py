@@ -37,7 +37,9 @@ class Layer:
 
 @dataclass(frozen=True)
 class LayeredBody:
-    """A body of solid inner core, liquid outer core and solid mantle.
+    """A body of layers: a solid mantle, and in it a liquid core, and in that a solid inner core.
+
+    Core and inner core may be missing.
 
     Attributes
     ----------
@@ -58,8 +60,14 @@ class LayeredBody:
 
     @property
     def core_radius(self) -> float:
-        """Radius of the boundary between the liquid core and the mantle, m."""
-        return max(layer.top for layer in self.layers[:-1] if not layer.vs)
+        """Radius of the boundary between the liquid core and the mantle, m; 0 without a core."""
+        return max((layer.top for layer in self.layers[:-1] if not layer.vs), default=0.0)
+
+    @property
+    def inner_core_radius(self) -> float:
+        """Radius of the solid inner core, m; 0 if there is none."""
+        first = next((i for i, layer in enumerate(self.layers) if not layer.vs), 0)
+        return self.layers[first - 1].top if first else 0.0
 
     @property
     def mass(self) -> float:

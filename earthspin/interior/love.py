@@ -1,4 +1,4 @@
-"""How a layered body yields to a tide, a load and the pressure of its own core."""
+"""How a layered body yields to a tide, a load, and to the turning of its own parts."""
 
 from __future__ import annotations
 
@@ -14,15 +14,21 @@ from earthspin.interior.equations import (
     FOUR_PI_G,
     START,
     Profile,
-    carry,
     liquid,
     liquid_centre,
     solid,
     solid_centre,
 )
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.collocation import transfer
 
 Array = NDArray[Any]
+
+#: The potentials r2 that are put to a body: in all of it, in its fluid core, in its inner core.
+PARTS = ("whole", "fluid", "inner")
+#: Each of them, and that of a load, in inner core, fluid core and mantle.
+_ACTS_IN = np.array([[1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]])
+_LOAD = 3
 
 
 @dataclass(frozen=True)
@@ -33,14 +39,14 @@ class Yielding:
     ----------
     k, h, l : array
         Love numbers of a tide.
-    k_load, h_load : array
+    k_load, h_load, l_load : array
         Load Love numbers.
-    core_k : array
-        As k, but of the masses of the core alone, at the core's radius.
-    k_pressure, core_k_pressure : array
-        As `k` and `core_k`, for a potential that acts on the matter of the core alone and
-        is 1 when continued to the surface: the pressure of a core that turns about
-        another axis than the mantle.
+    answers : array, shape (..., 3, 3)
+        [i, j]: potential at the surface of what the masses of part i answer to a potential that
+        acts in part j alone and is 1 when continued to the surface; the parts are the whole body,
+        its fluid core and its inner core. Symmetric (Betti); [0, 0] is k.
+    lift : array, shape (..., 3)
+        By how much each of them lifts the level surface above the ground, over its size: 1 + k - h.
     """
 
     k: Array
@@ -48,13 +54,28 @@ class Yielding:
     l: Array  # noqa: E741  (the field's own name)
     k_load: Array
     h_load: Array
-    core_k: Array
-    k_pressure: Array
-    core_k_pressure: Array
+    l_load: Array
+    answers: Array
+    lift: Array
+
+    @property
+    def core_k(self) -> Array:
+        """As k, but of the masses of all the core alone."""
+        return np.asarray(self.answers[..., 1:, 0].sum(axis=-1))
+
+    @property
+    def k_pressure(self) -> Array:
+        """As k, for a potential in the core alone: a core that turns about another axis."""
+        return np.asarray(self.answers[..., 0, 1:].sum(axis=-1))
+
+    @property
+    def core_k_pressure(self) -> Array:
+        """As `core_k`, for a potential in the core alone."""
+        return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
 def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
-    """Love numbers of degree two, of tide, load and core pressure.
+    """Love numbers of degree two, and the answers of the parts to potentials in the parts.
 
     Parameters
     ----------
@@ -66,21 +87,22 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
     Raises
     ------
     UndefinedError
-        If the surface is liquid or there is no liquid core.
+        If the surface is liquid, or liquid and solid layers alternate further than inner core,
+        fluid core, mantle.
     """
-    if not body.layers[-1].vs or all(layer.vs for layer in body.layers):
+    fluid = [not layer.vs for layer in body.layers]
+    if fluid[-1] or sum(a != b for a, b in zip(fluid[1:], fluid[:-1], strict=True)) > 2:
         raise UndefinedError(
-            f"interior '{body.name}': Love numbers need a liquid core and a solid surface"
+            f"interior '{body.name}': Love numbers need a solid surface, and no more under it "
+            "than one liquid core with one solid inner core"
         )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
-    profile = Profile(body)
-    columns = _through_mantle(profile, flat, _through_core(profile, flat))
-    found = _at_surface(profile, columns)
-    return Yielding(*(value.reshape(strain.shape) for value in found))
+    found = _solved(Profile(body), body, flat)
+    return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in found))
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def elastic(layers: LayeredBody) -> Yielding:
     """Love numbers of the elastic body."""
     return yielding(layers)
@@ -115,82 +137,118 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 
 
 # --- from the centre to the surface -------------------------------------------------------------
+#
+# States are kept as columns: first one for each unknown, then one for each potential that is put
+# to the body. A potential acts where it acts: across a boundary y5 jumps by the difference times
+# r2, and y6 by five times the difference times r.
 
 
-def _through_core(profile: Profile, strain: Array) -> Array:
-    """The regular solution (y5, y7) at the top of the liquid core, shape (strain, 2)."""
-    pair = np.broadcast_to(liquid_centre(profile), (strain.size, 2)).astype(strain.dtype)
-    i, r = 0, START
-    if profile.layers[0].vs:
-        y = solid_centre(profile, strain)
-        while profile.layers[i].vs:
-            y = carry(solid(profile, i, strain), r, profile.tops[i], y)
-            r, i = profile.tops[i], i + 1
-        # No shear at the liquid, and the liquid's pressure: two conditions on three columns.
-        rho, g = profile.density(i, r), profile.gravity(i, r)
-        tangential, normal = y[:, 3], y[:, 1] - rho * (g * y[:, 0] - y[:, 4])
-        mix = np.cross(tangential, normal)
-        y2, y5, y6 = (np.sum(y[:, row] * mix, axis=1) for row in (1, 4, 5))
-        pair[:, 0], pair[:, 1] = y5, y6 + FOUR_PI_G * y2 / g
-    pair = pair / abs(pair[:, :1])
-    while not profile.layers[i].vs:
-        pair = carry(liquid(profile, i), r, profile.tops[i], pair[..., None])[..., 0]
-        r, i = profile.tops[i], i + 1
-    return pair
-
-
-def _through_mantle(profile: Profile, strain: Array, pair: Array) -> Array:
-    """Columns at the core's top and at the surface, shape (2, strain, 6, 4).
-
-    The columns: one of the core's own potential, the two displacements of its boundary,
-    which the liquid leaves free, and the pressure of a potential r2 in the core alone.
-    """
-    b = profile.core
-    i = next(n for n, top in enumerate(profile.tops) if top > b)
-    rho, g = profile.density(i - 1, b), profile.gravity(i - 1, b)
-    y = np.zeros((strain.size, 6, 4), dtype=strain.dtype)
-    y[:, 1, 0], y[:, 4, 0] = -rho * pair[:, 0], pair[:, 0]
-    y[:, 5, 0] = pair[:, 1] + FOUR_PI_G * rho * pair[:, 0] / g
-    y[:, 0, 1], y[:, 1, 1], y[:, 5, 1] = 1, rho * g, -FOUR_PI_G * rho
-    y[:, 2, 2] = 1
-    # The pair carries the potential that the liquid feels; gravity has r2 less.
-    y[:, 4, 3], y[:, 5, 3] = -(b**2), -5 * b
-    bottom, r = y, b
-    for n in range(i, len(profile.tops)):
-        y = carry(solid(profile, n, strain), r, profile.tops[n], y)
-        r = profile.tops[n]
-    return np.stack([bottom, y])
-
-
-def _at_surface(profile: Profile, columns: Array) -> tuple[Array, ...]:
-    """Meet the three conditions at the surface for tide, load and core pressure."""
-    bottom, top = columns
-    conditions = top[:, [1, 3, 5], :3]
-    pressure = -top[:, [1, 3, 5], 3]
-    given = np.stack(
-        [
-            np.broadcast_to([0.0, 0.0, 5.0], pressure.shape),  # a tide of potential 1
-            np.broadcast_to([-5 / 3, 0.0, 5.0], pressure.shape),  # the weight of a load
-            pressure,
-        ],
-        axis=-1,
-    )
-    mix = np.linalg.solve(conditions, given)
-    surface = top[..., :3] @ mix
-    surface[..., 2] += top[..., 3]
-    core = bottom[..., :3] @ mix
-    core[..., 2] += bottom[..., 3]
-    k, h = surface[:, 4], surface[:, 0]
-    # What the masses inside b add to the potential there, b3 (y5 - b y6/5), as a k.
-    b = profile.core
-    inside = b**3 * (core[:, 4] - b * core[:, 5] / 5)
+def _solved(profile: Profile, body: LayeredBody, strain: Array) -> tuple[Array, ...]:
+    """Meet the conditions at boundaries and surface for all potentials at once."""
+    zero = np.zeros((strain.size, 3, 4))
+    if not body.core_radius:
+        y = _across(profile, 0, solid_centre(profile, strain), strain)
+        bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
+        conditions: list[Array] = []
+        inner = core = None
+    else:
+        first, inner, conditions = _through_inner_core(profile, body, strain)
+        pair, i = _through_liquid(profile, body, first)
+        bottom = _onto_mantle(profile, body, pair)
+        core = bottom
+        y = _across(profile, i, bottom, strain)
+    given = np.zeros((3, 4))
+    given[0, _LOAD] = -5 / 3  # the weight of a load
+    given[2] = 5 * _ACTS_IN[2]
+    unknowns = y.shape[-1] - 4
+    met = np.concatenate([*conditions, y[:, [1, 3, 5]]], axis=1)
+    wanted = np.zeros((met.shape[1], 4))
+    wanted[-3:] = given
+    mix = np.linalg.solve(met[..., :unknowns], wanted - met[..., unknowns:])
+    mix = np.concatenate([mix, np.broadcast_to(np.eye(4), (strain.size, 4, 4))], axis=1)
+    top = y @ mix
+    answers = zero.astype(top.dtype)
+    answers[:, 0] = top[:, 4] - _ACTS_IN[2]
+    if core is not None:
+        b = body.core_radius / body.radius
+        answers[:, 1] = _inside(core @ mix, b)
+    if inner is not None:
+        r = body.inner_core_radius / body.radius
+        answers[:, 2] = _inside(inner @ mix, r)
+        answers[:, 1] -= answers[:, 2]
+    lift = top[:, 4] - top[:, 0]
     return (
-        k[:, 0] - 1,
-        h[:, 0],
-        surface[:, 2, 0],
-        k[:, 1] - 1,
-        h[:, 1],
-        inside[:, 0],
-        k[:, 2],
-        inside[:, 2],
-    )
+        answers[:, 0, 0], top[:, 0, 0], top[:, 2, 0],
+        answers[:, 0, _LOAD], top[:, 0, _LOAD], top[:, 2, _LOAD],
+        answers[..., :_LOAD], lift[:, :_LOAD],
+    )  # fmt: skip
+
+
+def _inside(state: Array, r: float) -> Array:
+    """What the masses inside r add to the potential there, r3 (y5 - r y6/5), as a k."""
+    return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
+
+
+def _across(profile: Profile, first: int, y: Array, strain: Array) -> Array:
+    """Carry columns through solid layers, from the first of them to the next liquid."""
+    r = START if first == 0 else profile.tops[first - 1]
+    for i in range(first, len(profile.tops)):
+        if not profile.layers[i].vs:
+            break
+        y = transfer(solid(profile, i, strain), r, profile.tops[i]) @ y
+        r = profile.tops[i]
+    return y
+
+
+def _through_inner_core(
+    profile: Profile, body: LayeredBody, strain: Array
+) -> tuple[Array, Array | None, list[Array]]:
+    """The pair (y5, y7) at the bottom of the liquid, the inner core's top, and what is to hold."""
+    if not body.inner_core_radius:
+        pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
+        pair[:, :, 0] = liquid_centre(profile)
+        return pair, None, []
+    y = _across(profile, 0, solid_centre(profile, strain), strain)
+    blank = np.zeros((strain.size, 6, 2 + 4))
+    y = np.concatenate([y, blank], axis=-1)
+    r = body.inner_core_radius / body.radius
+    i = profile.tops.index(r) + 1
+    rho, g = profile.density(i, r), profile.gravity(i, r)
+    y5, y6 = _stepped(y, r, _ACTS_IN[1] - _ACTS_IN[0])
+    # No shear at the liquid, and the liquid's pressure.
+    conditions = np.stack([y[:, 3], y[:, 1] - rho * (g * y[:, 0] - y5)], axis=1)
+    return np.stack([y5, y6 + FOUR_PI_G * y[:, 1] / g], axis=1), y, [conditions]
+
+
+def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
+    """y5 and y6 on the other side of a boundary, where other potentials act."""
+    y5, y6 = y[:, 4].copy(), y[:, 5].copy()
+    y5[:, -4:] += step * r**2
+    y6[:, -4:] += 5 * step * r
+    return y5, y6
+
+
+def _through_liquid(profile: Profile, body: LayeredBody, pair: Array) -> tuple[Array, int]:
+    """The pair at the top of the liquid, and the first layer above it."""
+    r = body.inner_core_radius / body.radius or START
+    i = next(n for n, layer in enumerate(profile.layers) if not layer.vs)
+    while not profile.layers[i].vs:
+        pair = transfer(liquid(profile, i), r, profile.tops[i]) @ pair
+        r, i = profile.tops[i], i + 1
+    return pair, i
+
+
+def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
+    """The bottom of the mantle; its two displacements, which the liquid leaves free, are unknown.
+
+    They are the last two of the unknowns.
+    """
+    b = body.core_radius / body.radius
+    i = profile.tops.index(b)
+    rho, g = profile.density(i, b), profile.gravity(i, b)
+    y = np.zeros((pair.shape[0], 6, pair.shape[2]), dtype=pair.dtype)
+    y[:, 0, -6], y[:, 2, -5] = 1, 1
+    y[:, 1] = rho * (g * y[:, 0] - pair[:, 0])
+    y[:, 4], y[:, 5] = pair[:, 0], pair[:, 1] - FOUR_PI_G * y[:, 1] / g
+    y[:, 4], y[:, 5] = _stepped(y, b, _ACTS_IN[2] - _ACTS_IN[1])
+    return y

@@ -12,6 +12,7 @@ from earthspin.constants import G
 from earthspin.interior.love import elastic, softening, yielding
 from earthspin.interior.prem import PREM, PREM_WITH_OCEAN
 from tests.conftest import load_pins
+from tests.interior.another_integration import other_answers
 from tests.interior.shells import sphere
 
 PINS = load_pins("wobble")
@@ -70,8 +71,46 @@ def test_a_softer_body_yields_more_and_lags() -> None:
     assert k[3].imag < 0
 
 
-def test_love_numbers_need_a_core_and_a_solid_surface() -> None:
+def test_love_numbers_need_a_solid_surface_and_one_core() -> None:
     with pytest.raises(UndefinedError, match="solid surface"):
         yielding(PREM_WITH_OCEAN)
-    with pytest.raises(UndefinedError, match="liquid core"):
-        yielding(sphere((6e6, 5e3, 1e11)))
+    firm, wet = (lambda top: (top, 5e3, 1e11)), (lambda top: (top, 5e3, 0.0))
+    with pytest.raises(UndefinedError, match="one liquid core"):
+        yielding(sphere(wet(1e6), firm(2e6), wet(3e6), firm(4e6)))
+
+
+def test_a_sphere_solid_throughout() -> None:
+    """Kelvin (1863) for an incompressible one: k2 = (3/2)/(1 + 19 mu/(2 rho g R))."""
+    body = sphere((6.4e6, 5500.0, 1e11), stiff=1e7)
+    stiffness = 1 + 9.5 * 1e11 / (5500.0 * G.value * body.mass / body.radius**2 * body.radius)
+    found = yielding(body)
+    assert np.isclose(found.k, 1.5 / stiffness, rtol=1e-6, atol=0)
+    assert np.isclose(found.h, 2.5 / stiffness, rtol=1e-6, atol=0)
+    assert np.isclose(found.l, 0.75 / stiffness, rtol=1e-6, atol=0)
+    assert not np.any(found.answers[1:])
+
+
+def test_what_one_part_answers_to_another() -> None:
+    """Betti's theorem: part i answers to a potential in part j as j to one in i."""
+    for strain in (0.0, -14 + 3j):
+        found = yielding(PREM, strain).answers
+        sizes = np.sqrt(abs(np.diagonal(found)))
+        off = (found - found.T) / np.outer(sizes, sizes)
+        assert np.max(abs(off)) < 1e-11  # measured: 5e-13
+
+
+def test_a_load_answers_as_a_tide_lifts() -> None:
+    """Reciprocity of tide and load in degree two: k' = k - h (Molodenskiy 1977)."""
+    found = elastic(PREM)
+    assert np.isclose(found.k_load, found.k - found.h, rtol=2e-11, atol=0)
+
+
+def test_prem_by_another_integration() -> None:
+    """Stress and strain in place of Takeuchi and Saito's matrix, Poisson's equation in the liquid.
+
+    By an adaptive Runge-Kutta method in the logarithm of the radius, to 1e-11.
+    """
+    other, found = other_answers(PREM), elastic(PREM).answers
+    sizes = np.sqrt(abs(np.diagonal(found)))
+    off = (found - other) / np.outer(sizes, sizes)
+    assert np.max(abs(off)) < 5e-11  # measured: 1.1e-11

@@ -232,17 +232,6 @@ def test_a_body_without_an_interior_stops_at_the_rigid_rungs() -> None:
     assert "another mass" in heavy.rung.left_out
 
 
-def test_an_exponent_of_zero_is_the_limit() -> None:
-    year = 3e7
-    near, at = (ladder.anelastic_strain(year, a) for a in (1e-9, 0.0))
-    assert abs(near - at) < 4e-7
-    assert at == pytest.approx(-2 / np.pi * np.log(year) + 1j, rel=1e-15, abs=0)
-    x = (year / 200) ** 0.15
-    growth = (1 - x) / np.tan(0.075 * np.pi)
-    expected = -2 / np.pi * np.log(200) + growth + 1j * x
-    assert ladder.anelastic_strain(year, 0.15) == pytest.approx(expected, rel=1e-14, abs=0)
-
-
 def test_settings_of_the_ladder() -> None:
     everywhere = earthspin.wobble_ladder(ocean="global").period_sidereal
     assert float(everywhere.sel(rung="ocean")) == pytest.approx(440.2, abs=0.1)
