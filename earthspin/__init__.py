@@ -16,6 +16,7 @@ _HOME = {
     "earthspin.questions.torque": ("torque_series",),
     "earthspin.questions.pole": ("pole",),
     "earthspin.questions.iau": ("compare_iau",),
+    "earthspin.questions.nutation": ("nutation_ladder",),
     "earthspin.questions.long_term": ("long_term",),
     "earthspin.questions.cassini": ("cassini_states",),
     "earthspin.sky.orbit_files": ("read_orbit",),

@@ -146,6 +146,33 @@ def compare_iau(
     ]
     | None = ...,
 ) -> xr.Dataset: ...
+def nutation_ladder(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Dates | None = ...,
+    effects: Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    coupling: Literal["none", "inferred"] | None = ...,
+    anelastic_exponent: Value | None = ...,
+) -> xr.Dataset: ...
 def long_term(
     start: Date | None = ...,
     stop: Date | None = ...,
@@ -251,6 +278,7 @@ __all__ = [
     "heavy_top",
     "load_scene",
     "long_term",
+    "nutation_ladder",
     "open",
     "plan",
     "polar_motion",

@@ -20,6 +20,7 @@ from earthspin.questions.cassini import CassiniStates
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.iau import IAU
 from earthspin.questions.long_term import LongTerm
+from earthspin.questions.nutation import NutationLadder
 from earthspin.questions.polar_motion import PolarMotion
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
 QUESTIONS: dict[str, type[Question]] = {
     question.word: question
     for question in (
-        Precession, Torque, Pole, IAU, LongTerm, Wobble, PolarMotion, FreeRotor, Top, Spheroid,
-        CassiniStates,
+        Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Wobble, PolarMotion, FreeRotor,
+        Top, Spheroid, CassiniStates,
     )
 }  # fmt: skip
 

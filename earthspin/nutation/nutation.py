@@ -11,6 +11,7 @@ follow by least squares, so that two poles analysed alike can be divided term by
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,6 +83,31 @@ class Circles:
         for multiple, amplitude in zip(self.multiples, self.amplitude, strict=True):
             total += amplitude * np.exp(1j * (multiple @ arguments))
         return total
+
+
+def responses(
+    circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
+) -> dict[str, ComplexArray]:
+    """Sums of the same circles with other amplitudes, several at once.
+
+    Parameters
+    ----------
+    circles : Circles
+    arguments : ndarray, shape (5, t)
+        Delaunay arguments, rad.
+    factors : mapping of str to ndarray, shape (k,), complex
+        Of the amplitudes.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (t,), complex
+        rad.
+    """
+    sizes = np.array([factor * circles.amplitude for factor in factors.values()])
+    total = np.zeros((len(sizes), arguments.shape[1]), dtype=complex)
+    for multiple, of in zip(circles.multiples, sizes.T, strict=True):
+        total += of[:, np.newaxis] * np.exp(1j * (multiple @ arguments))
+    return dict(zip(factors, total, strict=True))
 
 
 class FrequencyAnalysis:

@@ -18,6 +18,7 @@ DIMENSIONS = {
     "torque": {"time", "perturber", "component"},
     "pole": {"time", "axis"},
     "iau": {"effect"},
+    "nutation": {"rung"},
     "long-term": {"epoch", "component", "perturber"},
     "wobble": {"rung"},
     "polar-motion": {"time"},

@@ -19,6 +19,7 @@ SCENES = {
     "torque": "torque",
     "pole": "pole",
     "iau": "iau",
+    "nutation": "nutation",
     "long-term": "long-term",
     "wobble": "wobble",
     "polar-motion": "polar-motion",
@@ -37,6 +38,9 @@ NAMES = {
     "iau": {
         *("residuals", "residuals_by_model", "residual_sizes", "nutation", "core", "angles"),
         *("inferred_flattening", "neglected"),
+    },
+    "nutation": {
+        *("beside", "terms", "modes", "transfer", "compliances", "residuals", "neglected"),
     },
     "long-term": {"budget", "matrices", "neglected"},
     "wobble": {"observed", "sensitivity", "core_nutation", "interior", "neglected"},

@@ -1,0 +1,102 @@
+"""The response of the inside of a body to nutation, predicted from its layers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import Body, in_a_sentence
+from earthspin.engine.part import part
+from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS
+from earthspin.parts.reasons import no_iau_model
+
+if TYPE_CHECKING:
+    from earthspin.interior.named import Interior
+    from earthspin.nutation.ladder import Rung
+
+#: The rung that stands for the prediction where one response is asked for.
+CHOSEN = "core-ellipticity"
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Models of the inside of a body, rung by rung.
+
+    Attributes
+    ----------
+    rungs : dict of str to Rung
+        Those of the ladder and those beside it.
+    e : float
+        Observed (C - A)/A.
+    spin_rate : float
+        rad/s.
+    uncertainty : mapping of str to float
+        One standard deviation over value, of the interior's numbers.
+    """
+
+    rungs: dict[str, Rung]
+    e: float
+    spin_rate: float
+    uncertainty: Mapping[str, float]
+
+    @property
+    def ladder(self) -> list[str]:
+        """Names of the rungs, those beside the ladder left out."""
+        from earthspin.nutation.ladder import BESIDE
+
+        return [name for name in self.rungs if name not in BESIDE]
+
+    def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """T of a rung at frequencies in space, rad/s."""
+        return self.rungs[name].transfer(frequency / self.spin_rate - 1, self.e)
+
+    def half_width(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
+        """95 % half-width of T, from the uncertainty of the interior's numbers."""
+        sigma = frequency / self.spin_rate - 1
+        return self.rungs[name].transfer_half_width(sigma, self.e, self.uncertainty)
+
+
+def layered(body: Body) -> Interior | None:
+    """Interior of a body, if it has one with layers, a core and an inner core."""
+    interior = INTERIORS.get(str(body.interior))
+    if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
+        return None
+    return interior
+
+
+def no_layers(body: Body) -> str | None:
+    """Leave a prediction out where the layers of the body are not known."""
+    if no_iau_model(body):
+        return no_iau_model(body)
+    if layered(body) is not None:
+        return None
+    return f"no layers with an inner core are known of {in_a_sentence(body.name)}"
+
+
+def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction:
+    """Climb the ladder of a body with layers."""
+    from earthspin.nutation import ladder
+    from earthspin.wobble.ladder import Spin
+
+    interior = layered(body)
+    assert interior is not None
+    assert interior.layers is not None
+    h, spin_rate = body.number("dynamical_flattening"), float(body.spin_rate)
+    e, ocean = h / (1 - h), 0.0
+    if interior.ocean is not None:
+        spin = Spin(body.number("gm"), body.number("radius"), body.number("spin_period"))
+        mean = (interior.ocean[0][0] + interior.ocean[1][1]) / 2
+        ocean = mean / spin.centrifugal(interior.layers.radius)
+    setting = ladder.Setting(interior.layers, e, spin_rate, ocean, anelastic_exponent)
+    rungs = ladder.climb(setting, coupling)
+    return Prediction(rungs, e, spin_rate, interior.relative_uncertainty)
+
+
+@part(unless=no_layers)
+def prediction(body: Body) -> Prediction:
+    """Predict the response of the inside from its layers."""
+    return predict(body, False, ANELASTIC_EXPONENT.value)

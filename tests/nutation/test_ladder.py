@@ -1,0 +1,144 @@
+"""The nutation ladder: an independent computation, IAU 2000A, and what each rung must do."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EARTH, MARS, SceneError
+from earthspin.interior.diurnal_ocean import WAVES, diurnal_response, wave_response
+from earthspin.interior.prem import PREM
+from earthspin.nutation import ladder
+from tests.conftest import load_pins
+
+PINS = load_pins("nutation")
+H = EARTH.dynamical_flattening
+SETTING = ladder.Setting(PREM, H / (1 - H), float(EARTH.spin_rate), 0.0453, 0.09)
+
+
+@pytest.fixture(scope="module")
+def tree() -> xr.DataTree:
+    scene = earthspin.load_scene("nutation", {"nutation.coupling": "inferred"})
+    return earthspin.run_tree(scene)
+
+
+@pytest.fixture(scope="module")
+def rungs() -> dict[str, ladder.Rung]:
+    return ladder.climb(SETTING, coupling=True)
+
+
+def test_what_is_left_beside_an_independent_computation(tree: xr.DataTree) -> None:
+    for node, label, prefix in ((tree, "rung", ""), (tree["beside"], "model", "model_")):
+        for name in node[label].values:
+            if name != "coupling":
+                row = node.to_dataset().sel({label: name})
+                PINS[f"{name} rms dpsi"].check(row[f"{prefix}rms_dpsi_sineps"])
+                PINS[f"{name} rms deps"].check(row[f"{prefix}rms_deps"])
+
+
+def test_the_rungs_come_nearer(tree: xr.DataTree) -> None:
+    """From the fluid core on each rung leaves less than the one before."""
+    left = np.hypot(tree.rms_dpsi_sineps, tree.rms_deps).values[2:]
+    assert np.all(np.diff(left) < 0)
+    assert left[-1] < 0.5
+
+
+def test_residuals_are_what_the_sizes_are_of(tree: xr.DataTree) -> None:
+    residuals = tree["residuals"].to_dataset()
+    for name in ("dpsi_sineps", "deps"):
+        sizes = np.sqrt((residuals[name] ** 2).mean("time"))
+        assert np.allclose(sizes, tree[f"rms_{name}"], rtol=1e-12, atol=0)
+
+
+def test_terms_of_the_last_rung_are_those_of_the_iau(tree: xr.DataTree) -> None:
+    """Nothing of what is left in the main terms is larger than half a milliarcsecond."""
+    terms = tree["terms"].to_dataset().sel(rung="core-ellipticity")
+    for phase in ("in_phase", "out_of_phase"):
+        off = abs(terms[f"predicted_{phase}"] - terms[f"iau_{phase}"])
+        assert float(off.max()) < 0.5
+    assert np.all(tree["terms"].predicted_error > 0)
+
+
+def test_free_modes_of_the_rungs(tree: xr.DataTree) -> None:
+    modes = tree["modes"].to_dataset()
+    period = modes.mode_period
+    PINS["inner core nutation"].check(period.sel(mode="inner-core inner_core_nutation"))
+    PINS["free core nutation"].check(period.sel(mode="inner-core free_core_nutation"))
+    observed = ladder.OBSERVED_CORE_NUTATION
+    for rung in ("core-ellipticity", "coupling"):
+        found = float(period.sel(mode=f"{rung} free_core_nutation"))
+        assert abs(found - observed.value) < 1e-3
+    assert "fluid-core inner_core_nutation" not in modes.mode
+    assert not np.any(np.isnan(period))
+    assert np.all(modes.mode_quality[modes.mode_rung == "rigid"] == np.inf)
+    coupled = modes.mode_quality.sel(mode="coupling free_core_nutation")
+    assert 14e3 < float(coupled) < 2.1e4  # published: 20,000 (Mathews, Herring & Buffett 2002)
+
+
+def test_the_core_that_coupling_leaves_is_the_published_one(rungs: dict[str, ladder.Rung]) -> None:
+    """e_f = 2.6456e-3 (Mathews, Herring & Buffett 2002, table 2)."""
+    assert abs(rungs["coupling"].core_ellipticity - 2.6456e-3) < 2e-6  # measured: 7e-7
+
+
+def test_every_rung_keeps_precession(rungs: dict[str, ladder.Rung]) -> None:
+    for name, rung in rungs.items():
+        found = rung.transfer(np.array([-1.0]), SETTING.e)
+        assert abs(found[0] - 1) < (2e-2 if name == "hydrostatic" else 1e-13), name
+
+
+def test_rigid_has_transfer_one(rungs: dict[str, ladder.Rung]) -> None:
+    sigma = -1 + np.array([-0.1, -1e-3, 1e-3, 0.1])
+    assert np.allclose(rungs["rigid"].transfer(sigma, SETTING.e), 1, rtol=1e-13, atol=0)
+
+
+def test_free_modes_lose_energy(rungs: dict[str, ladder.Rung]) -> None:
+    for name in ("ocean", "anelastic", "core-ellipticity", "coupling"):
+        for mode, s in rungs[name].modes().items():
+            assert s.imag > -1e-9, (name, mode)
+
+
+def test_an_ocean_of_a_day_lags_and_falls_short() -> None:
+    """K1 of FES2004: against the equilibrium ocean of the wobble, which adds, it takes off."""
+    for wave in WAVES.values():
+        found = wave_response(wave)
+        assert -0.025 < found.real < -0.015
+        assert 0.015 < found.imag < 0.025
+    at = diurnal_response(np.array([-1.0, -2.0, -0.5]))
+    assert at[0] == at[1] == wave_response(WAVES["K1"])
+    assert at[2] == wave_response(WAVES["Q1"])
+
+
+def test_the_response_of_a_sphere_across_the_resonance(rungs: dict[str, ladder.Rung]) -> None:
+    """k of O1, P1, K1 and psi1 beside Wahr 1981 (recalled), on an ellipse that turns."""
+    from earthspin.interior.love import elastic
+    from earthspin.interior.rotation import system
+
+    waves = {"O1": (13.94304, 0.298), "P1": (14.95893, 0.287), "K1": (15.04107, 0.256),
+             "psi1": (15.08214, 0.466)}  # fmt: skip
+    parts = rungs["inner-core"].parts(np.array(-1.0))
+    p, q, right, left = system(parts)
+    answers = elastic(PREM).answers
+    for wave, (degrees, published) in waves.items():
+        sigma = -degrees / 15.04107
+        x = np.linalg.solve(sigma * p + q, sigma * right + left).real
+        # the potential of tide and wobble that the whole body yields to is that of phi - m
+        k = answers[0] @ np.array([1 - x[0], -x[1], -x[2]])
+        assert abs(k / published - 1) < 0.02, wave  # measured: 0.015
+
+
+def test_errors_of_modes_and_terms_follow_the_inputs(rungs: dict[str, ladder.Rung]) -> None:
+    none = rungs["inner-core"].mode_half_widths({})
+    assert set(none.values()) == {0.0}
+    flat = rungs["inner-core"].mode_half_widths({"core_ellipticity": 0.02})
+    # the frequency of the core's nutation goes with e_f A/A_m
+    expected = 1.96 * 0.02 * 2.5474e-3 * 1.13
+    assert flat["free_core_nutation"] == pytest.approx(expected, rel=0.03, abs=0)
+    observed = rungs["core-ellipticity"].mode_half_widths({"core_ellipticity": 0.02})
+    assert observed["free_core_nutation"] < 0.02 * flat["free_core_nutation"]
+
+
+def test_a_body_without_layers_is_refused() -> None:
+    with pytest.raises(SceneError, match="IAU has no precession model for Mars"):
+        earthspin.nutation_ladder(body=MARS)
+    with pytest.raises(SceneError, match="no layers with an inner core"):
+        earthspin.nutation_ladder(body=EARTH.replace(interior="none"))
