@@ -119,6 +119,7 @@ def pole(
         ]
     ]
     | None = ...,
+    response: Literal["fitted", "predicted"] | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
 def compare_iau(

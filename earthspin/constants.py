@@ -95,6 +95,9 @@ FIRST_ORDER_RATE = Constant(
 )
 J2_AND_TILT_RATE = Constant(-269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2, planetary tilt")
 
+#: Of the rate of omega_A: the tides that the Earth raises and drags along tilt its axis.
+TIDES_IN_OBLIQUITY = Constant(2.4e-5, "arcsec yr-1", None, _P03_TABLE3 + ": tides, in obliquity")
+
 PREM_MEAN_MOMENT = Constant(
     0.330799,
     "",

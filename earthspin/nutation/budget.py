@@ -16,6 +16,7 @@ from earthspin.constants import (
     NORMAL_95,
     OMEGA_A_RATE,
     PUBLISHED_EFFECTS,
+    TIDES_IN_OBLIQUITY,
 )
 from earthspin.nutation.analysis import Secular
 
@@ -105,6 +106,10 @@ class Budget:
         IAU 2006.
     closure, omega_closure : float
         Ours, with the published non-linear term, less the IAU's.
+    omega_closure_with_tides : float
+        With the published effect of tides in obliquity as well.
+    psi_from_h : float
+        One standard deviation of the rate of psi_A from that of H.
     psi_analysis_error, omega_analysis_error : float
         By what the analysis misses the rates of the IAU's own pole.
     """
@@ -122,6 +127,8 @@ class Budget:
     omega_iau: float
     closure: float
     omega_closure: float
+    omega_closure_with_tides: float
+    psi_from_h: float
     psi_analysis_error: float
     omega_analysis_error: float
 
@@ -176,6 +183,10 @@ def budget_of(
         omega_iau=iau_omega_rate(),
         closure=full_closure(ours.psi_rate, psi_iau),
         omega_closure=ours.omega_rate - iau_omega_rate(),
+        omega_closure_with_tides=ours.omega_rate
+        + TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
+        - iau_omega_rate(),
+        psi_from_h=u_h * abs(psi[FIRST_ORDER]),
         psi_analysis_error=psi_missed,
         omega_analysis_error=omega_missed,
     )

@@ -15,7 +15,7 @@ built into it and measures nothing anew.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,14 @@ INNER_CORE_NUTATION = -0.999026 + 0.000780j
 #: of an atmospheric tide in step with the Sun (Mathews, Herring & Buffett 2002), which no
 #: response of the body makes.
 SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
+#: Terms to which IAU 2000A adds what no response of the body makes: of the atmosphere at a year,
+#: to either side, and of the second order at 18.6 years. A response that may not absorb them is
+#: fitted to the others; what is left of these three then measures what was added.
+ADDED_TO = {
+    "prograde year": SUN_SYNCHRONOUS,
+    "retrograde year": (0, -1, 0, 0, 0),
+    "prograde 18.6 years": (0, 0, 0, 0, -1),
+}
 
 #: Where the search for the free core nutation begins (same table).
 CORE_NUTATION_START = (-1.0023181, 0.000025)
@@ -41,9 +49,8 @@ CORE_NUTATION_START = (-1.0023181, 0.000025)
 
 #: By what the fit may miss the free core nutation that made a series, s, and its quality factor,
 #: relative. Measured on IAU 2000A, which has -430.21 d and 20,000 built in (Mathews, Herring &
-#: Buffett 2002): 0.86 d and 14 per cent. The scatter that the fit leaves would make it 0.04 d; the
-#: modes that are held fixed cost more.
-PERIOD_ERROR, QUALITY_ERROR = 1.0 * DAY, 0.2
+#: Buffett 2002): 0.06 d and 21 per cent, with what it adds to a response taken away (`ADDED_TO`).
+PERIOD_ERROR, QUALITY_ERROR = 0.3 * DAY, 0.3
 
 
 @dataclass(frozen=True)
@@ -91,6 +98,25 @@ class Response:
         """T at frequencies in space, rad/s."""
         base, columns = _form(frequency, self.h, self.spin_rate, self.core_nutation)
         return np.asarray(base + columns @ self.strengths)
+
+
+def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexArray) -> FloatArray:
+    """95 % half-width of what is left of a term that a response was not fitted to, rad.
+
+    What the period of its core nutation may be off makes of the term.
+
+    Parameters
+    ----------
+    response : Response
+    frequency : ndarray, shape (k,)
+        In space, rad/s.
+    rigid : ndarray, shape (k,), complex
+        Amplitudes, rad.
+    """
+    shifted = 2 * np.pi / (response.spin_rate * (response.period + response.period_error))
+    moved = replace(response, core_nutation=complex(shifted - 1, response.core_nutation.imag))
+    change = moved.transfer(frequency) - response.transfer(frequency)
+    return np.asarray(np.abs(change * rigid))
 
 
 def _form(

@@ -13,7 +13,8 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
-from earthspin.motion.effects import NONRIGID
+from earthspin.motion.effects import GEODESIC, NONRIGID
+from earthspin.parts.predicted import CHOSEN, Prediction, no_layers
 from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.progress import progress
@@ -356,6 +357,64 @@ def core_response(pole_analysis: Analysed, body: Body) -> Response:
 
 
 @dataclass(frozen=True)
+class Apart:
+    """A response that is not allowed to absorb what no response makes.
+
+    Attributes
+    ----------
+    response : Response
+        Fitted to all circles but those of `added`.
+    used : ndarray, shape (k,), bool
+        The circles that it is fitted to.
+    left : ndarray, shape (k,), complex
+        What it leaves of each circle of IAU 2000A, rad.
+    added : dict of str to int
+        Place of the circles to which IAU 2000A adds something, by name.
+    """
+
+    response: Response
+    used: NDArray[np.bool_]
+    left: NDArray[np.complex128]
+    added: dict[str, int]
+
+
+@part
+def response_apart(
+    pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
+) -> Apart:
+    """Resonance form fitted with geodesic nutation and additive terms taken away."""
+    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.response import ADDED_TO, fit_response
+    from earthspin.sky import iau
+
+    done = pole_analysis
+    ours, theirs = done.our_circles, done.their_circles.amplitude
+    torques = ours.amplitude
+    if GEODESIC.name in effects:
+        # A turn of the frame is no torque: the body does not answer to it.
+        rest = [effect for effect in effects if effect != GEODESIC.name]
+        path = path_over(body, pulls, rest, done.start, done.days)
+        eta = complex_nutation(iau.nutation_of(done.pole(path, done.days), done.days))
+        torques = done.analysis.circles(eta).amplitude
+    theirs = theirs - (ours.amplitude - torques)
+    places = {
+        name: int(np.flatnonzero(np.all(ours.multiples == multiple, axis=1))[0])
+        for name, multiple in ADDED_TO.items()
+    }
+    used = np.ones(len(torques), dtype=bool)
+    used[list(places.values())] = False
+    response = fit_response(
+        ours.frequency[used],
+        torques[used],
+        theirs[used],
+        body.number("dynamical_flattening"),
+        float(body.spin_rate),
+    )
+    left = theirs - response.transfer(ours.frequency) * torques
+    return Apart(response, used, left, places)
+
+
+@dataclass(frozen=True)
 class Shift:
     """What the non-rigid response adds to the figure and rotation axes.
 
@@ -387,4 +446,12 @@ def nonrigid_shift(pole_analysis: Analysed, core_response: Response) -> Shift:
     """What the fluid core and the yielding mantle add to the rigid nutations."""
     circles = pole_analysis.our_circles
     factor = core_response.transfer(circles.frequency) - 1
+    return Shift(replace(circles, amplitude=circles.amplitude * factor))
+
+
+@part(unless=no_layers)
+def predicted_shift(pole_analysis: Analysed, prediction: Prediction) -> Shift:
+    """What the inside adds to the rigid nutations as its layers predict it."""
+    circles = pole_analysis.our_circles
+    factor = prediction.transfer(CHOSEN, circles.frequency) - 1
     return Shift(replace(circles, amplitude=circles.amplitude * factor))

@@ -20,13 +20,17 @@ from earthspin.engine.question import key, made_of
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.parts.path import (
     Analysed,
+    Apart,
     Shift,
     core_response,
     nonrigid_shift,
     path_over,
     pole_analysis,
+    predicted_shift,
+    response_apart,
     rigid,
 )
+from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.sky import places, sky, unmeasured
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
@@ -148,6 +152,24 @@ BUDGET = {
     "omega_closure": Variable(
         (), "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
     ),
+    "omega_closure_with_tides": Variable(
+        (),
+        "arcsec/yr",
+        "the same with the published effect of tides in obliquity",
+        error="omega_rate_total_error",
+    ),
+    "closure_over_flattening": Variable(
+        (),
+        "1",
+        "closure over what one standard deviation of H makes of the rate",
+        no_error="a measure of error itself",
+    ),
+    "closure_over_uncertainty": Variable(
+        (),
+        "1",
+        "closure over one standard deviation of H and the error of the analysis together",
+        no_error="a measure of error itself",
+    ),
     "psi_rate_analysis_error": Variable(
         (), "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
     ),
@@ -177,6 +199,10 @@ def budget(rates_by_effect: Budget) -> xr.Dataset:
             "omega_rate_iau": of.omega_iau,
             "closure": of.closure,
             "omega_closure": of.omega_closure,
+            "omega_closure_with_tides": of.omega_closure_with_tides,
+            "closure_over_flattening": of.closure / of.psi_from_h,
+            "closure_over_uncertainty": of.closure
+            / math.hypot(of.psi_from_h, of.psi_analysis_error),
             "psi_rate_analysis_error": of.psi_analysis_error,
             "omega_rate_analysis_error": of.omega_analysis_error,
         },
@@ -189,7 +215,7 @@ def budget(rates_by_effect: Budget) -> xr.Dataset:
 
 @dataclass(frozen=True)
 class Differences:
-    """Our pole less the IAU's in time, for three models, as dpsi sin(eps0) and deps, rad.
+    """Our pole less the IAU's in time, for each model, as dpsi sin(eps0) and deps, rad.
 
     Attributes
     ----------
@@ -219,8 +245,9 @@ def differences(
     epochs: TimeGrid | TimeList,
     body: Body,
     effects: tuple[str, ...],
+    predicted_shift: Shift | None = None,
 ) -> Differences:
-    """Computed pole minus the IAU's in time, for three models."""
+    """Computed pole minus the IAU's in time, for each model."""
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -244,6 +271,8 @@ def differences(
         "rigid": ours,
         "nonrigid": ours + nonrigid_shift.eta(days),
     }
+    if predicted_shift is not None:
+        models["predicted"] = ours + predicted_shift.eta(days)
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
@@ -447,7 +476,8 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     return build(NUTATION, values, coords={"term": labels})
 
 
-_LEFT = "part of a fit; response_rms and response_maximum measure its residuals"
+_LEFT = "part of a fit; its residuals measure it"
+_ADDED = ("added_to",)
 CORE = {
     **with_error(
         "core_nutation_period", Variable((), "d", "period of the free core nutation in space")
@@ -459,31 +489,72 @@ CORE = {
     "strength_imaginary": Variable(
         ("mode",), "1", "fitted strength, imaginary part", no_error=_LEFT
     ),
-    "response_rms": Variable(
-        (), "uas", "root mean square of the residuals of the response", no_error=_LEFT
+    "core_nutation_period_absorbing": Variable(
+        (),
+        "d",
+        "the same by the response that absorbs what it can",
+        no_error="short of core_nutation_period by what the response absorbs",
     ),
-    "response_maximum": Variable((), "uas", "largest residual of the response", no_error=_LEFT),
+    "response_rms": Variable(
+        (),
+        "uas",
+        "root mean square of the residuals of the response that absorbs what it can",
+        no_error=_LEFT,
+    ),
+    "response_maximum": Variable(
+        (), "uas", "largest residual of the response that absorbs what it can", no_error=_LEFT
+    ),
+    "apart_rms": Variable(
+        (),
+        "uas",
+        "root mean square of the residuals of the response that may not absorb additive terms, "
+        "these left out",
+        no_error=_LEFT,
+    ),
+    "added_in_phase": Variable(
+        _ADDED, "uas", "what IAU 2000A adds to a response, in phase", error="added_error"
+    ),
+    "added_out_of_phase": Variable(
+        _ADDED, "uas", "what IAU 2000A adds to a response, out of phase", error="added_error"
+    ),
+    "added_error": Variable(
+        _ADDED, "uas", "95 % half-width of what is added, from the period of the core nutation"
+    ),
 }
 
 
 @part(gives=CORE)
-def core(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
+def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> xr.Dataset:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
+    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.response import added_half_width
+
+    apart, alone = response_apart, response_apart.response
+    rows = list(apart.added.values())
+    added_in, added_out = phases(apart.left[rows])
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
     return build(
         CORE,
         {
-            "core_nutation_period": core_response.period,
-            "core_nutation_period_error": core_response.period_error,
-            "core_nutation_quality": core_response.quality,
-            "core_nutation_quality_error": core_response.quality_error,
-            "strength_real": core_response.strengths.real,
-            "strength_imaginary": core_response.strengths.imag,
+            "core_nutation_period": alone.period,
+            "core_nutation_period_error": alone.period_error,
+            "core_nutation_quality": alone.quality,
+            "core_nutation_quality_error": alone.quality_error,
+            "strength_real": alone.strengths.real,
+            "strength_imaginary": alone.strengths.imag,
+            "core_nutation_period_absorbing": core_response.period,
             "response_rms": float(np.sqrt(np.mean(left**2))),
             "response_maximum": float(np.max(left)),
+            "apart_rms": float(np.sqrt(np.mean(np.abs(apart.left[apart.used]) ** 2))),
+            "added_in_phase": added_in,
+            "added_out_of_phase": added_out,
+            "added_error": added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
         },
-        coords={"mode": ["constant", "chandler", "core", "inner-core"]},
+        coords={
+            "mode": ["constant", "chandler", "core", "inner-core"],
+            "added_to": list(apart.added),
+        },
     )
 
 
@@ -603,8 +674,8 @@ made_of(
         "neglected": neglected,
     },
     parts=(
-        places, sky, pulls, epochs, pole_analysis, rates_by_effect, core_response, nonrigid_shift,
-        differences,
+        places, sky, pulls, epochs, pole_analysis, rates_by_effect, core_response, response_apart,
+        nonrigid_shift, prediction, predicted_shift, differences,
     ),
 )  # fmt: skip
 

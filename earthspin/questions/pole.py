@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -27,8 +27,10 @@ from earthspin.parts.path import (
     largest_error,
     nonrigid_shift,
     pole_analysis,
+    predicted_shift,
     turns_of,
 )
+from earthspin.parts.predicted import no_layers, prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
@@ -46,7 +48,8 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from that of IAU
     2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
-    `nonrigid` is the response of the Earth's interior, fitted to IAU 2000A.
+    `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A or `predicted` from
+    its layers.
 
     Returns
     -------
@@ -73,6 +76,11 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
         doc="first and last date, TDB; the last is included if the step meets it",
     )
     step: Step = key("5 d", doc="interval between dates")
+    response: Literal["fitted", "predicted"] = key(
+        "fitted",
+        doc="where the effect nonrigid takes the response of the inside from: fitted to IAU 2000A, "
+        "or predicted from the layers of the body",
+    )
     accuracy: AngleError | None = key(
         None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
     )
@@ -87,17 +95,35 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
                 f"no response of the inside of {in_a_sentence(self.body.name)} is known; "
                 "leave it out",
             )
+        predicted = NONRIGID.name in self.effects and self.response == "predicted"
+        if predicted and (why := no_layers(self.body)):
+            raise self.error("response", self.response, f"{why}; take 'fitted'")
 
 
-def response_is_off(effects: tuple[str, ...]) -> str | None:
-    """Leave the response of the inside out where it is switched off."""
-    return None if NONRIGID.name in effects else "the non-rigid response is switched off"
+def not_fitted(effects: tuple[str, ...], response: str) -> str | None:
+    """Leave the fitted response of the inside out where it is not asked for."""
+    if NONRIGID.name not in effects:
+        return "the non-rigid response is switched off"
+    return None if response == "fitted" else "the response is predicted"
 
 
-@part(unless=response_is_off)
-def response(nonrigid_shift: Shift) -> Shift:
-    """The response of the inside to nutation, where it is switched on."""
+def not_predicted(effects: tuple[str, ...], response: str) -> str | None:
+    """Leave the predicted response of the inside out where it is not asked for."""
+    if NONRIGID.name not in effects:
+        return "the non-rigid response is switched off"
+    return None if response == "predicted" else "the response is fitted"
+
+
+@part(unless=not_fitted)
+def as_fitted(nonrigid_shift: Shift) -> Shift:
+    """The response of the inside as fitted, where it is switched on."""
     return nonrigid_shift
+
+
+@part(unless=not_predicted)
+def as_predicted(predicted_shift: Shift) -> Shift:
+    """The response of the inside as predicted, where it is switched on."""
+    return predicted_shift
 
 
 _AXES = ("time", "axis")
@@ -131,7 +157,8 @@ def axes(
     body: Body,
     accuracy: float | None,
     largest_error: Largest | None = None,
-    response: Shift | None = None,
+    as_fitted: Shift | None = None,
+    as_predicted: Shift | None = None,
     block: Block | None = None,
 ) -> xr.Dataset:
     """Directions of angular-momentum, rotation and figure axis at every time."""
@@ -142,8 +169,8 @@ def axes(
     now = _days(epochs, block)
     found = axis_path.at(now * DAY)
     errors = errors_of(axis_path, found["figure"], epochs, body, pulls)
-    if response is not None:
-        response.apply(found, now)
+    if (moved := as_fitted or as_predicted) is not None:
+        moved.apply(found, now)
     vectors = np.stack([found[axis] for axis in AXES], axis=1)
     result = build(
         DIRECTIONS,
@@ -259,7 +286,8 @@ made_of(
     sections={"neglected": neglected},
     parts=(
         places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
-        pole_analysis, core_response, nonrigid_shift, response,
+        pole_analysis, core_response, nonrigid_shift, prediction, predicted_shift,
+        as_fitted, as_predicted,
     ),
 )  # fmt: skip
 

@@ -34,7 +34,8 @@ LINEAR = 1.0
 MODELS = {
     "first-order": "first order, angular-momentum axis",
     "rigid": "all effects that are switched on, figure axis",
-    "nonrigid": "the same with the non-rigid response",
+    "nonrigid": "the same with the non-rigid response, fitted to IAU 2000A",
+    "predicted": "the same with the response predicted from the layers of the body",
 }
 
 
@@ -164,9 +165,22 @@ def core(tree: Result) -> Table:
         [
             ("period in space, d", f"{float(of.core_nutation_period):.2f}", "-430.21"),
             ("quality factor", f"{float(of.core_nutation_quality):.0f}", "20,000"),
+            *(
+                (
+                    f"added to a response, {name}, uas",
+                    f"{float(one.added_in_phase):+.0f}, out of phase "
+                    f"{float(one.added_out_of_phase):+.0f}",
+                    "",
+                )
+                for name, one in along(of, "added_to")
+            ),
         ],
         "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
-        "was built into it; it is no new measurement. The residuals of the fit over all terms are "
+        "was built into it; it is no new measurement. Geodesic nutation, which no torque makes, "
+        "and three terms to which IAU 2000A adds something else are left out of the fit, whose "
+        f"residuals are {float(of.apart_rms):.1f} uas rms. The response that is applied to the "
+        "pole absorbs of these terms what it can: its core nutation comes out at "
+        f"{float(of.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
         f"{float(of.response_rms):.1f} uas rms, and {float(of.response_maximum):.0f} uas at most.",
     )
 
@@ -273,7 +287,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """The computed pole minus the IAU's for three models, one above the other.
+    """The computed pole minus the IAU's for each model, one above the other.
 
     Parameters
     ----------
@@ -285,7 +299,7 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
     directions = (("dpsi_sineps", "dpsi sin(eps)", BLUE), ("deps", "deps", RED))
     with style():
-        figure = figure or empty(8, 6.4)
+        figure = figure or empty(8, 2.1 * series.sizes["model"])
         rows = np.atleast_1d(figure.subplots(series.sizes["model"], 1, sharex=True))
         for ax, (model, of) in zip(rows, along(series, "model"), strict=True):
             sizes_there = []

@@ -8,7 +8,9 @@ import earthspin
 from earthspin import EARTH, MARS, SceneError
 from earthspin.interior.diurnal_ocean import WAVES, diurnal_response, wave_response
 from earthspin.interior.prem import PREM
+from earthspin.motion.effects import RIGID
 from earthspin.nutation import ladder
+from tests import shipped
 from tests.conftest import load_pins
 
 PINS = load_pins("nutation")
@@ -135,6 +137,34 @@ def test_errors_of_modes_and_terms_follow_the_inputs(rungs: dict[str, ladder.Run
     assert flat["free_core_nutation"] == pytest.approx(expected, rel=0.03, abs=0)
     observed = rungs["core-ellipticity"].mode_half_widths({"core_ellipticity": 0.02})
     assert observed["free_core_nutation"] < 0.02 * flat["free_core_nutation"]
+
+
+def test_a_pole_takes_its_response_by_name() -> None:
+    """The predicted pole stands half a milliarcsecond from the fitted one, both far from rigid."""
+    times = ["1983-03-04", "1999-10-11", "2016-06-07"]
+    effects = [*RIGID, "nonrigid"]
+
+    def figure(**response: object) -> np.ndarray:
+        path = earthspin.pole(times=times, **response).sel(axis="figure")
+        return np.stack([path.X, path.Y, path.Z], axis=-1) * 180 / np.pi * 3.6e6
+
+    rigid, fitted = figure(effects=RIGID), figure(effects=effects)
+    predicted = figure(effects=effects, response="predicted")
+    assert np.all(np.linalg.norm(fitted - predicted, axis=1) < 1.7)
+    assert np.all(np.linalg.norm(rigid - fitted, axis=1) > 5)
+    with pytest.raises(SceneError, match="no layers with an inner core"):
+        earthspin.pole(
+            times=times, effects=effects, response="predicted", body=EARTH.replace(interior="none")
+        )
+
+
+def test_the_comparison_shows_both_responses() -> None:
+    sizes = shipped.tree("iau")["residual_sizes"].to_dataset()
+    ladder = shipped.answer("nutation").sel(rung="core-ellipticity")
+    assert list(sizes.model.values)[-2:] == ["nonrigid", "predicted"]
+    for direction in ("dpsi_sineps", "deps"):
+        found = sizes.residual_rms.sel(model="predicted", direction=direction)
+        assert np.isclose(found, ladder[f"rms_{direction}"], rtol=1e-9, atol=0)
 
 
 def test_a_body_without_layers_is_refused() -> None:

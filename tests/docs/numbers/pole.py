@@ -18,7 +18,6 @@ from tests.benchmarks.pole import Thirty
 from tests.docs.numbers.answers import (
     apart,
     axes,
-    iau,
     input_error_of_the_pole,
     kernel_of_the_pole,
 )
@@ -114,16 +113,6 @@ MEASURED = [
         PAGE,
         "{} mas from the angular momentum on average and swings by {} and {} mas rms.",
         partial(stand, "rotation"),
-    ),
-    Sentence(
-        PAGE,
-        "The fit recovers a **free core nutation of {} d**",
-        lambda: float(iau()["core"].core_nutation_period),
-    ),
-    Sentence(
-        PAGE,
-        "its residual of {} uas is the Sun-synchronous",
-        lambda: float(iau()["core"].response_maximum),
     ),
     Sentence(
         PAGE,
