@@ -45,8 +45,8 @@ sphinx_gallery_conf = {
     "subsection_order": [
         f"gallery/{section}"
         for section in (
-            "bodies", "free_rotors", "top", "torques", "precession", "long_term", "pole", "wobble",
-            "accuracy", "many",
+            "bodies", "free_rotors", "top", "torques", "precession", "long_term", "pole",
+            "nutation", "wobble", "accuracy", "many",
         )
     ],
     "within_subsection_order": "FileNameSortKey",

@@ -211,13 +211,13 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     near = np.abs(frequency) < SHOWN
     for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], BLUE, 1.4)):
         of = data.transfer_real.sel(rung=rung).values
-        of = np.where(np.abs(of - 1) < BEYOND, of, np.nan)  # no line from pole to pole
-        for side in (frequency < 0, frequency > 0):
-            drawn_here = near & side
-            ax.plot(
-                frequency[drawn_here], of[drawn_here], color=colour, lw=width,
-                label=str(rung) if frequency[drawn_here][0] < 0 else None,
-            )  # fmt: skip
+        shown = np.flatnonzero(near & (np.abs(of - 1) < BEYOND))
+        # no line from pole to pole, nor through rest in space
+        steps = np.diff(shown) > 1
+        steps |= np.diff(np.sign(frequency[shown])) > 0
+        for number, piece in enumerate(np.split(shown, np.flatnonzero(steps) + 1)):
+            words = str(rung) if number == 0 else None
+            ax.plot(frequency[piece], of[piece], color=colour, lw=width, label=words)
     rigid = main.predicted_in_phase.sel(rung="rigid")
     at = 365.25 / main.period.values
     inside = np.abs(at) < SHOWN

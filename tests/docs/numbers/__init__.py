@@ -9,6 +9,7 @@ PAGES = (
     "accuracy",
     "pole",
     "iau",
+    "nutation",
     "wobble",
     "observed_pole",
     "trust",

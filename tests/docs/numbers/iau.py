@@ -341,16 +341,6 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "out of phase, in the\nprograde {}-year term",
-        lambda: nutation("+0 +0 +0 +0 -1", "period") / 365.25,
-    ),
-    Sentence(
-        PAGE,
-        "uas of the prograde {}-year\n  term remain",
-        lambda: nutation("+0 +0 +0 +0 -1", "period") / 365.25,
-    ),
-    Sentence(
-        PAGE,
         "remain; except for {} mas it comes from the one atmospheric term",
         without_the_annual_term,
     ),
