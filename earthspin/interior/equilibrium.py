@@ -117,6 +117,7 @@ class Figure:
     surface: float
 
 
+@lru_cache(maxsize=32)
 def figure(layers: LayeredBody, spin_rate: float) -> Figure:
     """Figure of equilibrium of a body that spins, by Clairaut's equation.
 

@@ -38,6 +38,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.interior.equilibrium import figure
+from earthspin.interior.layers import LayeredBody
+from earthspin.interior.love import elastic
+
 Numeric = Any
 Array = NDArray[Any]
 
@@ -155,6 +159,14 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
     return p[..., :n, :n], q[..., :n, :n], right[..., :n], left[..., :n]
 
 
+def held_by_mantle(parts: Parts) -> Parts:
+    """The same body with its inner core bound to the mantle: the fluid core turns alone."""
+    answers = np.array(parts.answers)
+    answers[..., 2, :] = answers[..., :, 2] = 0
+    none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
+    return replace(parts, answers=answers, k_icb=0.0, **none)
+
+
 def wobble_response(parts: Parts, sigma: Array) -> Array:
     """Wobble over tide, m/phi, at frequencies in the body, turns per turn."""
     p, q, right, left = system(parts)
@@ -199,3 +211,48 @@ def free_modes(parts: Parts) -> dict[str, complex]:
 
 def _first(pair: tuple[float, complex]) -> float:
     return pair[0]
+
+
+def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
+    """All parts of a layered body, with its hydrostatic figure inside and a given one outside.
+
+    Parameters
+    ----------
+    layers : LayeredBody
+    spin_rate : float
+        rad/s.
+    answers : ndarray, shape (..., 3, 3)
+        Of `love.Yielding`.
+    e : float
+        (C - A)/A of the whole.
+    """
+    f = figure(layers, spin_rate)
+    return Parts(
+        e=e, e_f=f.e_f, e_s=f.e_s, fluid=f.fluid, inner=f.inner, a1=f.a1, a2=f.a2, a3=f.a3,
+        answers=f.unit * answers,
+    )  # fmt: skip
+
+
+def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[str, float]:
+    """Turns of the body in a free wobble, by what its inner core does.
+
+    Parameters
+    ----------
+    layers : LayeredBody
+    e : float
+        (C - A)/A of the whole.
+    spin_rate : float
+        rad/s.
+
+    Returns
+    -------
+    dict of str to float
+        With the inner core bound to the mantle, counted with the fluid, and free.
+    """
+    free = parts_of(layers, spin_rate, elastic(layers).answers, e)
+    models = {
+        "bound to the mantle": held_by_mantle(free),
+        "counted with the fluid": all_fluid(free, figure(layers, spin_rate).e_core),
+        "free": free,
+    }
+    return {name: 1 / free_modes(of)["chandler_wobble"].real for name, of in models.items()}

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import DAY, NORMAL_95, Constant
+from earthspin.interior import rotation
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.diurnal_ocean import diurnal_response
 from earthspin.interior.equilibrium import Figure, figure
@@ -188,7 +189,7 @@ class Setting:
     @property
     def figure(self) -> Figure:
         """Of hydrostatic equilibrium."""
-        return _figure(self.layers, self.spin_rate)
+        return figure(self.layers, self.spin_rate)
 
     def softened(self, sigma: Array) -> Yielding:
         """Love numbers at frequencies in the body, of a day or of the slow wobble.
@@ -202,9 +203,6 @@ class Setting:
         strain = complex(anelastic_strain(period, self.exponent))
         # The loss of a turn against the body's own is that of a negative frequency.
         return _yielding(self.layers, strain if slow else strain.conjugate())
-
-
-_figure = lru_cache(maxsize=8)(figure)
 
 
 @lru_cache(maxsize=64)
@@ -222,12 +220,8 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
     e : float, optional
         (C - A)/A of the whole, the observed one by default.
     """
-    f = setting.figure
-    return Parts(
-        e=setting.e if e is None else e,
-        e_f=f.e_f, e_s=f.e_s, fluid=f.fluid, inner=f.inner, a1=f.a1, a2=f.a2, a3=f.a3,
-        answers=f.unit * love.answers,
-    )  # fmt: skip
+    whole = setting.e if e is None else e
+    return rotation.parts_of(setting.layers, setting.spin_rate, love.answers, whole)
 
 
 def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:

@@ -389,6 +389,46 @@ def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
     )
 
 
+INNER_CORE = without_error(
+    "the section interior has the numbers that it follows from, which have none",
+    {
+        "chandler_by_core": Variable(
+            ("core_model",),
+            "d",
+            "period of the free wobble of the elastic body without an ocean, by the inner core",
+        ),
+    },
+)
+
+
+def no_inner_core(body: Body) -> str | None:
+    """Leave out what the inner core does where none is known."""
+    if not_layered(body):
+        return not_layered(body)
+    if body.labelled:
+        return "it is computed for one body at a time"
+    layers = interior_of(body).layers
+    return None if layers is not None and layers.inner_core_radius else "it has no inner core"
+
+
+@part(gives=INNER_CORE, unless=(why_rigid, no_inner_core))
+def inner_core(body: Body) -> xr.Dataset:
+    """What a solid inner core does to the free wobble: the same system with all of its parts."""
+    from earthspin.interior.rotation import chandler_by_core
+    from earthspin.mass.inertia import ellipticity_from_h
+
+    layers = interior_of(body).layers
+    assert layers is not None
+    e = float(ellipticity_from_h(body.number("dynamical_flattening")))
+    found = chandler_by_core(layers, e, abs(float(body.spin_rate)))
+    turn = abs(body.number("spin_period"))
+    return build(
+        INNER_CORE,
+        {"chandler_by_core": [turn * turns for turns in found.values()]},
+        coords={"core_model": list(found)},
+    )
+
+
 @part
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     """What the last rung leaves out."""
@@ -415,6 +455,7 @@ made_of(
         "observed": observed_wobble,
         "sensitivity": sensitivity,
         "core_nutation": core_nutation,
+        "inner_core": inner_core,
         "interior": interior_response,
         "neglected": neglected,
     },

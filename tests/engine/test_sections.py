@@ -43,7 +43,9 @@ NAMES = {
         *("beside", "terms", "modes", "transfer", "compliances", "residuals", "neglected"),
     },
     "long-term": {"budget", "matrices", "neglected"},
-    "wobble": {"observed", "sensitivity", "core_nutation", "interior", "neglected"},
+    "wobble": {
+        *("observed", "sensitivity", "core_nutation", "inner_core", "interior", "neglected"),
+    },
     "polar-motion": {"chandler", "spectrum", "neglected"},
     "free-rotor": {"poinsot", "neglected"},
     "top": {"turning", "potential", "neglected"},

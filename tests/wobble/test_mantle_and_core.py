@@ -6,6 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.errors import UndefinedError
+from earthspin.interior.equilibrium import figure
+from earthspin.interior.love import yielding
+from earthspin.interior.prem import PREM
+from earthspin.interior.rotation import all_fluid, free_modes, parts_of
 from earthspin.wobble.mantle_and_core import Core, Mantle, solve
 
 
@@ -62,6 +66,22 @@ def test_against_eigenvalues(
     assert abs(abs(found.wobble) - pair[0]) < 1e-13
     assert abs(abs(found.core) - pair[1]) < 1e-13
     assert found.wobble.real > 0 > found.core.real
+
+
+@pytest.mark.parametrize("strain", [0.0, -14 + 3j])
+def test_it_is_a_case_of_the_system_of_all_parts(strain: complex) -> None:
+    """The four by four with its inner core counted with the fluid, of PREM, with loss or not."""
+    e, spin = 1 / 304.456, 7.292115e-5
+    flat = figure(PREM, spin).e_core
+    parts = all_fluid(parts_of(PREM, spin, yielding(PREM, strain).answers, e), flat)
+    name = parts.compliances
+    found = solve(
+        Mantle(e, 0.0, name["kappa"]),
+        Core(parts.fluid, flat, gamma=name["gamma"], beta=name["beta"], xi=name["xi"]),
+    )
+    modes = free_modes(parts)
+    assert abs(complex(found.wobble) - modes["chandler_wobble"]) < 1e-14
+    assert abs(complex(found.core) - modes["free_core_nutation"]) < 1e-13
 
 
 def test_without_loss_the_roots_are_real() -> None:

@@ -105,6 +105,14 @@ def test_a_solid_inner_core_beside_a_core_that_ends_there() -> None:
     assert beside_a_core_that_ends_there() == pytest.approx(-0.35, rel=0, abs=0.005)
 
 
+def test_the_section_says_the_same() -> None:
+    """By our own layers: -0.34 d from bound to free, -0.02 from fluid to free."""
+    found = shipped.tree("wobble")["inner_core"].chandler_by_core
+    bound, fluid, free = found.values
+    assert free - bound == pytest.approx(-0.34, rel=0, abs=0.01)
+    assert free - fluid == pytest.approx(-0.024, rel=0, abs=0.003)
+
+
 def test_rotation_and_ellipticity_in_the_love_number() -> None:
     """Measured: -2.71 d."""
     sensitivity = shipped.tree("wobble")["sensitivity"].sel(input="k2")
