@@ -165,6 +165,16 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
         return empty(width, height).add_subplot()
 
 
+def few_dates(ax: Axes) -> None:
+    """So few dates along the axis, and so short, that they stay apart on a phone."""
+    from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
+
+    dates = AutoDateLocator(minticks=3, maxticks=7)  # type: ignore[no-untyped-call]
+    ax.xaxis.set_major_locator(dates)
+    words = ConciseDateFormatter(dates)  # type: ignore[no-untyped-call]
+    ax.xaxis.set_major_formatter(words)
+
+
 def legend_above(ax: Axes) -> None:
     """Legend outside the data, above the right corner."""
     legend = ax.legend(
