@@ -31,6 +31,7 @@ from skyfield.jpllib import SpiceKernel
 from skyfield.timelib import Time as SkyfieldTime
 from skyfield.vectorlib import VectorFunction
 
+from earthspin.interior.layers import LayeredBody
 from earthspin.sky.orbit_table import OrbitTable
 
 Value = str | float | Quantity | dt.timedelta | np.timedelta64

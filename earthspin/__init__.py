@@ -17,6 +17,8 @@ _HOME = {
     "earthspin.questions.pole": ("pole",),
     "earthspin.questions.iau": ("compare_iau",),
     "earthspin.questions.nutation": ("nutation_ladder",),
+    "earthspin.questions.love_numbers": ("love_numbers",),
+    "earthspin.questions.compliances": ("compliances",),
     "earthspin.questions.long_term": ("long_term",),
     "earthspin.questions.cassini": ("cassini_states",),
     "earthspin.sky.orbit_files": ("read_orbit",),

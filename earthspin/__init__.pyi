@@ -14,6 +14,7 @@ from skyfield.jpllib import SpiceKernel
 from skyfield.timelib import Time as SkyfieldTime
 from skyfield.vectorlib import VectorFunction
 
+from earthspin.interior.layers import LayeredBody
 from earthspin.sky.orbit_table import OrbitTable
 
 Value = str | float | Quantity | dt.timedelta | np.timedelta64
@@ -246,6 +247,17 @@ def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
 ) -> xr.Dataset: ...
+def love_numbers(
+    interior: str | LayeredBody | Mapping[str, Any] | None = ...,
+    period: Value | None = ...,
+    *,
+    anelastic_exponent: Value | None = ...,
+) -> xr.Dataset: ...
+def compliances(
+    interior: str | LayeredBody | Mapping[str, Any] | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+) -> xr.Dataset: ...
 
 __all__ = [
     "__version__",
@@ -272,6 +284,7 @@ __all__ = [
     "accuracy",
     "cassini_states",
     "compare_iau",
+    "compliances",
     "daily_insolation",
     "excitation",
     "fit_chandler",
@@ -279,6 +292,7 @@ __all__ = [
     "heavy_top",
     "load_scene",
     "long_term",
+    "love_numbers",
     "nutation_ladder",
     "open",
     "plan",

@@ -17,9 +17,11 @@ from earthspin.engine import run as running
 from earthspin.engine.question import Question
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions.cassini import CassiniStates
+from earthspin.questions.compliances import Compliances
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.iau import IAU
 from earthspin.questions.long_term import LongTerm
+from earthspin.questions.love_numbers import LoveNumbers
 from earthspin.questions.nutation import NutationLadder
 from earthspin.questions.polar_motion import PolarMotion
 from earthspin.questions.pole import Pole
@@ -39,7 +41,7 @@ QUESTIONS: dict[str, type[Question]] = {
     question.word: question
     for question in (
         Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Wobble, PolarMotion, FreeRotor,
-        Top, Spheroid, CassiniStates,
+        Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
     )
 }  # fmt: skip
 

@@ -268,7 +268,7 @@ def _attributes(ran: Ran) -> dict[str, str]:
             references += [one.reference for one in several if one.reference]
         if several and all(hasattr(one, "changes") for one in several):
             attributes[name] = " ".join(one.name for one in several)
-            changed = [one for one in several if one.changes]
+            changed = [one for one in several if getattr(one, "changes", "")]
             if changed:
                 words = [
                     one.changes if one is value else f"{one.name}: {one.changes}" for one in changed

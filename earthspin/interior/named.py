@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from earthspin.constants import Constant
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
+from earthspin.interior.mars import MARS
 from earthspin.interior.ocean import OCEAN_SOURCE, ocean_matrix
 from earthspin.interior.prem import PREM
 
@@ -119,6 +120,17 @@ INTERIORS: dict[str, Interior] = {
                 "ocean": 0.02,
             },
             neglected=_LEFT_OUT_OF_PREM,
+        ),
+        Interior(
+            name="mars-layers",
+            reference=MARS.reference,
+            layers=MARS,
+            relative_uncertainty={
+                # Of the observed k2, and three times that of the core's radius.
+                "k2": 0.008 / 0.174,
+                "core_fraction": 3 * 55 / 1835,
+                "core_ellipticity": 0.1,
+            },
         ),
         Interior(
             name="mars-insight",

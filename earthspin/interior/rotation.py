@@ -256,3 +256,28 @@ def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[st
         "free": free,
     }
     return {name: 1 / free_modes(of)["chandler_wobble"].real for name, of in models.items()}
+
+
+def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
+    """Compliances, ellipticities, coupling numbers and moments, of the parts that there are.
+
+    Parameters
+    ----------
+    layers : LayeredBody
+    spin_rate : float
+        rad/s.
+    """
+    f = figure(layers, spin_rate)
+    parts = parts_of(layers, spin_rate, elastic(layers).answers, f.e)
+    found = {name: float(value) for name, value in parts.compliances.items()} | {"e": f.e}
+    if parts.count > 1:
+        found |= {"e_f": f.e_f, "fluid": f.fluid}
+    if parts.count > 2:
+        found |= {"e_s": f.e_s, "a1": f.a1, "a2": f.a2, "a3": f.a3, "inner": f.inner}
+    return found
+
+
+def mode_period(name: str, mode: complex, spin_rate: float) -> float:
+    """Period of a free mode, s: of a nutation in space, of a wobble in the body."""
+    turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
+    return float(turns * 2 * np.pi / abs(spin_rate))

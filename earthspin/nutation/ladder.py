@@ -297,9 +297,3 @@ def quality(mode: complex) -> float:
     if abs(mode.imag) < 1e-12 * abs(mode):
         return float("inf")
     return abs(mode.real / (2 * mode.imag))
-
-
-def period(name: str, mode: complex, spin_rate: float) -> float:
-    """Period of a free mode, s: of a nutation in space, of a wobble in the body."""
-    turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
-    return float(turns * 2 * np.pi / abs(spin_rate))

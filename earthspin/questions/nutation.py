@@ -284,6 +284,7 @@ MODES = {
 @part(gives=MODES)
 def modes(models: Prediction) -> xr.Dataset:
     """Free modes of each rung; a mode that a rung does not have is not among them."""
+    from earthspin.interior.rotation import mode_period
     from earthspin.nutation import ladder
 
     rows = []
@@ -291,7 +292,7 @@ def modes(models: Prediction) -> xr.Dataset:
         rung = models.rungs[name]
         widths = rung.mode_half_widths(models.uncertainty)
         for mode, s in rung.modes().items():
-            period = ladder.period(mode, s, models.spin_rate)
+            period = mode_period(mode, s, models.spin_rate)
             relative = widths[mode] / abs(1 + s.real if mode.endswith("nutation") else s.real)
             rows.append((name, mode, period, abs(period) * relative, ladder.quality(s)))
     rungs, names, periods, errors, qualities = zip(*rows, strict=True)

@@ -19,6 +19,8 @@ DIMENSIONS = {
     "pole": {"time", "axis"},
     "iau": {"effect"},
     "nutation": {"rung"},
+    "love-numbers": {"love"},
+    "compliances": {"number"},
     "long-term": {"epoch", "component", "perturber"},
     "wobble": {"rung"},
     "polar-motion": {"time"},

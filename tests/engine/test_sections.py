@@ -26,6 +26,8 @@ SCENES = {
     "free-rotor": "poinsot",
     "top": "top-loop",
     "spheroid": "spheroid",
+    "love-numbers": "love-numbers",
+    "compliances": "compliances",
     "cassini-states": "cassini-states",
 }
 NAMES = {
@@ -50,6 +52,8 @@ NAMES = {
     "free-rotor": {"poinsot", "neglected"},
     "top": {"turning", "potential", "neglected"},
     "spheroid": {"neglected"},
+    "love-numbers": {"neglected"},
+    "compliances": {"published", "modes", "neglected"},
     "cassini-states": {"neglected"},
 }
 

@@ -13,7 +13,7 @@ from earthspin import EARTH
 from earthspin.interior.diurnal_ocean import WAVES, wave_response
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.prem import PREM
-from earthspin.interior.rotation import system, transfer
+from earthspin.interior.rotation import mode_period, system, transfer
 from earthspin.nutation import ladder
 from tests import shipped
 from tests.docs.numbers.sentence import Sentence, Told
@@ -89,7 +89,7 @@ def h_too_small() -> float:
 
 def hydrostatic(name: str, model: str = "hydrostatic") -> float:
     s = rungs()[model].modes()[name]
-    return ladder.period(name, s, float(EARTH.spin_rate)) / 86400
+    return mode_period(name, s, float(EARTH.spin_rate)) / 86400
 
 
 def retrograde_year() -> float:

@@ -1,0 +1,100 @@
+"""Love numbers of any layered body."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, without_error
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key, made_of
+from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.parts.layered import LayeredInterior
+from earthspin.units import Number
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from earthspin.interior.layers import LayeredBody
+
+
+class LoveNumbers(
+    Question, word="love-numbers", call="love_numbers", positional=("interior", "period")
+):
+    """Love numbers and load Love numbers of degree two of a layered body.
+
+    Returns
+    -------
+    Dataset
+        Along `love` (k2, h2, l2 of a tide, k2_load, h2_load, l2_load): `love_number`, and
+        `love_number_imaginary`, negative where the body lags.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; among it a liquid surface.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> print(earthspin.love_numbers("prem").love_number.round(4).values)
+    [ 0.2983  0.6038  0.084  -0.3055 -0.9922  0.0236]
+    >>> month = earthspin.love_numbers("mars-layers", period="5.55 h", anelastic_exponent=0.15)
+    >>> print(month.love_number.sel(love="k2").round(3).values)
+    0.18
+    """
+
+    interior: LayeredInterior = key("prem", doc="layers of the body")
+    period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
+        None,
+        doc="period of what deforms the body; without one, elastic, at a period of 1 s, as "
+        "seismology has it",
+    )
+    anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.5)] = key(
+        ANELASTIC_EXPONENT.value, doc="exponent of frequency in the quality factor"
+    )
+
+
+LOVE = without_error(
+    "they follow from the layers, whose own errors are not known",
+    {
+        "love_number": Variable(("love",), "1", "Love number of degree two"),
+        "love_number_imaginary": Variable(
+            ("love",), "1", "imaginary part of the Love number, negative where the body lags"
+        ),
+    },
+)
+
+
+@part(gives=LOVE)
+def love(interior: LayeredBody, period: float | None, anelastic_exponent: float) -> xr.Dataset:
+    """Love numbers of tide and load, by integration from the centre to the surface."""
+    from earthspin.interior.anelastic import anelastic_strain
+    from earthspin.interior.love import yielding
+
+    strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
+    found = yielding(interior, strain)
+    names = ("k", "h", "l", "k_load", "h_load", "l_load")
+    values = np.array([complex(getattr(found, name)) for name in names])
+    labels = [name.replace("_", "2_") if "_" in name else f"{name}2" for name in names]
+    result = build(
+        LOVE,
+        {"love_number": values.real, "love_number_imaginary": values.imag},
+        coords={"love": ("love", labels)},
+    )
+    result.love_number.attrs["references"] = interior.reference
+    return result
+
+
+@part
+def neglected() -> Neglected:
+    """What a sphere at rest leaves out."""
+    return Neglected(what="rotation and ellipticity of the body, about one per cent")
+
+
+made_of(LoveNumbers, answer=love, sections={"neglected": neglected})
+
+love_numbers = ask(LoveNumbers)
