@@ -19,6 +19,7 @@ from data_tools import (
     signatures,
     stability,
     windows,
+    worlds,
 )
 from earthspin.errors import EarthspinError
 
@@ -41,6 +42,7 @@ VERBS = {
     "orbits": (secular_orbits.main, "make the tables of orbits over ten million years again"),
     "references": (references.main, "make the stored references of the checks again"),
     "signatures": (signatures.main, "write the signatures of the public calls for editors"),
+    "worlds": (worlds.main, "measure the precession of every world, for docs/worlds.md"),
     "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.

@@ -133,7 +133,9 @@ def _parser() -> argparse.ArgumentParser:
     question = keys.add_argument("question", nargs="?", help="all by default")
     question.completer = _words  # type: ignore[attr-defined]
     keys.set_defaults(command=_keys)
-    info = commands.add_parser("info", help="versions, kernels and their coverage")
+    info = commands.add_parser("info", help="versions and kernels; or what is known of bodies")
+    info.add_argument("what", nargs="?", choices=("bodies",), help="bodies: list them")
+    info.add_argument("name", nargs="?", metavar="NAME", help="each number of one, and its source")
     info.set_defaults(command=_info)
 
     verify = commands.add_parser("verify", help="hold a result on disk to its checksums")
@@ -389,6 +391,11 @@ def _scenes(given: argparse.Namespace) -> None:
 def _info(given: argparse.Namespace) -> None:
     from importlib.metadata import PackageNotFoundError, version
 
+    if given.what:
+        from earthspin.bodies.told import all_in_words, in_words
+
+        print(all_in_words() if given.name is None else in_words(given.name))
+        return
     print(f"earthspin {__version__}, Python {sys.version.split()[0]}")
     for package in ("numpy", "scipy", "xarray", "astropy", "pyerfa", "skyfield", "jplephem"):
         try:

@@ -5,11 +5,12 @@ from earthspin.bodies.earth import EARTH
 from earthspin.bodies.mars import MARS
 from earthspin.bodies.moon import MOON
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.planets import PLANETS
+from earthspin.bodies.planets import JUPITER, MERCURY, NEPTUNE, PLANETS, SATURN, URANUS, VENUS
 from earthspin.bodies.sun import SUN
 
 __all__ = [
-    "BODIES", "EARTH", "MARS", "MOON", "NUMBERS", "PLANETS", "SUN", "Body", "Numeric",
+    "BODIES", "EARTH", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS", "PLANETS",
+    "SATURN", "SUN", "URANUS", "VENUS", "Body", "Numeric",
     "Orbit", "all_of", "body", "in_a_sentence", "proper",
 ]  # fmt: skip
 

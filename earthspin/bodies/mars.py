@@ -6,6 +6,7 @@ import math
 
 from earthspin.bodies.body import Body
 from earthspin.constants import DAY, DE440, Constant
+from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, FixedPole
 
 _MRO110B = "Konopliv et al. 2011, Icarus 211, 401 (MRO110B)"
@@ -53,6 +54,27 @@ NUMBERS = {
         686.9798 * DAY, "s", None, "Standish & Williams, approximate elements, sidereal"
     ),
 }
+
+#: The IAU's pole of 2015, which moves: ``MARS.replace(pole=MOVING_POLE)``. `MARS` keeps the one of
+#: J2000.0, with which the errors of its averages were measured.
+MOVING_POLE = MovingPole.published(  # Archinal et al. 2018, Celest. Mech. 130:22, as recalled
+    (317.269202, -0.10927547),
+    (54.432516, -0.05827105),
+    [
+        (0.000068, 198.991226, 19139.4819985),
+        (0.000238, 226.292679, 38280.8511281),
+        (0.000052, 249.663391, 57420.7251593),
+        (0.000009, 266.183510, 76560.6367950),
+        (0.419057, 79.398932, 0.5042615),
+    ],
+    [
+        (0.000051, 122.433576, 19139.9407476),
+        (0.000141, 43.058401, 38280.8753272),
+        (0.000031, 57.663379, 57420.7517205),
+        (0.000005, 79.476401, 76560.6495004),
+        (1.591274, 166.325722, 0.5042615),
+    ],
+)
 
 MARS = Body.cited(
     "mars",

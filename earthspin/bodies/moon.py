@@ -2,8 +2,25 @@
 
 from __future__ import annotations
 
+import math
+
 from earthspin.bodies.body import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, DE440, SIDEREAL_MONTH, Constant
+from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import Direction
+
+_GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging), as recalled"
+
+#: Obliquity to its own orbit, as observed.
+OBLIQUITY = Constant(6.69, "deg", None, "1.54 to the ecliptic and 5.15 of the orbit, as recalled")
+#: (C - A)/B and (B - A)/C.
+BETA = Constant(6.310213e-4, "", 6e-11, _GRAIL)
+GAMMA = Constant(2.277317e-4, "", 1e-10, _GRAIL)
+J2 = Constant(2.03216e-4, "", 1e-9, _GRAIL + "; rounded")
+
+# with C = 1: A = B - gamma and 1 - A = beta B
+_B = (1 + GAMMA.value) / (1 + BETA.value)
+_H = 1 - (_B - GAMMA.value / 2)
 
 NUMBERS = {
     "gm": Constant(
@@ -12,6 +29,12 @@ NUMBERS = {
         4.2e4,
         DE440 + "; uncertainty: the difference from DE421's 4902.800076",
     ),
+    "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL),
+    "j2": J2,
+    "dynamical_flattening": Constant(_H, "", 1e-10, "from beta and gamma: " + _GRAIL),
+    "triaxiality": Constant(GAMMA.value * J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL),
+    # locked: one turn in each month
+    "spin_period": SIDEREAL_MONTH,
     "orbital_period": SIDEREAL_MONTH,
     # the node goes once round in 1296000"/6962890.5431" centuries = 6798.383 d
     "cycle": Constant(
@@ -22,4 +45,43 @@ NUMBERS = {
     ),
 }
 
-MOON = Body.cited("moon", NUMBERS, naif=(301,), reference=NUMBERS["gm"].source)
+#: Terms of the IAU's pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
+_TERMS = {
+    1: (125.045, -0.0529921),
+    2: (250.089, -0.1059842),
+    3: (260.008, 13.0120009),
+    4: (176.625, 13.3407154),
+    6: (311.589, 26.4057084),
+    7: (134.963, 13.0649930),
+    10: (15.134, -0.1589763),
+    13: (25.053, 12.9590088),
+}
+
+
+def _terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
+    """Size (deg), phase (deg) and rate (deg a century) of each term."""
+    return [(s, _TERMS[n][0], _TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
+
+
+MOON = Body.cited(
+    "moon",
+    NUMBERS,
+    naif=(301,),
+    # Archinal et al. 2018, Celest. Mech. 130:22, as recalled
+    pole=MovingPole.published(
+        (269.9949, 0.0031),
+        (66.5392, 0.0130),
+        _terms(
+            {1: -3.8787, 2: -0.1204, 3: 0.0700, 4: -0.0172, 6: 0.0072, 10: -0.0052, 13: 0.0043}
+        ),
+        _terms(
+            {
+                1: 1.5419, 2: 0.0239, 3: -0.0278, 4: 0.0068, 6: -0.0029, 7: 0.0009, 10: 0.0008,
+                13: -0.0009,
+            }
+        ),
+    ),
+    # the plane that its orbit precesses on: the ecliptic of J2000.0
+    orbit_pole=Direction(math.radians(270.0), math.radians(66.5607)),
+    reference=f"{NUMBERS['gm'].source}; {_GRAIL}",
+)  # fmt: skip

@@ -88,7 +88,7 @@ class Orbit:
     >>> sun = earthspin.SUN.replace(orbit={"a": "1 au", "e": 0.0167})
     >>> rate = earthspin.precession(perturbers=[sun, moon]).precession_rate
     >>> print(rate.sel(perturber="total").round(2).values)
-    50.22
+    50.4
     """
 
     a: Annotated[float | None, Magnitude("m", "384399 km")] = None

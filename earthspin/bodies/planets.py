@@ -1,28 +1,31 @@
-"""The other planets, as bodies that pull."""
+"""The planets, and what pulls on each unless others are named."""
 
 from __future__ import annotations
 
-from earthspin.bodies.body import Body
-from earthspin.constants import DE440, Constant
+from earthspin.bodies.body import BODIES, Body
+from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
+from earthspin.bodies.inner import MERCURY, VENUS
+
+__all__ = [
+    "JUPITER", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
+    "on_its_orbit", "pulled_by",
+]  # fmt: skip
 
 #: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
 PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
 
-
-def _planet(name: str, code: int, gm: float) -> Body:
-    """A planet as a perturber: its mean pull swings through centuries by up to 1e-3 of itself."""
-    return Body.cited(
-        name,
-        {"gm": Constant(gm, "m3 s-2", None, DE440)},
-        naif=(100 * code + 99, code),
-        slow_swing=1e-3,
-        reference=DE440,
-    )
+_SUN_AND_MOON = ("sun", "moon")
+_OTHERS = {"moon": ("earth", "sun")} | {name: ("sun",) for name in PLANETS if name != "earth"}
 
 
-MERCURY = _planet("mercury", 1, 22031.868551e9)
-VENUS = _planet("venus", 2, 324858.592000e9)
-JUPITER = _planet("jupiter", 5, 126712764.100000e9)
-SATURN = _planet("saturn", 6, 37940584.841800e9)
-URANUS = _planet("uranus", 7, 5794556.400000e9)
-NEPTUNE = _planet("neptune", 8, 6836527.100580e9)
+def pulled_by(body: Body) -> tuple[Body, ...]:
+    """What pulls on a body unless others are named: the Sun, and on the Earth the Moon."""
+    return tuple(BODIES[name] for name in _OTHERS.get(body.name, _SUN_AND_MOON))
+
+
+def on_its_orbit(body: Body) -> Body:
+    """A giant on its mean orbit, where nothing else places it; any other body as it is."""
+    placed = body.orbit is not None or body.position is not None
+    if placed or body.name not in ORBITS:
+        return body
+    return body.replace(orbit=ORBITS[body.name], orbit_pole=body.orbit_pole)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
+from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
@@ -68,7 +69,9 @@ class Pulled(Question):
     """Keys of every question about a body that others pull on."""
 
     body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
-    perturbers: tuple[Body, ...] = key((SUN, MOON), doc="bodies that pull on it")
+    perturbers: tuple[Body, ...] = key(
+        (SUN, MOON), doc="bodies that pull on it; on another planet than the Earth the Sun alone"
+    )
     ephemeris: Annotated[str, KernelName()] = key(
         "de421", doc="kernel with the positions of the bodies"
     )
@@ -89,6 +92,9 @@ class Pulled(Question):
 
     def check(self) -> None:
         """A body with a mass, and others that pull on it, each once."""
+        if "perturbers" not in self.given:
+            object.__setattr__(self, "perturbers", pulled_by(self.body))
+            object.__setattr__(self, "body", on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(self.needs)

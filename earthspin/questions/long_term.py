@@ -92,9 +92,9 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
 
     def check(self) -> None:
         """Of a body that the IAU does not describe, no Moon is taken for granted."""
+        super().check()
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
-        super().check()
         names = [p.name for p in self.perturbers]
         if "sun" not in names or set(names) - {"sun", "moon"}:
             raise self.error(

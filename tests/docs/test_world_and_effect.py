@@ -1,4 +1,4 @@
-"""The examples of a world and of an effect in docs/architecture.md, built and run as they stand."""
+"""The example of an effect in docs/architecture.md, built and run as it stands, and a world."""
 
 import importlib.util
 from collections.abc import Iterator
@@ -32,13 +32,6 @@ def tidal_tilt() -> Iterator[ModuleType]:
     effects.EFFECTS.update(before)
 
 
-@pytest.fixture
-def venus(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    monkeypatch.setitem(bodies.BODIES, "venus", bodies.BODIES["venus"])
-    monkeypatch.setitem(bodies.NUMBERS, "venus", bodies.NUMBERS["venus"])
-    return built("venus")
-
-
 def test_tidal_friction_tilts_by_what_is_published(tidal_tilt: ModuleType) -> None:
     span = ("1950-01-01T12:00:00", "2050-01-01T12:00:00", "1000 d")
     without, tilted = (
@@ -65,7 +58,7 @@ def test_an_unknown_effect_is_still_refused() -> None:
         earthspin.pole(effects=["tidal-tilt"])
 
 
-def test_venus_precesses_as_observed(venus: ModuleType) -> None:
+def test_venus_precesses_as_observed() -> None:
     """Margot et al. 2021 observe 44.58 +- 3.3 arcsec/yr, from which C/(M R2) was inferred."""
     found = earthspin.precession(body="venus", perturbers=["sun"])
     rate, error = (
@@ -74,4 +67,4 @@ def test_venus_precesses_as_observed(venus: ModuleType) -> None:
     assert abs(abs(rate) - 44.58) < 0.2  # measured: 0.06, the rounding of the published moment
     assert 6.0 < error < 6.5  # 95 %: 1.96 * 0.024/0.337 of the rate
     assert abs(float(found.obliquity) - 2.64) < 0.01
-    assert "Margot" in venus.VENUS._repr_html_()
+    assert "Margot" in bodies.VENUS._repr_html_()

@@ -18,4 +18,5 @@ PAGES = (
     "work_precision",
     "frames",
     "long_term",
+    "worlds",
 )

@@ -1,0 +1,153 @@
+"""Jupiter, Saturn, Uranus, Neptune.
+
+Jupiter and Saturn stand here with the satellites that they carry along (`satellites`), which do
+more than the planet's own bulge. Of Uranus and Neptune the polar moment is not known, so that a
+question that needs H asks for it; Triton, large, inclined and retrograde, is carried by nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.bodies.body import Body
+from earthspin.bodies.inner import IAU_2015, SWING
+from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.satellites import Satellite, carried
+from earthspin.constants import AU, DAY, DE440, Constant
+from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import Direction
+
+ELEMENTS = "Standish & Williams, approximate elements 1800-2050, as recalled"
+_JUNO = "Durante et al. 2020, Geophys. Res. Lett. 47, e2019GL086572 (Juno), as recalled"
+_CASSINI = "Iess et al. 2019, Science 364, eaat2965 (Cassini), as recalled"
+_URANUS = "Jacobson 2014, AJ 148:76, as recalled"
+_NEPTUNE = "Jacobson 2009, AJ 137, 4322, as recalled"
+
+
+def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
+    """Satellite by GM (km3 s-2), half axis (km) and period (d)."""
+    return Satellite(name, gm * 1e9, a * 1e3, days * DAY)
+
+
+OF_JUPITER = (
+    _moon("Io", 5959.916, 421800.0, 1.769138),
+    _moon("Europa", 3202.739, 671100.0, 3.551181),
+    _moon("Ganymede", 9887.834, 1070400.0, 7.154553),
+    _moon("Callisto", 7179.289, 1882700.0, 16.689017),
+)
+#: Those inside the radius where the Sun takes over; Iapetus is outside.
+OF_SATURN = (
+    _moon("Tethys", 41.21, 294672.0, 1.887802),
+    _moon("Dione", 73.116, 377415.0, 2.736916),
+    _moon("Rhea", 153.94, 527068.0, 4.517503),
+    _moon("Titan", 8978.14, 1221865.0, 15.945448),
+)
+#: C/(M R2) of the planets alone, from models of the inside.
+JUPITER_MOMENT = Constant(0.2640, "", 0.0010, "Wahl et al. 2017, GRL 44, 4649, as recalled")
+SATURN_MOMENT = Constant(
+    0.2199, "", 0.0020, "French et al. 1993, Icarus 103, 163; spread of models; both as recalled"
+)
+#: Rate of precession over the cosine of the obliquity, as published, satellites carried along.
+JUPITER_CONSTANT = Constant(2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91: recalled")
+SATURN_CONSTANT = Constant(
+    0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501: recalled"
+)
+
+
+def _numbers(
+    gm: float, radius: float, j2: Constant, spin: float, orbit: float
+) -> dict[str, Constant]:
+    """Numbers of a giant: GM (km3 s-2), radius (km), spin in degrees a day, period of orbit (d)."""
+    return {
+        "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites"),
+        "radius": Constant(radius * 1e3, "m", None, j2.source),
+        "j2": j2,
+        "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015),
+        "orbital_period": Constant(orbit * DAY, "s", None, ELEMENTS),
+        "slow_swing": SWING,
+    }
+
+
+_JUPITER = _numbers(126712764.1, 71492.0, Constant(14696.57e-6, "", 1e-8, _JUNO), 870.536, 4332.59)
+_SATURN = _numbers(
+    37940584.8418, 60330.0, Constant(16290.57e-6, "", 3e-8, _CASSINI), 810.7939024, 10759.22
+)
+
+JUPITER = Body.cited(
+    "jupiter",
+    _JUPITER | carried(_JUPITER, JUPITER_MOMENT, OF_JUPITER),
+    naif=(599, 5),
+    pole=MovingPole.published(
+        (268.056595, -0.006499),
+        (64.495303, 0.002413),
+        [
+            (0.000117, 99.360714, 4850.4046),
+            (0.000938, 175.895369, 1191.9605),
+            (0.001432, 300.323162, 262.5475),
+            (0.000030, 114.012305, 6070.2476),
+            (0.002150, 49.511251, 64.3000),
+        ],
+        [
+            (0.000050, 99.360714, 4850.4046),
+            (0.000404, 175.895369, 1191.9605),
+            (0.000617, 300.323162, 262.5475),
+            (-0.000013, 114.012305, 6070.2476),
+            (0.000926, 49.511251, 64.3000),
+        ],
+    ),
+    # from i = 1.30439695, node = 100.47390909 deg to the ecliptic
+    orbit_pole=Direction(math.radians(273.25271), math.radians(66.76441)),
+    reference=f"{_JUNO}; {JUPITER_MOMENT.source}; {IAU_2015}; DE440",
+)
+SATURN = Body.cited(
+    "saturn",
+    _SATURN | carried(_SATURN, SATURN_MOMENT, OF_SATURN),
+    naif=(699, 6),
+    pole=MovingPole.published((40.589, -0.036), (83.537, -0.004)),
+    # from i = 2.48599187, node = 113.66242448 deg to the ecliptic
+    orbit_pole=Direction(math.radians(275.94626), math.radians(67.44972)),
+    reference=f"{_CASSINI}; {SATURN_MOMENT.source}; {IAU_2015}; DE440",
+)
+URANUS = Body.cited(
+    "uranus",
+    _numbers(5794556.4, 25559.0, Constant(3510.7e-6, "", 7e-7, _URANUS), -501.1600928, 30688.5),
+    naif=(799, 7),
+    pole=MovingPole.published((257.311, 0.0), (-15.175, 0.0)),
+    # from i = 0.77263783, node = 74.01692503 deg to the ecliptic
+    orbit_pole=Direction(math.radians(271.85090), math.radians(66.33697)),
+    reference=f"{_URANUS}; {IAU_2015}; DE440",
+)
+NEPTUNE = Body.cited(
+    "neptune",
+    _numbers(6836527.10058, 25225.0, Constant(3408.4e-6, "", 5e-6, _NEPTUNE), 541.1397757, 60182.0),
+    naif=(899, 8),
+    pole=MovingPole.published(
+        (299.36, 0.0), (43.46, 0.0), [(0.70, 357.85, 52.316)], [(-0.51, 357.85, 52.316)]
+    ),
+    # from i = 1.77004347, node = 131.78422574 deg to the ecliptic
+    orbit_pole=Direction(math.radians(273.48032), math.radians(67.70325)),
+    reference=f"{_NEPTUNE}; {IAU_2015}; DE440",
+)
+
+
+def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
+    """Mean ellipse about the Sun: au, and longitudes in degrees."""
+    return Orbit(
+        a=a * AU,
+        e=e,
+        i=math.radians(i),
+        node=math.radians(node),
+        pericentre=math.radians(perihelion - node),
+        mean_anomaly=math.radians(mean - perihelion),
+        about="sun",
+        reference=ELEMENTS,
+    )
+
+
+#: Mean orbits, for averages over years that are too long for a kernel.
+ORBITS = {
+    "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
+    "saturn": _orbit(9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
+    "uranus": _orbit(19.18916464, 0.04725744, 0.77263783, 74.01692503, 170.95427630, 313.23810451),
+    "neptune": _orbit(30.06992276, 0.00859048, 1.77004347, 131.78422574, 44.96476227, -55.12002969),
+}

@@ -1,0 +1,85 @@
+"""Satellites that a planet carries along: one body with it, as far as its precession goes.
+
+A satellite near the equator, inside the radius at which the Sun's pull on its orbit is that of the
+planet's bulge, keeps to the equator while this precesses. Planet and satellites then turn as one
+body (Ward 1975, AJ 80, 64; French et al. 1993, Icarus 103, 163; both as recalled):
+
+    J2' = J2 + q,   q = (1/2) sum (m/M) (a/R)^2,
+    C'  = C + l,    l = sum (m/M) (a/R)^2 (n/Omega),     C in M R^2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from earthspin.constants import Constant
+
+JPL = "JPL Solar System Dynamics, mean elements and GM of satellites, as recalled"
+
+
+@dataclass(frozen=True)
+class Satellite:
+    """A satellite near the equator.
+
+    Attributes
+    ----------
+    name : str
+    gm : float
+        m3 s-2.
+    a : float
+        Half the long axis, m.
+    period : float
+        Sidereal, s.
+    """
+
+    name: str
+    gm: float
+    a: float
+    period: float
+
+
+def added_by(
+    satellites: Iterable[Satellite], gm: float, radius: float, spin_period: float
+) -> tuple[float, float]:
+    """What satellites add to J2 and to C/(M R^2): q and l.
+
+    Parameters
+    ----------
+    satellites : iterable of Satellite
+    gm, radius, spin_period : float
+        Of the planet, m3 s-2, m and s.
+    """
+    q = moment = 0.0
+    for one in satellites:
+        spread = one.gm / gm * (one.a / radius) ** 2
+        q += spread / 2
+        moment += spread * abs(spin_period) / one.period
+    return q, moment
+
+
+def carried(
+    planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
+) -> dict[str, Constant]:
+    """J2 and H of a planet with the satellites that it carries.
+
+    Parameters
+    ----------
+    planet : dict of str to Constant
+        Its own `gm`, `radius`, `spin_period` and `j2`.
+    polar_moment : Constant
+        Its own C/(M R^2).
+    satellites : tuple of Satellite
+    """
+    q, more = added_by(
+        satellites, planet["gm"].value, planet["radius"].value, planet["spin_period"].value
+    )
+    j2, moment = planet["j2"], polar_moment.value + more
+    names = ", ".join(one.name for one in satellites)
+    u = polar_moment.relative_uncertainty * polar_moment.value / moment
+    h = (j2.value + q) / moment
+    source = f"{j2.source}; with {names} carried along ({JPL})"
+    return {
+        "j2": Constant(j2.value + q, "", j2.uncertainty, source),
+        "dynamical_flattening": Constant(h, "", h * u, f"{source}; {polar_moment.source}"),
+    }

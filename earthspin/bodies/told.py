@@ -1,0 +1,41 @@
+"""Bodies in words, for a terminal: what is known of each, and where it stands in print."""
+
+from __future__ import annotations
+
+from earthspin.bodies.body import BODIES, NUMBERS, body
+from earthspin.errors import Where
+
+#: What a precession needs, in the order of a list.
+_ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
+
+
+def all_in_words() -> str:
+    """A line for each body: what it can be asked about, and what is not known."""
+    width = max(map(len, BODIES))
+    lines = []
+    for name, one in BODIES.items():
+        missing = [field for field in _ASKED if getattr(one, field) is None]
+        known = "pulls and spins" if not missing else "pulls"
+        if 0 < len(missing) < len(_ASKED) - 1:
+            known = f"pulls and spins; not known: {', '.join(missing)}"
+        lines.append(f"{name:<{width}}  {known}")
+    return "\n".join([*lines, "", "each number with its source: earthspin info bodies NAME"])
+
+
+def in_words(name: str) -> str:
+    """Every number of a body with its unit, its standard deviation, and its source.
+
+    Raises
+    ------
+    SceneError
+        If there is no such body.
+    """
+    one = body(name, Where("bodies"))
+    lines = [f"{one.name}: {one.reference}"]
+    for field, number in NUMBERS.get(one.name, {}).items():
+        error = f" ± {number.uncertainty:.2g}" if number.uncertainty else ""
+        lines.append(f"  {field} = {number.value:.9g}{error} {number.unit}".rstrip())
+        lines.append(f"      {number.source}")
+    if one.pole is not None:
+        lines.append(f"  pole: {one.pole}")
+    return "\n".join(lines)
