@@ -1,9 +1,10 @@
-"""The mean orbits of Sun and Moon about the Earth: bodies that pull without a kernel."""
+"""Mean orbits: of Sun and Moon about the Earth, and of bodies whose spin is locked to theirs."""
 
 from __future__ import annotations
 
 import math
 
+from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
 from earthspin.bodies.moon import MOON
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
@@ -60,3 +61,5 @@ MEAN_MOON = MOON.replace(
         reference=f"{LUNAR_ELEMENTS}; {MEAN_ELEMENTS}",
     )
 )
+#: Orbits on the planes that they precess on, by the name of the body.
+PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT}

@@ -46,20 +46,15 @@ class CassiniStates(
     Examples
     --------
     >>> import earthspin
-    >>> orbit = earthspin.Orbit(
-    ...     period="27.321661 d", i="5.145 deg", e=0.0549, node_period="-6793 d"
-    ... )
-    >>> moon = earthspin.MOON.replace(
-    ...     radius="1738 km", j2=203.3e-6, dynamical_flattening=5.173e-4, triaxiality=89.6e-6,
-    ...     spin_period="27.321661 d",
-    ... )
-    >>> print(earthspin.cassini_states(moon, orbit).obliquity.round(2).values, "deg")
-    [  6.72 175.69] deg
+    >>> print(earthspin.cassini_states("moon").obliquity.round(2).values, "deg")
+    [  6.73 175.68] deg
     """
 
     body: Body = key(MOON, doc="body whose axis it is")
     orbit: Annotated[Orbit | None, OrbitTable()] = key(
-        None, doc="its orbit, with a period of the node; the body's own by default"
+        None,
+        doc="its orbit, with a period of the node; if not given, the body's own, or the mean one "
+        "of the Moon and of Mercury",
     )
 
     def check(self) -> None:
@@ -67,7 +62,7 @@ class CassiniStates(
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
-        if self.orbit is None and self.body.orbit is None:
+        if orbit_of(self.body, self.orbit) is None:
             raise self.error(
                 "orbit",
                 None,
@@ -95,10 +90,17 @@ class Locking:
     locked: bool
 
 
+def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
+    """The orbit that is given, the body's, or the mean one that is known."""
+    from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
+
+    return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
+
+
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
-    """The orbit that is given, or the body's."""
-    found = body.orbit if orbit is None else orbit
+    """The orbit that is given, the body's, or the mean one that is known."""
+    found = orbit_of(body, orbit)
     assert found is not None  # `check` has seen to it
     return found
 
@@ -191,7 +193,7 @@ def neglected() -> Neglected:
     """What averages over spin, orbit and pericentre leave out."""
     return Neglected(
         what="libration, pulls beside that of the primary, a core that does not follow, and terms "
-        "that turn with the pericentre: not measured in general; together 0.03 deg for the Moon"
+        "that turn with the pericentre: not measured in general; together 0.04 deg for the Moon"
     )
 
 
