@@ -39,6 +39,7 @@ EXPLAINED = {
     "free-rotor": _ROTORS,
     "top": _ROTORS,
     "spheroid": _ROTORS,
+    "nutation": ("nutation", "From a rigid Earth to half a milliarcsecond"),
     "cassini-states": ("frames", "Which model, which time, which frame"),
 }
 ERRORS = ("accuracy", "Errors and run times")
