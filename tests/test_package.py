@@ -41,6 +41,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
         ),
         *("questions/polar_motion.py", "checks/sky.py"),
         "views/play.py",  # pages to play with start from the Earth
+        "views/of_question.py",  # by the titles of pages of the documentation
         "sky/kernel_differences.py",  # what was measured, by the codes of the bodies
         "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
         "sky/kernel_checks.py",  # where Sun, Moon and planets can be, likewise
