@@ -36,6 +36,8 @@ EXPLAINED = {
     "long-term": ("long_term", "Over millennia and millions of years"),
     "wobble": _WOBBLE,
     "polar-motion": _WOBBLE,
+    "love-numbers": _WOBBLE,
+    "compliances": _WOBBLE,
     "free-rotor": _ROTORS,
     "top": _ROTORS,
     "spheroid": _ROTORS,
