@@ -8,6 +8,11 @@ from numpy.typing import NDArray
 from earthspin.checks.case import Cases, Distances, hard_because, held_against
 from earthspin.checks.sky import SPIN, H
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
+from earthspin.interior.equilibrium import equilibrium
+from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.love import elastic, yielding
+from earthspin.interior.prem import PREM
+from earthspin.interior.rotation import parts_of, system, wobble_response
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
 from earthspin.nutation.budget import contributions
 from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis
@@ -106,3 +111,36 @@ def _at_rest() -> Distances:
     yield rate_ratio(np.zeros(3)) - 1
     yield tropical_year(0.0, year) / year - 1
     yield general_precession(0.0, 0.0, 0.4)
+
+
+@CASES.case("a transfer function a hundred millionth of a turn from a resonance")
+@hard_because("four motions that each grow without bound, and must be told apart")
+@held_against("the sum of the partial fractions of the system, relative", bound=5e-7)
+def _near_resonance() -> Distances:
+    parts = parts_of(PREM, SPIN, elastic(PREM).answers, H / (1 - H))
+    p, q, right, left = system(parts)
+    modes, vectors = np.linalg.eig(np.linalg.solve(p, -q))
+    for mode in modes.real:
+        sigma = mode + np.array([-1e-8, 1e-8])
+        forced = np.linalg.solve(p, np.multiply.outer(right, sigma) + left[:, None])
+        shares = np.linalg.solve(vectors, forced) / (sigma - modes[:, None])
+        yield np.abs((vectors @ shares)[0] / wobble_response(parts, sigma) - 1)
+
+
+@CASES.case("at rest in space, whatever is inside")
+@hard_because("the answers of core and inner core cancel to the last digit")
+@held_against("T(-1) = H/H_rigid, relative", bound=5e-15)
+def _precession_of_all() -> Distances:
+    for strain in (0.0, -30.0, -14.0 + 3.0j):
+        e = H / (1 - H)
+        parts = parts_of(PREM, SPIN, yielding(PREM, strain).answers, e)
+        yield abs(wobble_response(parts, np.array([-1.0]))[0] * (e + 1) / e - 1)
+
+
+@CASES.case("a mantle ten thousand times softer than it is heavy")
+@hard_because("a boundary layer at core and surface, and shear that bears nothing")
+@held_against("the Love number of a liquid, relative", bound=1e-3)
+def _soft_mantle() -> Distances:
+    core = Layer(3.5e6, (11000.0,), (1e5,))
+    body = LayeredBody("soft", (core, Layer(6.4e6, (4500.0,), (1e5,), (50.0,), 1.0)), "")
+    yield float(elastic(body).k) / equilibrium(body).k - 1

@@ -18,6 +18,7 @@ from earthspin.wobble.record import NEAR
 from tests import shipped
 from tests.docs.numbers.answers import of_c04, value
 from tests.docs.numbers.sentence import Column, Sentence, Told
+from tests.wobble.test_neglected import from_bound_to_free
 
 PAGE = "docs/wobble.md"
 
@@ -122,12 +123,6 @@ def secular(radius: float) -> float:
     """3 G (C - A)/(Omega^2 R^5)."""
     earth = earthspin.EARTH
     return float(3 * earth.gm * earth.j2 * earth.radius**2 / (earth.spin_rate**2 * radius**5))
-
-
-def by_inner_core() -> float:
-    """Change of the period by an inner core that is free, beside one that is bound, d."""
-    period = shipped.tree("wobble")["inner_core"].chandler_by_core
-    return float(period.sel(core_model="free") - period.sel(core_model="bound to the mantle"))
 
 
 def two_days() -> list[float]:
@@ -304,7 +299,7 @@ MEASURED = [
     Sentence(PAGE, "The observed {} ± {} days require", lambda: of_c04("burg")[:2]),
     Sentence(PAGE, "they indicate $\\alpha$ near {}.", exponent_of_the_observed_quality, slow=True),
     Sentence(PAGE, "as recalled, for {} |", lambda: love("k2")[0]),
-    Sentence(PAGE, "inner core that is bound to the mantle it is {} d", by_inner_core),
+    Sentence(PAGE, "bound to the mantle it is {} d (section", from_bound_to_free),
 ]
 TOLD = [
     Told(PAGE, "Errors are half-widths of {} % intervals", ERROR),
