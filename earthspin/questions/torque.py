@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body, in_a_sentence
+from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -147,8 +147,14 @@ def torques(
     worst = max(angle for angle, _ in kernel_error.values())
     refuse_unkept(accuracy, worst, "mas", "that is what the kernel is known to; ask for less")
 
-    def stack(values: list[NDArray[np.float64]], *dims: str) -> xr.DataArray:
-        return xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
+    def stack(
+        values: list[NDArray[np.float64]], *dims: str, times: Numeric | None = None
+    ) -> xr.DataArray:
+        found = xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
+        if times is None or hasattr(times, "dims"):
+            return found if times is None else found * times
+        found.values *= times  # in place: fresh memory costs more than the product
+        return found
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
@@ -171,9 +177,11 @@ def torques(
             "right_ascension": stack([seen[name][0] for name in names]),
             "declination": stack([seen[name][1] for name in names]),
             "distance": stack([seen[name][2] for name in names]),
-            "torque": stack(per_bulge, "component") * bulge,
-            "torque_magnitude": stack([np.linalg.norm(t, axis=-1) for t in per_bulge]) * abs(bulge),
-            "torque_magnitude_error": stack(error) * abs(bulge),
+            "torque": stack(per_bulge, "component", times=bulge),
+            "torque_magnitude": stack(
+                [np.linalg.norm(t, axis=-1) for t in per_bulge], times=abs(bulge)
+            ),
+            "torque_magnitude_error": stack(error, times=abs(bulge)),
             "direction_error": [kernel_error[name][0] for name in names],
             "distance_error": [kernel_error[name][1] for name in names],
         },
