@@ -317,31 +317,41 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     def along(values: NDArray[np.float64]) -> xr.DataArray:
         return xr.DataArray(values, {"perturber": means.labels}, ("perturber",))
 
+    def labelled(of: rates.Estimate) -> rates.Estimate:
+        return rates.Estimate(along(of.value), along(of.method), along(of.given))
+
+    # labels cost more than the sums: a body of plain numbers gets them at the end
+    on_the_way, at_the_end = (along, _as_it_is) if body.labelled else (np.asarray, labelled)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = along(rates.total_uncertainty(means.precessing, u_each))
+    u_gm = on_the_way(rates.total_uncertainty(means.precessing, u_each))
     rate = rates.precession_estimate(
-        along(means.precessing),
-        along(means.precessing_error),
+        on_the_way(means.precessing),
+        on_the_way(means.precessing_error),
         body.needed("dynamical_flattening"),
         body.spin_rate,
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
     torque = rates.torque_estimate(
-        along(np.linalg.norm(means.torque, axis=-1)),
-        along(np.linalg.norm(means.torque_error, axis=-1)),
+        on_the_way(np.linalg.norm(means.torque, axis=-1)),
+        on_the_way(np.linalg.norm(means.torque_error, axis=-1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
         body.relative_uncertainty_of_bulge(),
         u_gm,
     )
     return MeanRates(
-        rate=rate,
-        torque=torque,
+        rate=at_the_end(rate),
+        torque=at_the_end(torque),
         ratio=rates.rate_ratio(means.precessing),
         method=means.method,
         evaluations=means.evaluations,
         no_error=means.no_error,
     )
+
+
+def _as_it_is(of: Estimate) -> Estimate:
+    """An estimate that has its labels."""
+    return of
 
 
 #: What stands between the sky and `mean_rates`, for the questions that use it.

@@ -190,8 +190,11 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
-    single = all_by_elements(body, perturbers) and all(
-        len(way.ellipses) == 1 for way in ways(body, perturbers).values()
+    if not any(one.orbit is not None for one in (body, *perturbers)):
+        return None
+    found = ways(body, perturbers)
+    single = len(found) == len(perturbers) and all(
+        way.start is body and len(way.ellipses) == 1 for way in found.values()
     )
     return "orbits by their elements have exact means" if single else None
 

@@ -114,7 +114,7 @@ class Pulled(Question):
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
-        ways(self.body, self.perturbers)  # refuses elements that do not fit together
+        # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
         for one in (self.body, *self.perturbers):
             of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)

@@ -133,15 +133,16 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dat
     from earthspin.torque import rates
 
     rate, torque = mean_rates.rate, mean_rates.torque
+    error = rate.error
     result = build(
         RATES,
         {
             "precession_rate": rate.value,
-            "precession_rate_error": rate.error,
+            "precession_rate_error": error,
             "precession_rate_error_method": rate.method,
             "precession_rate_error_input": rate.given,
             "precession_period": rates.period(rate.value),
-            "precession_period_error": rates.period_error(rate.value, rate.error),
+            "precession_period_error": rates.period_error(rate.value, error),
             "rate_ratio": mean_rates.ratio,
             "mean_torque": torque.value,
             "mean_torque_error": torque.error,
