@@ -128,7 +128,7 @@ RATES = {
 
 
 @part(gives=RATES)
-def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dataset:
+def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> xr.Dataset:
     """Rates, periods and torques by perturber, each with its error."""
     from earthspin.torque import rates
 
@@ -151,12 +151,23 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dat
         },
         no_error=mean_rates.no_error,
     )
-    result["precession_rate"].attrs["window"] = mean_torques.over
+    result["precession_rate"].attrs |= {
+        "window": mean_torques.over,
+        "pole": str(body.needed("pole")),
+        "plane": _plane(body),
+    }
     result["precession_rate_error"].attrs |= {
         "method": mean_rates.method,
         "evaluations": mean_rates.evaluations,
     }
     return result
+
+
+def _plane(body: Body) -> str:
+    """The plane along which a rate is counted, in words."""
+    if body.needed("pole").of_the_iau:
+        return "ecliptic of J2000.0"
+    return f"orbit whose normal has {body.orbit_pole} (ICRF)"
 
 
 PROMISE = promise("1", "relative, of the rate by all perturbers")
