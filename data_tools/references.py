@@ -1,6 +1,6 @@
 """Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32.
 
-The pole is made in long double, by `data_tools.pole_reference`.
+Pole and rotation are made in long double, by `data_tools.pole_reference` and `rotation_reference`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,14 @@ from typing import Any
 import numpy as np
 
 from earthspin.checks import stored
-from earthspin.checks.ladders import of_free_rotor, of_pole, of_spheroid, of_top, rotation
+from earthspin.checks.ladders import (
+    of_free_rotor,
+    of_pole,
+    of_rotation,
+    of_spheroid,
+    of_top,
+    rotation,
+)
 from earthspin.sky import iau
 
 Numbers = Sequence[Any]
@@ -89,11 +96,23 @@ def pole() -> Made:
     }
 
 
+def tumbling() -> Made:
+    """Angular velocity and attitude of a tumbling moon."""
+    from data_tools.rotation_reference import tumbling as followed
+
+    omega, attitude = followed()
+    return of_rotation.INPUTS, {
+        "omega": _pairs([list(row) for row in omega]),
+        "attitude": _pairs([list(row) for row in attitude]),
+    }
+
+
 MAKERS: dict[str, Callable[[], Made]] = {
     "free-rotor": free_rotor,
     "top": top,
     "spheroid": spheroid,
     "pole": pole,
+    "rotation": tumbling,
 }
 
 

@@ -18,7 +18,7 @@ FILE = Path(earthspin.__file__).with_name("__init__.pyi")
 _HEAD = '''"""Signatures of the public names, written by `python -m data_tools signatures`."""
 
 import datetime as dt
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal
 

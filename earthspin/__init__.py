@@ -21,6 +21,7 @@ _HOME = {
     "earthspin.questions.compliances": ("compliances",),
     "earthspin.questions.long_term": ("long_term",),
     "earthspin.questions.cassini": ("cassini_states",),
+    "earthspin.questions.rotation": ("rotation",),
     "earthspin.sky.orbit_files": ("read_orbit",),
     "earthspin.parts.insolation": ("daily_insolation",),
     "earthspin.questions.wobble": ("wobble_ladder",),

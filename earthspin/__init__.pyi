@@ -1,7 +1,7 @@
 """Signatures of the public names, written by `python -m data_tools signatures`."""
 
 import datetime as dt
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal
 
@@ -196,6 +196,35 @@ def long_term(
     j2_rate: Value | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
+def rotation(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Dates | None = ...,
+    effects: Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    start_attitude: Values | None = ...,
+    start_omega: Values | None = ...,
+    torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
+    accuracy: Value | None = ...,
+) -> xr.Dataset: ...
 def wobble_ladder(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
@@ -303,6 +332,7 @@ __all__ = [
     "read",
     "read_excitation",
     "read_orbit",
+    "rotation",
     "run",
     "run_tree",
     "spheroid_field",

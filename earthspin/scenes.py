@@ -26,6 +26,7 @@ from earthspin.questions.nutation import NutationLadder
 from earthspin.questions.polar_motion import PolarMotion
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
+from earthspin.questions.rotation import Rotation
 from earthspin.questions.spheroid import Spheroid
 from earthspin.questions.top import Top
 from earthspin.questions.torque import Torque
@@ -40,8 +41,8 @@ if TYPE_CHECKING:
 QUESTIONS: dict[str, type[Question]] = {
     question.word: question
     for question in (
-        Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Wobble, PolarMotion, FreeRotor,
-        Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
+        Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Rotation, Wobble, PolarMotion,
+        FreeRotor, Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
     )
 }  # fmt: skip
 
@@ -299,12 +300,12 @@ def _say_what_differs(scene: Any, answer: Any) -> None:
 
 
 def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path:
-    """Write a series of torques or of the pole of any length to Zarr, in bounded memory.
+    """Write a series of torques, pole or rotation of any length to Zarr, in bounded memory.
 
     Parameters
     ----------
     scene : str, Path, Question or answer
-        One that computes ``torque`` or ``pole``.
+        One that computes ``torque``, ``pole`` or ``rotation``.
     path : str or Path
         The Zarr folder; what is there is replaced when all is written. If the run is ended before,
         the same call goes on from what it had written.
@@ -342,14 +343,14 @@ def _series(question: Question) -> Series:
     size = series_length(question)
     if size == 0:
         raise SceneError(
-            "compute", question.word, "only a series of torques or of the pole is written by region"
+            "compute", question.word, "only a series of torques, pole or rotation is written by region"
         )
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not isinstance(question, (Torque, Pole)):
+    if not isinstance(question, (Torque, Pole, Rotation)):
         return 0
     from earthspin.parts.times import epochs
 
@@ -363,12 +364,12 @@ def members_of(question: Question) -> int:
 
 
 def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
-    """Run a series of torques or of the pole block by block, for times that do not fit into memory.
+    """Run a series of torques, pole or rotation block by block, if it does not fit into memory.
 
     Parameters
     ----------
     scene : str, Path or Question
-        One that computes ``torque`` or ``pole``.
+        One that computes ``torque``, ``pole`` or ``rotation``.
 
     Yields
     ------

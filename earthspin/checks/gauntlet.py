@@ -23,6 +23,7 @@ PARTS = (
     "top",
     "torque",
     "motion",
+    "rotation",
     "secular",
     "wobble",
     "nutation",

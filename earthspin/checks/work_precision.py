@@ -44,6 +44,7 @@ QUANTITIES: dict[str, str] = {
     "torque": "of_torque",
     "pole": "of_pole",
     "long-term": "of_long_term",
+    "rotation": "of_rotation",
     "free-rotor": "of_free_rotor",
     "top": "of_top",
     "spheroid": "of_spheroid",

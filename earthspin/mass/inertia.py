@@ -63,6 +63,20 @@ def polar_moment_factor(j2: Numeric, h: Numeric) -> Numeric:
     return j2 / h
 
 
+def polar_moment(j2: Numeric, h: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
+    """C from the two numbers that are measured, kg m2.
+
+    Parameters
+    ----------
+    j2, h : float
+    mass : float
+        kg.
+    radius : float
+        Equatorial radius that j2 refers to, m.
+    """
+    return polar_moment_factor(j2, h) * mass * radius**2
+
+
 def inverse_polar_moment(j2: float, h: float) -> float:
     """M a2/C from the two numbers that are measured; 0 where H is 0, whatever J2.
 

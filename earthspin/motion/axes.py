@@ -395,8 +395,8 @@ def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
         raise UndefinedError(
             f"a spin of {days:.3g} d is too slow for the figure axis to follow the angular "
             f"momentum (slow manifold off by {last_term / ARCSEC * 1e3:.2g} mas, allowed "
-            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); integrate the attitude with "
-            f"earthspin.motion.attitude instead"
+            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); ask for the whole attitude instead: "
+            f"earthspin.rotation, or compute = 'rotation'"
         )
 
 

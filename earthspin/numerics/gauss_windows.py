@@ -44,16 +44,16 @@ class Windows:
         self.edges, self.order = edges, order
         self.half = np.diff(edges)[:, np.newaxis] / 2
         self.middle = (edges[:-1] + edges[1:])[:, np.newaxis] / 2
-        self.times = self.middle + self.half * _rule(order).nodes
+        self.times = self.middle + self.half * rule(order).nodes
 
     def coefficients(self, values: _AnyArray) -> _AnyArray:
         """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
-        result: _AnyArray = _apply(values, _rule(self.order).project)
+        result: _AnyArray = _apply(values, rule(self.order).project)
         return result
 
     def derivative(self, values: _AnyArray) -> _AnyArray:
         """Derivative at the nodes of the polynomial through values there, per second."""
-        result: _AnyArray = _apply(values, _rule(self.order).differentiate) / self.half
+        result: _AnyArray = _apply(values, rule(self.order).differentiate) / self.half
         return result
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -65,9 +65,9 @@ class Windows:
         whole : ndarray, shape (..., w)
             Over the whole window.
         """
-        rule = _rule(self.order)
-        to_nodes = (values @ rule.integrate) * self.half
-        return to_nodes, (values @ rule.weights) * self.half[:, 0]
+        gauss = rule(self.order)
+        to_nodes = (values @ gauss.integrate) * self.half
+        return to_nodes, (values @ gauss.weights) * self.half[:, 0]
 
     def evaluate(self, coefficients: _AnyArray, times: FloatArray) -> _AnyArray:
         """Values of a Legendre series at any times within the windows.
@@ -103,7 +103,7 @@ def _apply(values: Any, matrix: FloatArray) -> Any:
     return values @ matrix
 
 
-class _Rule:
+class Rule:
     """Nodes on [-1, 1] and the matrices that act on values there, from the right."""
 
     def __init__(self, order: int) -> None:
@@ -128,8 +128,9 @@ class _Rule:
 
 
 @lru_cache
-def _rule(order: int) -> _Rule:
-    return _Rule(order)
+def rule(order: int) -> Rule:
+    """Nodes, weights and matrices of so many nodes."""
+    return Rule(order)
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ from earthspin.parts.times import Series
 from earthspin.units import Plain, Several, Word
 
 if TYPE_CHECKING:
-    from earthspin.motion.forces import Forces
+    from earthspin.motion.forces import Figure, Forces
     from earthspin.sky.protocol import Place
 
 
@@ -126,29 +126,42 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Forces with some effects switched on and no other evaluated."""
-    from earthspin.mass.inertia import inverse_polar_moment
-    from earthspin.motion.forces import Figure, Forces
+    from earthspin.motion.forces import Forces
 
-    h, pole = body.number("dynamical_flattening"), body.needed("pole")
     forces = Forces(
-        figure=Figure(
-            h=h,
-            spin_rate=2 * math.pi / body.number("spin_period"),
-            inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
-            radius=body.number("radius"),
-            meridian=body.number("meridian"),
-        ),
+        figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
         gm={name: pulls.gm[name] for name in pulls.near},
         far={name: gm for name, gm in pulls.gm.items() if name not in pulls.near},
         positions=lambda times: {},
         near=pulls.near,
-        mean_pole=lambda times: pole.mean(times / DAY),
+        mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
+    forces = switched_on(forces, body, effects)
+    names = tuple(forces.gm)
+    return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
+
+
+def figure_of(body: Body, spin_rate: float) -> Figure:
+    """The numbers of a body that its motion depends on, effects aside."""
+    from earthspin.mass.inertia import inverse_polar_moment
+    from earthspin.motion.forces import Figure
+
+    h = body.number("dynamical_flattening")
+    return Figure(
+        h=h,
+        spin_rate=spin_rate,
+        inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
+        radius=body.number("radius"),
+        meridian=body.number("meridian"),
+    )
+
+
+def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
+    """Forces with some effects."""
     for name, effect in EFFECTS.items():
         if name in effects:
             forces = effect.switch_on(forces, body)
-    names = tuple(forces.gm)
-    return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
+    return forces
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:

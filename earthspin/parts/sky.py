@@ -89,6 +89,8 @@ class Pulled(Question):
         "spin_period",
         "pole",
     )
+    #: Whether a body may be left to itself.
+    may_be_alone: ClassVar[bool] = False
 
     def check(self) -> None:
         """A body with a mass, and others that pull on it, each once."""
@@ -97,9 +99,9 @@ class Pulled(Question):
             object.__setattr__(self, "body", on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
-        self.body.require(self.needs)
+        self.body.require(self.needed())
         names = [p.name for p in self.perturbers]
-        if not names:
+        if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
         for one in self.perturbers:
             if one.labelled_field is not None:
@@ -125,6 +127,10 @@ class Pulled(Question):
                     f"how far off the positions of '{one.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
+
+    def needed(self) -> tuple[str, ...]:
+        """What has to be known of the body, for the keys that are given."""
+        return self.needs
 
 
 def unmeasured(body: Body) -> bool:

@@ -22,6 +22,7 @@ DIMENSIONS = {
     "love-numbers": {"love"},
     "compliances": {"number"},
     "long-term": {"epoch", "component", "perturber"},
+    "rotation": {"time", "component", "quaternion"},
     "wobble": {"rung"},
     "polar-motion": {"time"},
     "free-rotor": {"time", "component", "quaternion"},

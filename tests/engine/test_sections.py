@@ -21,6 +21,7 @@ SCENES = {
     "iau": "iau",
     "nutation": "nutation",
     "long-term": "long-term",
+    "rotation": "rotation",
     "wobble": "wobble",
     "polar-motion": "polar-motion",
     "free-rotor": "poinsot",
@@ -45,6 +46,7 @@ NAMES = {
         *("beside", "terms", "modes", "transfer", "compliances", "residuals", "neglected"),
     },
     "long-term": {"budget", "matrices", "neglected"},
+    "rotation": {"divergence", "neglected"},
     "wobble": {
         *("observed", "sensitivity", "core_nutation", "inner_core", "interior", "neglected"),
     },

@@ -229,6 +229,7 @@ def _required(question: type[Question]) -> dict[str, Any]:
     sound = {
         "torque": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
         "pole": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
+        "rotation": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
         "free-rotor": {"moments": [1, 2, 3], "omega": [1, 0, 1], "duration": 3, "points": 3},
         "top": {"transverse_moment": 1, "axial_moment": 0.5, "weight_moment": 1, "theta": 0.5,
                 "spin": 5, "duration": 3},

@@ -19,4 +19,5 @@ PAGES = (
     "frames",
     "long_term",
     "worlds",
+    "rotation",
 )

@@ -1,0 +1,149 @@
+"""Stiff and extreme cases of the whole attitude."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import EARTH, Body
+from earthspin.checks.case import Cases, Distances, hard_because, held_against, refused
+from earthspin.checks.ladders import of_rotation
+from earthspin.checks.stored import attitude_error, load
+from earthspin.constants import G
+from earthspin.motion.equations import Rigid
+from earthspin.motion.march import Above
+from earthspin.motion.rotation import Motion, start_of
+from earthspin.questions.rotation import rotation
+from earthspin.rotor.triaxial import free_rotation
+from earthspin.sky.poles import FixedPole
+
+FloatArray = NDArray[np.float64]
+
+CASES = Cases("rotation")
+
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
+ALONE = Above(gm={}, positions=lambda times: {})
+
+
+def _body(a: float, b: float, unit: float = 1.0) -> Rigid:
+    """A body of moments a, b and 1."""
+    one = np.ones(1)
+    return Rigid(c_minus_a=(1 - a) * one, c_minus_b=(1 - b) * one, tide=one, unit=unit)
+
+
+def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) -> float:
+    """Largest angle from Jacobi's closed form."""
+    times = np.linspace(0.0, end, 50)
+    body = _body(*moments)
+    found = Motion(body, ALONE, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
+    true = free_rotation((*moments, 1.0), omega, times).attitude
+    chord = [np.linalg.norm(found.attitude - s * true, axis=1) for s in (1, -1)]
+    return float(2 * np.max(np.minimum(*chord)))
+
+
+@CASES.case("a thousand turns of a body that is a hair from round")
+@hard_because("moments agree to 1e-12: what is left of them turns the pole once in 1e12 turns")
+@held_against("Jacobi's closed form", bound=1e-11, unit="rad")
+def _nearly_round() -> Distances:
+    yield _free((1 - 2e-12, 1 - 1e-12), (0.1, 0.2, 1.0), 2000 * np.pi)
+
+
+@CASES.case("a racket that flips, its attitude followed")
+@hard_because("near the middle axis each flip multiplies what rounding left by a thousand")
+@held_against("Jacobi's closed form", bound=1e-9, unit="rad")
+def _racket() -> Distances:
+    yield _free((0.4, 0.7), (1e-3, 1.0, 0.0), 60.0)
+
+
+@CASES.case("a rod that tumbles")
+@hard_because("one moment is a ten-thousandth of the others, and the spin about it fast")
+@held_against("Jacobi's closed form", bound=1e-8, unit="rad")
+def _rod() -> Distances:
+    yield _free((1e-4, 1.0 - 1e-6), (50.0, 0.3, 0.2), 20.0)
+
+
+@CASES.case("a tumbling moon over two and a half orbits")
+@hard_because("neighbours part fifteen times as far in that time")
+@held_against("extrapolation of order 20 in long double", bound=2e-13, unit="rad")
+def _tumbling() -> Distances:
+    times = of_rotation.times()
+    (_, attitude), _ = of_rotation._windows(times, 1e-13)
+    yield attitude_error(attitude, load("rotation", of_rotation.INPUTS)["attitude"])
+
+
+def _passage(eccentricity: float) -> float:
+    """Largest part of the claimed error by which two tolerances differ after a close passage."""
+    body = _body(0.7, 0.8)
+
+    def places(times: FloatArray) -> dict[str, FloatArray]:
+        anomaly = times + eccentricity * np.sin(times)
+        for _ in range(60):
+            rest = anomaly - eccentricity * np.sin(anomaly) - times
+            anomaly = anomaly - rest / (1 - eccentricity * np.cos(anomaly))
+        across = np.sqrt(1 - eccentricity**2) * np.sin(anomaly)
+        return {"mass": np.stack([np.cos(anomaly) - eccentricity, across, 0 * times], axis=-1)}
+
+    above, start = Above(gm={"mass": 1.0}, positions=places), np.array([0.1, 0.0, 1.0])
+    found = [
+        Motion(body, above, start_of(body, UPRIGHT, start), 9.0, tolerance=tolerance).at(
+            np.array([9.0])
+        )
+        for tolerance in (1e-13, 1e-9)
+    ]
+    chord = min(np.linalg.norm(found[0].attitude - s * found[1].attitude) for s in (1, -1))
+    return float(2 * chord / (found[0].error[0, 0, -1] + found[1].error[0, 0, -1]))
+
+
+@CASES.case("a passage at a hundredth of the distance")
+@hard_because("the tide grows a million times within a thousandth of the orbit, and goes")
+@held_against("what both claim of their errors, at two tolerances", bound=1.0)
+def _close_passage() -> Distances:
+    yield _passage(0.99)
+
+
+TOP = Body(
+    name="gyroscope",
+    gm=float(G.value),
+    radius=1.0,
+    j2=0.1,
+    dynamical_flattening=0.25,
+    pole=FixedPole(0.0, 1.2),
+    spin_period=2.0,
+)
+
+
+@CASES.case("a torque that runs away")
+@hard_because("the spin is infinite after a finite time")
+@refused("changes faster than any step")
+def _runs_away() -> None:
+    rotation(
+        "2000-01-01",
+        "2000-01-02",
+        "1 h",
+        body=TOP,
+        perturbers=[],
+        torque=lambda t, q, omega: omega**3,
+    )
+
+
+@CASES.case("a body at rest")
+@hard_because("nothing gives a unit of time, and the first window none of its length")
+@held_against("the attitude that it had", bound=0.0, unit="rad")
+def _at_rest() -> Distances:
+    still = rotation(
+        "2000-01-01",
+        "2000-01-02",
+        "6 h",
+        body=TOP,
+        perturbers=[],
+        start_attitude=UPRIGHT,
+        start_omega=[0.0, 0.0, 0.0],
+    )
+    yield still.attitude.values - UPRIGHT
+
+
+@CASES.case("an attitude asked for to a millionth of a microarcsecond")
+@hard_because("the flattening alone leaves some picoradians after a month")
+@refused("ask for less")
+def _too_fine() -> None:
+    rotation("2000-01-01", "2000-02-01", "10 d", body=EARTH, accuracy="1e-6 uas")

@@ -1,0 +1,94 @@
+"""A torque of one's own: a function that is given in Python."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
+from earthspin.units import Plain
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+#: Word for what a scene cannot hold.
+_LIVE = "live"
+
+
+@dataclass(frozen=True)
+class OwnTorque:
+    """A torque of one's own.
+
+    Attributes
+    ----------
+    law : callable
+        ``torque(t, q, omega)`` of times from the start (s), shape (n,), attitudes (n, 4) and
+        angular velocities along the body's axes (rad/s), shape (n, 3), to N m along the body's
+        axes, shape (n, 3).
+    """
+
+    law: Callable[[FloatArray, FloatArray, FloatArray], ArrayLike]
+
+    words = "a function torque(t, q, omega) -> N m, in Python"
+    hint = "Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike]"
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> OwnTorque:
+        """Take a function; whether it gives a torque shows when it is called."""
+        if isinstance(given, OwnTorque):
+            return given
+        if isinstance(given, Mapping) and _LIVE in given:
+            raise where.error(
+                given[_LIVE], "it was a function, which no scene can hold; give it again in Python"
+            )
+        if not callable(given):
+            raise where.error(given, f"give {cls.words}")
+        return cls(given)
+
+    def write(self) -> Plain:
+        """Say which function it was."""
+        name = getattr(self.law, "__qualname__", None) or repr(self.law)
+        return {_LIVE: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
+
+    def over(
+        self, polar_moment: float
+    ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
+        """The same over C, checked whenever it is called.
+
+        Parameters
+        ----------
+        polar_moment : float
+            C, kg m2.
+
+        Raises
+        ------
+        UndefinedError
+            If it fails, or gives something else than a finite torque for each time.
+        """
+
+        def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
+            try:
+                given: Any = np.asarray(self.law(times, q, omega), dtype=np.float64)
+                found = np.broadcast_to(given, omega.shape)
+            except EarthspinError:
+                raise
+            except Exception as error:  # whatever somebody's function meets
+                words = one_line(error) or type(error).__name__
+                raise UndefinedError(
+                    f"the torque of your own cannot be used at {times.size} times: {words}; it "
+                    f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
+                    f"({times.size}, 3) and gives N m of the last shape"
+                ) from None
+            if not np.isfinite(found).all():
+                raise UndefinedError(
+                    "the torque of your own is not finite "
+                    f"{float(times[~np.isfinite(found).all(axis=1)][0]):.6g} s from the "
+                    "start; give N m for each time"
+                )
+            return np.asarray(found / polar_moment)
+
+        return torque

@@ -1,0 +1,449 @@
+"""The whole attitude of a body: how it turns, at any spin, under anything."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+
+from earthspin.bodies import Body
+from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.constants import DAY, NORMAL_95
+from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.engine.asking import ask
+from earthspin.engine.labels import Variable, build, si
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import Block, part
+from earthspin.engine.question import key, made_of
+from earthspin.motion.effects import NONRIGID
+from earthspin.parts.own_torque import OwnTorque
+from earthspin.parts.pulls import Moved, Pulls, figure_of, forces_of, pulls, switched_on
+from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.sky import places, sky
+from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.units import AngleError, FloatArray, Numbers
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from earthspin.motion.divergence import Divergence
+    from earthspin.motion.equations import Rigid
+    from earthspin.motion.forces import Forces
+    from earthspin.motion.march import Above
+    from earthspin.motion.rotation import Motion, State
+
+#: What a quaternion's length may be off by.
+_LENGTH = 1e-6
+
+
+class Rotation(Moved, word="rotation", call="rotation", positional=("start", "stop", "step")):
+    """Attitude, spin and angular momentum of a rigid body, nothing averaged (I.2, I.4, I.9.34).
+
+    Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
+    first date, with the body's own pole, meridian and spin, or as `start_attitude` and
+    `start_omega` say. The effect `second-order` cannot be switched off here, and `nonrigid` not on.
+
+    Returns
+    -------
+    Dataset
+        Over `time`: `attitude` (unit quaternion along `quaternion`, body to ICRF), `omega` (rad/s)
+        along the principal axes and `angular_momentum` (kg m2/s) along the ICRF, each along
+        `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
+        `divergence`, how fast neighbouring rotations part.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> slow = earthspin.EARTH.replace(spin_period="10 d")
+    >>> turned = earthspin.rotation("2000-01-01", "2000-01-11", "5 d", body=slow)
+    >>> print(turned.omega.sel(component="z").round(10).values)
+    [7.2722e-06 7.2722e-06 7.2722e-06]
+    """
+
+    span: Span = key(
+        ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
+        doc="first and last date, TDB; the last is included if the step meets it",
+    )
+    step: Step = key("6 h", doc="interval between dates")
+    start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
+        None,
+        doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date",
+    )
+    start_omega: Annotated[FloatArray, Numbers("rad/s", "1e-4 rad/s", (3,))] | None = key(
+        None, doc="angular velocity along the principal axes, C last, at the first date"
+    )
+    torque: OwnTorque | None = key(
+        None, doc="a torque of one's own, in Python, along the principal axes, in N m"
+    )
+    accuracy: AngleError | None = key(
+        None, doc="largest error of the attitude; the cheapest settings that keep it are chosen"
+    )
+
+    needs = ("radius", "j2", "dynamical_flattening")
+    may_be_alone = True
+
+    def needed(self) -> tuple[str, ...]:
+        """Pole and spin, unless the start is given."""
+        pole = () if self.start_attitude is not None else ("pole",)
+        spin = () if self.start_omega is not None else ("spin_period",)
+        return (*self.needs, *pole, *spin)
+
+    def check(self) -> None:
+        """A rigid body whose three moments follow, and a start that is one."""
+        super().check()
+        if NONRIGID.name in self.effects:
+            raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
+        if self.body.number("dynamical_flattening") == 0:
+            raise self.error(
+                "body", self.body.name, "C does not follow from H = 0; give it some flattening"
+            )
+        if self.start_attitude is not None:
+            length = float(np.linalg.norm(self.start_attitude))
+            if abs(length - 1) > _LENGTH:
+                raise self.error(
+                    "start_attitude", self.start_attitude.tolist(), "a unit quaternion has length 1"
+                )
+
+
+@dataclass(frozen=True)
+class Pulling:
+    """Forces of a sky, and how well they are known.
+
+    Attributes
+    ----------
+    forces : Forces
+    doubt : float
+        Relative half-width of the pull from where the bodies may be off; NaN if not measured.
+    no_error : str
+        Why some errors are not given; empty if all are.
+    """
+
+    forces: Forces
+    doubt: float
+    no_error: str
+
+
+def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
+    """Leave the sky out where nothing pulls."""
+    return None if perturbers else "nothing pulls on the body"
+
+
+def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
+    """A body whose spin is that of the start, where it has none of its own."""
+    if body.spin_period is not None or start_omega is None:
+        return body
+    speed = float(np.linalg.norm(start_omega))
+    return body.replace(spin_period=2 * np.pi / speed if speed else 2 * np.pi)
+
+
+@part(unless=nothing_pulls)
+def pulling(
+    pulls: Pulls,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    effects: tuple[str, ...],
+    start_omega: FloatArray | None,
+) -> Pulling:
+    """Forces of all that pulls, effects switched on."""
+    from earthspin.motion.neighbours import doubt_of_pull
+
+    days = epochs.span()
+    pulls.sky.check_times(days, pulls.targets)
+    seen = pulls.sky.positions(np.array(days[:1]))
+    doubts = []
+    for name, place in pulls.sky.targets.items():
+        angle, far = pulls.sky.error(place, days)
+        doubts.append(doubt_of_pull(float(np.linalg.norm(seen[name])), far, angle))
+    doubt = float(np.max(doubts))  # NaN if one is
+    return Pulling(
+        forces_of(_spinning(body, start_omega), pulls, effects), doubt, pulls.sky.no_error
+    )
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """A body ready to be followed.
+
+    Attributes
+    ----------
+    body : Rigid
+        In further lanes its neighbours.
+    changed : tuple of str
+        What each of these has changed.
+    above : Above
+    start : State
+    begin, end : float
+        Days from J2000.0 TDB.
+    polar_moment : float
+        C, kg m2.
+    doubt : float
+        As of `Pulling`.
+    no_error : str
+    """
+
+    body: Rigid
+    changed: tuple[str, ...]
+    above: Above
+    start: State
+    begin: float
+    end: float
+    polar_moment: float
+    doubt: float
+    no_error: str
+
+    def motion(self, tolerance: float) -> Motion:
+        """Its motion, by windows of so much error."""
+        from earthspin.motion.rotation import Motion
+
+        return Motion(
+            self.body, self.above, self.start, float(self.since(self.end)), tolerance=tolerance
+        )
+
+    def since(self, days: float | FloatArray) -> FloatArray:
+        """Seconds from the start, exact to the microsecond."""
+        return np.asarray(np.round((days - self.begin) * DAY, 6))
+
+
+@part
+def rotor(
+    body: Body,
+    epochs: TimeGrid | TimeList,
+    effects: tuple[str, ...],
+    start_attitude: FloatArray | None,
+    start_omega: FloatArray | None,
+    torque: OwnTorque | None,
+    pulling: Pulling | None = None,
+) -> Rotor:
+    """The body at the start, what pulls on it, and neighbours with uncertain numbers changed."""
+    from earthspin.mass.inertia import polar_moment
+    from earthspin.motion import neighbours
+    from earthspin.motion.equations import FLATTENING, PULL, TRIAXIALITY
+    from earthspin.motion.forces import Forces
+    from earthspin.motion.rotation import start_of
+
+    begin, end = epochs.span()
+    epoch = begin * DAY
+    body = _spinning(body, start_omega)
+    spin_rate = float(body.spin_rate)
+    figure = figure_of(body, spin_rate)
+    forces = (
+        switched_on(Forces(figure=figure, gm={}, positions=lambda times: {}), body, effects)
+        if pulling is None
+        else pulling.forces
+    )
+    moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
+    u = body.relative_uncertainty
+    doubts = {
+        FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
+        TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
+        PULL: 0.0 if pulling is None else pulling.doubt,
+    }
+    rigid, changed = neighbours.rigid_bodies(
+        forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
+    )
+    attitude = (
+        neighbours.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
+        if start_attitude is None
+        else start_attitude
+    )
+    omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
+    return Rotor(
+        rigid,
+        changed,
+        neighbours.above(forces, epoch),
+        start_of(rigid, attitude, omega),
+        begin,
+        end,
+        moment,
+        doubts[PULL],
+        "" if pulling is None else pulling.no_error,
+    )
+
+
+@part
+def motion(rotor: Rotor, accuracy: float | None) -> Motion:
+    """The motion, by windows as fine as the accuracy needs; not yet followed."""
+    from earthspin.motion.rotation import tolerance_for
+
+    return rotor.motion(tolerance_for(accuracy))
+
+
+_TIME = ("time",)
+_SERIES = ("time", "component")
+_SHARES = (
+    ("method", "the two ways of following it"),
+    ("input", "given numbers"),
+    ("kernel", "the positions of the bodies"),
+)
+
+
+def _errors(name: str, unit: str, of: str) -> dict[str, Variable]:
+    """The error of a quantity, and its shares."""
+    told = {f"{name}_error": Variable(_TIME, unit, f"95 % half-width of {of}, largest so far")}
+    for share, words in _SHARES:
+        told[f"{name}_error_{share}"] = Variable(_TIME, unit, f"share of {name}_error from {words}")
+    return told
+
+
+ROTATION = {
+    "attitude": Variable(
+        ("time", "quaternion"),
+        "1",
+        "unit quaternion, body to ICRF",
+        error="attitude_error",
+    ),
+    **_errors("attitude", "deg", "the angle of the attitude"),
+    "omega": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
+    **_errors("omega", "rad/s", "the angular velocity"),
+    "angular_momentum": Variable(_SERIES, "kg m2 / s", "angular momentum along the ICRF"),
+    **_errors("angular_momentum", "kg m2 / s", "the angular momentum, C as given"),
+}
+
+
+@part(gives=ROTATION)
+def turning(
+    motion: Motion,
+    rotor: Rotor,
+    epochs: TimeGrid | TimeList,
+    accuracy: float | None,
+    block: Block | None = None,
+) -> xr.Dataset:
+    """Attitude, spin and angular momentum at every time, with what they may be off by."""
+    from earthspin.motion.march import FINEST
+    from earthspin.motion.rotation import KINDS, shares_of
+
+    if block is None:
+        refuse_what_does_not_fit(
+            epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
+        )
+        block = Block(0, epochs.size)
+    now = epochs.days(block.first, block.last)
+    order = np.argsort(now, kind="stable")
+    seconds = rotor.since(now[order])
+    found = motion.at(seconds)
+    if accuracy is not None and float(found.error[0, 0].max()) > accuracy:
+        motion = rotor.motion(FINEST)
+        found = motion.at(seconds)
+    back = np.argsort(order, kind="stable")
+    size = rotor.polar_moment * abs(rotor.body.unit)
+    values: dict[str, FloatArray] = {
+        "attitude": found.attitude[back],
+        "omega": found.omega[back],
+        "angular_momentum": (size if rotor.body.unit > 0 else -size) * found.momentum[back],
+    }
+    shares = shares_of(found, rotor.changed, rotor.doubt)
+    for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True)):
+        for share, error in shares.items():
+            values[f"{name}_error{share and f'_{share}'}"] = factor * error[kind][back]
+    worst = float(np.max(shares[""][0])) if not rotor.no_error else float("nan")
+    refuse_unkept(accuracy, worst, "mas", "the motion is known no better that long; ask for less")
+    result = build(
+        ROTATION,
+        values,
+        coords={
+            "time": ("time", datetime64(now), dict(DATES)),
+            "component": ["x", "y", "z"],
+            "quaternion": ["w", "x", "y", "z"],
+        },
+        no_error=rotor.no_error,
+    )
+    result["angular_momentum"].attrs["frame"] = "ICRF"
+    result["omega"].attrs["frame"] = "principal axes of the body, C last"
+    result["attitude_error"].attrs |= {
+        "method": f"Gauss windows of {motion.order} nodes, in two forms",
+        "evaluations": motion.evaluations,
+    }
+    return result
+
+
+PROMISE = promise("mas", "of the attitude")
+
+
+@part(gives=PROMISE, unless=no_accuracy)
+def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+    """Accuracy of the attitude: asked, estimated, and the method."""
+    error = turning.attitude_error
+    return report(
+        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
+    )
+
+
+DIVERGENCE = {
+    "growth": Variable(
+        _TIME,
+        "1",
+        "natural logarithm of how far neighbouring rotations have parted",
+        no_error="its scatter is growth_rate_error",
+    ),
+    "growth_rate": Variable((), "1/s", "mean rate of growth; Lyapunov's exponent if chaotic"),
+    "growth_rate_error": Variable(
+        (), "1/s", "95 % half-width of the rate, from its scatter between stretches of the span"
+    ),
+    "course": Variable(
+        (), "", "chaotic, if neighbours part faster than by powers of time; regular"
+    ),
+}
+#: Given where the motion is chaotic.
+LYAPUNOV = {
+    "lyapunov_time": Variable((), "d", "time in which neighbours part e times as far"),
+    "lyapunov_time_error": Variable((), "d", "95 % half-width of that time"),
+}
+
+
+def one_date(span: Span, times: TimeList | None) -> str | None:
+    """Leave out what needs a length of time."""
+    first, last = span.days if times is None else times.span()
+    return None if last > first else "neighbours part in time, and one date is asked for"
+
+
+@part(unless=one_date)
+def parting(rotor: Rotor) -> Divergence:
+    """The growth of the distance of a neighbour, brought back again and again."""
+    from earthspin.motion.divergence import divergence
+
+    return divergence(rotor.body, rotor.above, rotor.start, float(rotor.since(rotor.end)))
+
+
+@part(gives=DIVERGENCE, unless=one_date)
+def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> xr.Dataset:
+    """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
+    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
+    now = epochs.days(0, epochs.size)
+    rate, spread = parting.rate
+    chaotic = parting.is_chaotic
+    values = {
+        "growth": parting.at(rotor.since(now)),
+        "growth_rate": rate,
+        "growth_rate_error": spread,
+        "course": "chaotic" if chaotic else "regular",
+    }
+    if chaotic:
+        values |= {"lyapunov_time": 1 / rate, "lyapunov_time_error": spread / rate**2}
+    return build(
+        DIVERGENCE | (LYAPUNOV if chaotic else {}),
+        values,
+        coords={"time": ("time", datetime64(now), dict(DATES))},
+    )
+
+
+@part
+def neglected() -> Neglected:
+    """What a rigid body leaves out."""
+    inside = "how the inside yields and flows, which damps and delays"
+    return Neglected(what=f"{inside}; the pull on harmonics beyond the moments, J3 and J4")
+
+
+made_of(
+    Rotation,
+    answer=(turning, rotation_accuracy),
+    sections={"divergence": divergence, "neglected": neglected},
+    parts=(places, sky, epochs, pulls, pulling, rotor, motion, parting),
+)
+
+rotation = ask(Rotation)

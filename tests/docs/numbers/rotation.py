@@ -1,0 +1,47 @@
+"""Numbers of the page on the whole attitude."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import earthspin
+from earthspin.constants import DAY
+from tests.docs.numbers.sentence import Sentence, Told
+from tests.questions.test_rotation import libration, moon
+
+PAGE = "docs/rotation.md"
+
+
+def phobos() -> list[float]:
+    """Amplitude of the libration (deg), the axes (km) and what was observed (deg)."""
+    period, eccentricity, axes = 0.31891, 0.0151, (13.0e3, 11.4e3, 9.1e3)
+    sigma = (axes[0] ** 2 - axes[1] ** 2) / (axes[0] ** 2 + axes[1] ** 2)
+    amplitude = 2 * eccentricity / (1 / (3 * sigma) - 1)
+    found = earthspin.rotation(
+        "2000-01-01T12:00",
+        "2000-01-31T12:00",
+        "20 min",
+        body=moon("mars", axes, period, eccentricity),
+        perturbers=["mars"],
+        start_attitude=[1, 0, 0, 0],
+        start_omega=[0, 0, 2 * np.pi / (period * DAY) * (1 - amplitude)],
+    )
+    # the forced part alone: what goes with the mean anomaly
+    days = np.arange(found.sizes["time"]) / 72
+    forced = np.mean(libration(found, period) * np.exp(-2j * np.pi * days / period))
+    return [2 * abs(forced), *(axis / 1e3 for axis in axes), 1.14]
+
+
+MEASURED = [
+    Sentence(
+        PAGE,
+        "by {}° for a homogeneous ellipsoid of its axes\n({} × {} × {} km, the IAU's, as "
+        "recalled), where {}° was observed",
+        phobos,
+        slow=True,
+    ),
+]
+
+TOLD = [
+    Told(PAGE, "(360 × 266 × {} km", "Tarnopolski 2015, Astrophys. Space Sci. 357, 160"),
+]

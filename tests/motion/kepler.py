@@ -1,0 +1,78 @@
+"""Sky and bodies for the tests of the whole attitude: an ellipse about a mass, in simple units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.motion.equations import OwnTorque, Rigid
+from earthspin.motion.march import Above
+from earthspin.motion.rotation import Motion, State, start_of
+
+FloatArray = NDArray[np.float64]
+
+AS_SKY = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """Orbit of a mass of GM 1 with mean motion 1, from pericentre on x."""
+
+    eccentricity: float = 0.0
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """Positions, shape (t, 3)."""
+        e = self.eccentricity
+        anomaly = times + e * np.sin(times)
+        for _ in range(60):
+            anomaly = anomaly - (anomaly - e * np.sin(anomaly) - times) / (1 - e * np.cos(anomaly))
+        across = np.sqrt(1 - e * e) * np.sin(anomaly)
+        return np.stack([np.cos(anomaly) - e, across, 0 * times], axis=-1)
+
+    def tide(self, time: float) -> FloatArray:
+        """GM r r^T / r^5 at a time, shape (3, 3)."""
+        r = self.at(np.array([time]))[0]
+        return np.asarray(np.outer(r, r) / np.linalg.norm(r) ** 5)
+
+    def above(self) -> Above:
+        """As the solver asks for it."""
+        return Above(gm={"mass": 1.0}, positions=lambda times: {"mass": self.at(times)})
+
+
+ALONE = Above(gm={}, positions=lambda times: {})
+
+
+def rigid(h: float, triaxiality: float, unit: float = 1.0, own: OwnTorque | None = None) -> Rigid:
+    """One body."""
+    return Rigid(
+        c_minus_a=np.array([h + triaxiality / 2]),
+        c_minus_b=np.array([h - triaxiality / 2]),
+        tide=np.ones(1),
+        unit=unit,
+        own=own,
+    )
+
+
+def of_moments(a: float, b: float, c: float, own: OwnTorque | None = None) -> Rigid:
+    """One body of three moments."""
+    return rigid((c - (a + b) / 2) / c, (b - a) / c, own=own)
+
+
+def start(body: Rigid, omega: tuple[float, ...], attitude: FloatArray = AS_SKY) -> State:
+    """A start by its spin along the body's axes."""
+    return start_of(body, attitude, np.array(omega))
+
+
+def followed(
+    body: Rigid, above: Above, omega: tuple[float, ...], end: float, **settings: float
+) -> Motion:
+    """A motion from time 0."""
+    return Motion(body, above, start(body, omega), end, **settings)  # type: ignore[arg-type]
+
+
+def angle(p: FloatArray, q: FloatArray) -> FloatArray:
+    """Angle between attitudes, shape (t, 4) each, from the chord, which keeps its digits."""
+    chord = np.minimum(np.linalg.norm(p - q, axis=-1), np.linalg.norm(p + q, axis=-1))
+    return np.asarray(4 * np.arcsin(chord / 2))
