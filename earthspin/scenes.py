@@ -343,7 +343,9 @@ def _series(question: Question) -> Series:
     size = series_length(question)
     if size == 0:
         raise SceneError(
-            "compute", question.word, "only a series of torques, pole or rotation is written by region"
+            "compute",
+            question.word,
+            "only a series of torques, pole or rotation is written by region",
         )
     return Series(question, size, max(1, BLOCK // members_of(question)))
 

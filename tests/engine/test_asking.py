@@ -24,6 +24,7 @@ VALUES: dict[str, Any] = {
     "accuracy": 1e-3,
     "equator": "mean",
     "effects": ["j3"],
+    "response": "fitted",
     "start_attitude": [1.0, 0.0, 0.0, 0.0],
     "start_omega": [0.0, 0.0, 1e-4],
     "torque": {"live": "friction"},

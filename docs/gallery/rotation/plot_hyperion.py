@@ -37,10 +37,7 @@ hyperion = earthspin.Body(
     name="hyperion", gm=3.7e8, triaxiality=(1 - b2) / 5, position=Ellipse(), **figure
 )
 same = {"body": hyperion, "perturbers": "saturn", "start_attitude": [1, 0, 0, 0]}
-for name, start in {
-    "aslant": [0.5, 0.3, 1.5],
-    "fast, about the long axis": [4.0, 0.1, 0.8],
-}.items():
+for name, start in {"aslant": [0.5, 0.3, 1.5], "about the long axis": [4, 0.1, 0.8]}.items():
     omega = 2 * np.pi / (PERIOD * 86400) * np.array(start)
     turned = earthspin.rotation("2000-01-01T12:00", "2003-06-01", "4 d", start_omega=omega, **same)
     years = (turned.time - turned.time[0]) / np.timedelta64(31557600, "s")

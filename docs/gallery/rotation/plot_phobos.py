@@ -32,10 +32,12 @@ class Ellipse:  # Phobos seen from Mars (the barycentre, 4), m at days from J200
 # semi-axes 13, 11.4 and 9.1 km, the same density throughout
 b2, c2 = (11.4 / 13) ** 2, (9.1 / 13) ** 2
 j2, sigma = (1 + b2 - 2 * c2) / 10, (1 - b2) / (1 + b2)
-swing = 2 * E / (1 / (3 * sigma) - 1)
 figure = {"j2": j2, "dynamical_flattening": 5 * j2 / (1 + b2), "triaxiality": (1 - b2) / 5}
 phobos = earthspin.Body(name="phobos", gm=7.1e5, radius=1.3e4, position=Ellipse(), **figure)
-start = {"start_attitude": [1, 0, 0, 0], "start_omega": [0, 0, RATE / 86400 * (1 - swing)]}
+start = {
+    "start_attitude": [1, 0, 0, 0],
+    "start_omega": [0, 0, RATE / 86400 * (1 - 2 * E / (1 / (3 * sigma) - 1))],
+}
 dates = "2000-01-01T12:00", "2000-01-03", "5 min"
 turned = earthspin.rotation(*dates, body=phobos, perturbers="mars", **start)
 days = (turned.time - turned.time[0]).values / np.timedelta64(1, "D")
