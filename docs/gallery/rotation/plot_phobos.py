@@ -35,13 +35,11 @@ j2, sigma = (1 + b2 - 2 * c2) / 10, (1 - b2) / (1 + b2)
 figure = {"j2": j2, "dynamical_flattening": 5 * j2 / (1 + b2), "triaxiality": (1 - b2) / 5}
 phobos = earthspin.Body(name="phobos", gm=7.1e5, radius=1.3e4, position=Ellipse(), **figure)
 rate = RATE / 86400 * (1 - 2 * E / (1 / (3 * sigma) - 1))
-start = {"start_attitude": [1, 0, 0, 0], "start_omega": [0, 0, rate]}
-dates = "2000-01-01T12:00", "2000-01-03", "5 min"
-turned = earthspin.rotation(*dates, body=phobos, perturbers="mars", **start)
+start = {"body": phobos, "start_attitude": [1, 0, 0, 0], "start_omega": [0, 0, rate]}
+turned = earthspin.rotation("2000-01-01T12:00", "2000-01-03", "5 min", perturbers="mars", **start)
 days = (turned.time - turned.time[0]).values / np.timedelta64(1, "D")
-ahead = Rotation.from_rotvec(np.outer(-RATE * days, [0, 0, 1])) * Rotation.from_quat(
-    turned.attitude, scalar_first=True
-)
+mean = Rotation.from_rotvec(np.outer(RATE * days, [0, 0, 1]))
+ahead = mean.inv() * Rotation.from_quat(turned.attitude, scalar_first=True)
 plt.plot(24 * days, np.degrees(ahead.as_rotvec()[:, 2]))
 plt.hlines([-1.14, 1.14], 0, 36, colors="0.4", ls="--", lw=0.8)
 plt.gca().set(xlabel="time (h)", ylabel="long axis ahead of its mean (deg)")
