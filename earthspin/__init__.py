@@ -59,6 +59,7 @@ _HOME = {
         "run_tree",
         "write_series",
     ),
+    "earthspin.many": ("ensemble",),
     "earthspin.engine.store": ("open", "read", "verify", "write"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}

@@ -58,6 +58,7 @@ from earthspin.scenes import plan as plan
 from earthspin.scenes import run as run
 from earthspin.scenes import run_tree as run_tree
 from earthspin.scenes import write_series as write_series
+from earthspin.many import ensemble as ensemble
 from earthspin.engine.store import open as open
 from earthspin.engine.store import read as read
 from earthspin.engine.store import verify as verify
@@ -66,6 +67,9 @@ from earthspin._version import __version__ as __version__
 
 def precession(
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -83,6 +87,9 @@ def torque_series(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -101,6 +108,9 @@ def pole(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -128,6 +138,9 @@ def compare_iau(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -153,6 +166,9 @@ def nutation_ladder(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -180,6 +196,9 @@ def long_term(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -227,12 +246,18 @@ def rotation(
 ) -> xr.Dataset: ...
 def wobble_ladder(
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     ocean: Literal["real", "global", "none"] | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
 def polar_motion(
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
@@ -245,6 +270,9 @@ def free_rotor(
     omega: Values,
     times: Values | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
     accuracy: Pure | None = ...,
@@ -252,6 +280,9 @@ def free_rotor(
 def heavy_top(
     times: Values | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
     transverse_moment: Value,
@@ -268,6 +299,9 @@ def heavy_top(
 def spheroid_field(
     position: Values,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     accuracy: Pure | None = ...,
@@ -275,16 +309,26 @@ def spheroid_field(
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
+    *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     period: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
 def compliances(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
 ) -> xr.Dataset: ...
 
@@ -315,6 +359,7 @@ __all__ = [
     "compare_iau",
     "compliances",
     "daily_insolation",
+    "ensemble",
     "excitation",
     "fit_chandler",
     "free_rotor",

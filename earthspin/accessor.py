@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pandas as pd
     from astropy.coordinates import SkyCoord
 
@@ -134,6 +136,65 @@ class Answer:
         )
         there.representation_type = "unitspherical"
         return there
+
+    def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
+        """Quantiles of an ensemble.
+
+        Parameters
+        ----------
+        shares : sequence of float
+            Between 0 and 1; by default the ends of the central 95 % and its middle.
+
+        Returns
+        -------
+        Dataset
+            Each number that differs among the members, along `quantile` instead of `member`.
+
+        Raises
+        ------
+        SceneError
+            If it is no ensemble, or a share is not between 0 and 1.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> earths = earthspin.ensemble("precession", 1000)
+        >>> period = earths.earthspin.quantiles().precession_period.sel(perturber="total")
+        >>> print(period.round(2).values)
+        [25712.07 25712.08 25712.1 ]
+        """
+        from earthspin.many import quantiles
+
+        return quantiles(self._dataset, shares)
+
+    def sensitivity(self) -> xr.Dataset:
+        """How much each input of an ensemble has to do with each number of its answer.
+
+        Straight lines in all inputs are fitted together (`numerics.sampling`).
+
+        Returns
+        -------
+        Dataset
+            Along `input`: for each number ``<name>_slope``, its change per unit of the input, and
+            ``<name>_share``, the share of its variance; and ``<name>_unexplained``, the share that
+            straight lines leave.
+
+        Raises
+        ------
+        SceneError
+            If it is no ensemble, or has not more members than inputs.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> earths = earthspin.ensemble("precession", 1000)
+        >>> share = earths.earthspin.sensitivity().precession_period_share.sel(perturber="total")
+        >>> print(float(share.sel(input="body.dynamical_flattening").round(3)))
+        1.0
+        """
+        from earthspin.many import sensitivity
+
+        return sensitivity(self._dataset)
 
     def plot(self) -> Any:
         """Draw the figures that belong to the question.

@@ -1,4 +1,4 @@
-"""The command line: report, play, run, plan, scenes, keys, accuracy, stability, verify, info."""
+"""The command line: report, play, run, ensemble, plan, scenes, keys, accuracy, stability, ..."""
 
 from __future__ import annotations
 
@@ -110,6 +110,27 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--json", action="store_true", help="print the result as JSON")
     _add_sections(run, "default: none on the screen, all with --out")
     run.set_defaults(command=_run)
+
+    many = commands.add_parser(
+        "ensemble", help="run a scene for many members whose numbers differ", add_help=False
+    )
+    _add_scene(many)
+    many.add_argument(
+        "--members",
+        metavar="N|FILE",
+        help="how many, or a .csv, .nc or .zarr with their values (default: what the scene says)",
+    )
+    many.add_argument("--seed", type=int, metavar="N", help="of the random numbers (default: 0)")
+    many.add_argument("--out", required=True, metavar="X.zarr", help="store, gone on with if begun")
+    cluster = many.add_mutually_exclusive_group()
+    cluster.add_argument("--workers", type=int, metavar="N", help="start a cluster of N here")
+    cluster.add_argument("--scheduler", metavar="ADDRESS", help="join one, like tcp://host:8786")
+    many.add_argument("--block", type=int, metavar="N", help="members that are kept at a time")
+    many.add_argument(
+        "--drop", action="store_true", help="leave out members that cannot exist, counted"
+    )
+    many.add_argument("--json", action="store_true", help="print progress as lines of JSON")
+    many.set_defaults(command=_ensemble)
 
     plan = commands.add_parser(
         "plan", help="show what a scene needs, and what it leaves out", add_help=False
@@ -293,6 +314,36 @@ def _run(given: argparse.Namespace) -> None:
         _say_what_else(question, tree)
     for path in written:
         print(f"wrote {printable(str(path))}", file=sys.stderr if given.json else sys.stdout)
+
+
+def _ensemble(given: argparse.Namespace) -> None:
+    import json
+    from contextlib import nullcontext
+
+    from earthspin.many import ensemble
+    from earthspin.progress import lines_to
+
+    members = given.members
+    if members is not None and members.lstrip("+-").isdecimal():
+        members = int(members)
+    client = given.scheduler if given.workers is None else given.workers
+    with lines_to(sys.stdout) if given.json else nullcontext():
+        answer = ensemble(
+            _question(given),
+            members,
+            seed=given.seed,
+            path=given.out,
+            client=client,
+            block=given.block,
+            impossible="drop" if given.drop else None,
+        )
+    if given.json:
+        print(json.dumps({"wrote": given.out, "members": answer.sizes["member"]}))
+        return
+    from earthspin.views.of_question import print_tables
+
+    print_tables(answer)
+    print(f"wrote {printable(given.out)}")
 
 
 def _write(tree: Any, target: Path, name: str) -> list[Path]:

@@ -7,6 +7,7 @@ the seconds left.
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from collections.abc import Iterator
@@ -75,8 +76,7 @@ def lines_to(stream: TextIO) -> Iterator[None]:
 
 
 def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[Advance]:
-    begun = told = time.monotonic()
-    done = already
+    begun, done, told = time.monotonic(), already, -math.inf
 
     def advance(amount: int) -> None:
         nonlocal done, told
@@ -89,6 +89,7 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
         line = {"doing": label, "done": done, "of": total, "rate": round(rate, 3), "left": left}
         print(json.dumps(line), file=stream, flush=True)
 
+    advance(0)
     yield advance
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
+from earthspin.engine import answering
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
 from earthspin.engine.question import Question
@@ -178,7 +179,7 @@ def shipped_scenes() -> dict[str, str]:
     """Names of the shipped scenes, with the title of each."""
     folder = resources.files("earthspin") / "shipped"
     found = {}
-    for file in sorted(folder.iterdir(), key=lambda f: f.name):
+    for file in sorted(folder.iterdir(), key=lambda f: f.name.removesuffix(".toml")):
         if file.name.endswith(".toml"):
             table = tomllib.loads(file.read_text(encoding="utf-8"))
             found[file.name.removesuffix(".toml")] = table.get("title", "")
@@ -241,7 +242,7 @@ def run(scene: Any) -> xr.Dataset:
     >>> print(earthspin.run(answer).identical(answer))
     True
     """
-    answer = running.run(load_scene(scene))
+    answer = answering.run(load_scene(scene))
     _say_what_differs(scene, answer)
     return answer
 
@@ -275,7 +276,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(tree["seasons"].time_per_degree.round(2).values)
     71.56
     """
-    tree = running.run_tree(load_scene(scene), sections)
+    tree = answering.run_tree(load_scene(scene), sections)
     _say_what_differs(scene, tree)
     return tree
 

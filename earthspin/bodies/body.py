@@ -143,6 +143,7 @@ class Body:
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
+    LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **_: object) -> Body:
         """Refuse numbers without names: of thirty fields nobody knows the order."""
@@ -673,6 +674,11 @@ class Body:
             raise BodyError(self.name, name, "an array", "this question takes one body at a time")
         return float(value)
 
+    def magnitudes(self) -> dict[str, Magnitude]:
+        """How each of its numbers is read, and its mass, by name; those that are set."""
+        known = {name: KINDS[name] for name in UNITS if getattr(self, name) is not None}
+        return known | {"mass": _READ_AS["mass"]}
+
     @property
     def labelled(self) -> bool:
         """Whether it stands for many bodies: some field is a labelled array."""
@@ -787,6 +793,9 @@ KINDS: dict[str, Any] = {
 UNITS: dict[str, str] = {
     name: kind.unit for name, kind in KINDS.items() if isinstance(kind, Magnitude)
 }
+
+#: Numbers that may be labelled arrays, which stand for many bodies.
+Body.LABELLED = frozenset(UNITS) - {"meridian", "orbital_period", "cycle", "slow_swing"}
 
 #: How all is read that a body can be made or changed by.
 _READ_AS: dict[str, Any] = {

@@ -7,8 +7,8 @@ import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from earthspin.engine.answering import run
 from earthspin.engine.question import Key, Question, keys_of
-from earthspin.engine.run import run
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -85,6 +85,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     MissingExtraError
         If zarr is not installed; or distributed, if it is wanted.
     """
+    _check_client(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
         raise OutputError(
@@ -118,6 +119,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     """
     import xarray as xr
 
+    _check_client(client)
     layout = work.layout
     with progress(work.what, layout.size) as advance:
         blocks = {0: work.first()}
@@ -217,19 +219,29 @@ def _client(given: object) -> Iterator[Client]:
             if not found.nthreads():
                 raise SceneError("scheduler", given, "it has no workers; start some")
             yield found
-    elif isinstance(given, int) and not isinstance(given, bool) and given > 0:
+    elif isinstance(given, int):
         import dask
 
         quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
         with (
             dask.config.set(quiet),
             distributed.LocalCluster(
-                n_workers=given, threads_per_worker=1, dashboard_address=None, silence_logs=50
+                n_workers=given, threads_per_worker=1, dashboard_address=":0", silence_logs=50
             ) as cluster,
             distributed.Client(cluster, set_as_default=False) as made,
         ):
             yield made
-    else:
+
+
+def _check_client(given: object) -> None:
+    """Refuse what is no client, before anything is computed.
+
+    Raises
+    ------
+    SceneError
+    """
+    counted = isinstance(given, int) and not isinstance(given, bool) and given > 0
+    if not (given is None or counted or isinstance(given, str) or hasattr(given, "scatter")):
         words = "give a number of workers, the address of a scheduler, or a Client of distributed"
         raise SceneError("client", given, words)
 

@@ -10,9 +10,10 @@ import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
-from typing import Any, ClassVar, Self, get_type_hints
+from typing import Any, ClassVar, Literal, Self, get_type_hints
 
 from earthspin.card import card
+from earthspin.engine.members import Members
 from earthspin.engine.part import BLOCK, Part
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
@@ -128,6 +129,17 @@ class Question:
     key_table: ClassVar[dict[str, Key]]
 
     title: str = key("", doc="words for headings")
+    members: Members | None = key(
+        None,
+        doc="the same for many: numbers that differ from member to member, drawn or given; a whole "
+        "number draws those of the bodies from their published uncertainties",
+    )
+    uncertainty: Literal["linear", "sample"] | None = key(
+        None,
+        doc="whether errors from given numbers are propagated linearly alone, or found from a "
+        "sample of the bodies' published uncertainties as well",
+    )
+    n: int | None = key(None, doc="how many members the sample has, 1000 if not given")
 
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
@@ -139,20 +151,32 @@ class Question:
     def __init__(self, **given: Any) -> None:
         self._fill(given, source="", in_scene=False)
 
-    def _fill(self, given: Mapping[str, Any], source: str, in_scene: bool) -> None:
-        """Read each key once, refuse those that there are not, and check them together."""
+    def _fill(
+        self,
+        given: Mapping[str, Any],
+        source: str,
+        in_scene: bool,
+        known: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Read each key once, refuse those that there are not, and check them together.
+
+        What is known has been read before.
+        """
+        known = known or {}
         keys = keys_of(type(self))
         for name, value in given.items():
             if name not in keys:
                 raise SceneError(name, value, unknown_key(type(self), name), source=source)
         chosen = {name: value for name, value in given.items() if value is not None}
-        object.__setattr__(self, "given", frozenset(chosen))
+        object.__setattr__(self, "given", frozenset({*chosen, *known}))
         object.__setattr__(self, "read_from", source)
         for name, one in keys.items():
             shown = f"{self.table}.{name}" if one.setting and in_scene else name
             where = Where(shown, source)
             if name in chosen:
                 value = _read(one.kind, chosen[name], where)
+            elif name in known:
+                value = known[name]
             elif one.required:
                 raise where.error(None, f"give it: {one.doc} ({one.kind.words})")
             else:
@@ -160,6 +184,7 @@ class Question:
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
         self._check_exclusive()
+        self._check_sample()
         self.check()
 
     def _check_exclusive(self) -> None:
@@ -167,6 +192,14 @@ class Question:
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
             raise self.error(groups[0][0], "...", f"give either {ways}")
+
+    def _check_sample(self) -> None:
+        if self.uncertainty == "sample" and self.members is not None:
+            raise self.error(
+                "uncertainty", "sample", "members tell it already; give one of the two"
+            )
+        if self.n is not None and self.uncertainty != "sample":
+            raise self.error("n", self.n, "it belongs to uncertainty = 'sample'")
 
     def check(self) -> None:
         """Check keys against each other; a question says how."""
@@ -243,13 +276,10 @@ class Question:
 
     def replace(self, **changes: Any) -> Self:
         """Return the question with some keys changed, checked again."""
-        keys = keys_of(type(self))
         kept = {name: getattr(self, name) for name in self.given if name not in changes}
-        for name, value in kept.items():
-            if isinstance(value, float) and name in keys:  # a kind may want its unit with it
-                kept[name] = keys[name].kind.write(value)
         made = type(self).__new__(type(self))
-        made._fill(kept | {"title": self.title} | changes, self.read_from, in_scene=False)
+        changes = {"title": self.title} | changes
+        made._fill(changes, self.read_from, in_scene=False, known=kept)
         return made
 
     def _repr_html_(self) -> str:
@@ -319,12 +349,19 @@ class Graph:
         Those whose variables make up each section.
     without : tuple of str
         What parts would use and the question does not have.
+    together : tuple of str
+        Keys whose bodies may be labelled arrays in every part of the answer, so that members of an
+        ensemble are computed side by side.
+    widest : int
+        How many of them at most.
     """
 
     parts: dict[str, Part[..., Any]]
     answer: tuple[str, ...]
     sections: dict[str, tuple[str, ...]]
     without: tuple[str, ...] = ()
+    together: tuple[str, ...] = ()
+    widest: int = 1
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]
@@ -337,6 +374,8 @@ def made_of(
     sections: Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
     without: tuple[str, ...] = (),
+    together: tuple[str, ...] = (),
+    widest: int = 1,
 ) -> None:
     """Say which parts answer a question, and check that they fit together.
 
@@ -351,6 +390,10 @@ def made_of(
         The others.
     without : tuple of str
         What its parts would use and the question does not have.
+    together : tuple of str
+        Keys whose bodies may be labelled arrays in every part of the answer.
+    widest : int
+        How many members of an ensemble are then computed side by side at most.
 
     Raises
     ------
@@ -380,6 +423,8 @@ def made_of(
         tuple(one.name for one in ends),
         {name: tuple(one.name for one in of) for name, of in told.items()},
         without,
+        together,
+        widest,
     )
 
 

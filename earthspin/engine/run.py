@@ -76,7 +76,7 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
     nodes = {"/": answer}
     for name in ran.plan.sections:
         nodes[name] = _section(ran, name, answer)
-    return xr.DataTree.from_dict(nodes | {"plan": _plan_data(ran.plan)})
+    return xr.DataTree.from_dict(nodes | {"plan": plan_data(ran.plan)})
 
 
 class Again:
@@ -226,7 +226,7 @@ def _together(pieces: list[xr.Dataset]) -> xr.Dataset:
     return first.copy()
 
 
-def _plan_data(planned: Plan) -> xr.Dataset:
+def plan_data(planned: Plan) -> xr.Dataset:
     """The plan as data, with the seconds."""
     import xarray as xr
 

@@ -52,6 +52,9 @@ class Samples:
         Perturbers of whose positions no error was ever measured.
     no_error : str
         That, in words; empty if there are none.
+    strength : DataArray or None
+        Masses (GM) of the perturbers where one stands for many, along `perturber` first; the
+        torques are then those of masses of 1.
     """
 
     times: NDArray[np.float64]
@@ -62,6 +65,7 @@ class Samples:
     obliquity: float
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
+    strength: xr.DataArray | None = None
 
 
 @part(unless=exact_means)
@@ -91,7 +95,11 @@ def torque_samples(
     axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :]
     _refuse_locked(sky, body, window.centre, axis_at_epoch.reshape(3))
     positions = sky.positions(days)
-    torques = [torque_from_position(p.gm, 1.0, positions[p.name], axis) for p in perturbers]
+    strength = _strengths(perturbers)
+    torques = [
+        torque_from_position(p.gm if strength is None else 1.0, 1.0, positions[p.name], axis)
+        for p in perturbers
+    ]
     names = [p.name for p in perturbers]
     return Samples(
         times=times,
@@ -102,7 +110,17 @@ def torque_samples(
         obliquity=angle(axis_at_epoch.reshape(3), normal),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
+        strength=strength,
     )
+
+
+def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
+    """Masses of perturbers that stand for many, along `perturber`; None if each stands for one."""
+    if not any(hasattr(p.gm, "dims") for p in perturbers):
+        return None
+    import xarray as xr
+
+    return xr.concat(xr.broadcast(*(xr.DataArray(p.gm) for p in perturbers)), "perturber")
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]) -> None:
@@ -145,9 +163,10 @@ class MeanTorques:
     Attributes
     ----------
     labels : list of str
-    precessing, precessing_error : ndarray, shape (label,)
-        Share that makes the axis precess, and its half-width, s-2.
-    torque, torque_error : ndarray, shape (label, 3)
+    precessing, precessing_error : ndarray, shape (label,) or (label, m)
+        Share that makes the axis precess, and its half-width, s-2; of m cases where masses of the
+        perturbers stand for many.
+    torque, torque_error : ndarray, shape (label, 3) or (label, 3, m)
         Along equator and equinox of date, s-2.
     epoch : float
         That they refer to, s from J2000.0 TDB.
@@ -161,6 +180,8 @@ class MeanTorques:
         Why errors are not given; empty if they are.
     provenance : mapping of str to str
         What the answer says of where they come from, beside the sky.
+    cases : mapping of str to int
+        Dimensions and lengths of the m cases, in order; empty for one.
     """
 
     labels: list[str]
@@ -175,6 +196,7 @@ class MeanTorques:
     evaluations: int
     no_error: str = ""
     provenance: Mapping[str, str] = field(default_factory=dict)
+    cases: Mapping[str, int] = field(default_factory=dict)
 
 
 @part(unless=exact_means)
@@ -190,14 +212,18 @@ def window_means(
     window, times = samples.window, samples.times
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
     of_precessing, of_torque = _measured_errors(perturbers, chosen_average)
+    strength = samples.strength
+    many = None if strength is None else strength.values.reshape(len(perturbers), -1)
     precessing, precessing_error = window_mean_and_error(
-        window, times, samples.precessing, swing, of_precessing
+        window, times, samples.precessing, swing, of_precessing, many
     )
     if of_precessing is not None and times[1] - times[0] == SAMPLING:
         # daily samples: what the neighbours say counts as well, where it is less
         _, by_neighbours = window_mean_and_error(window, times, samples.precessing, swing)
         precessing_error = np.minimum(precessing_error, by_neighbours)
-    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, of_torque)
+    vector, vector_error = window_mean_and_error(
+        window, times, samples.torque, swing, of_torque, many
+    )
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
         labels=samples.labels,
@@ -211,6 +237,9 @@ def window_means(
         method=f"{taken(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
         no_error=samples.no_error,
+        cases={}
+        if strength is None
+        else {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"},
     )
 
 
@@ -279,7 +308,7 @@ class MeanRates:
         Of precession, rad/s.
     torque : Estimate
         Magnitude of the mean torque, N m.
-    ratio : ndarray
+    ratio : DataArray
         Rate over that of the first perturber.
     method : str
         Window and sampling in words.
@@ -291,7 +320,7 @@ class MeanRates:
 
     rate: Estimate
     torque: Estimate
-    ratio: NDArray[np.float64]
+    ratio: xr.DataArray
     method: str
     evaluations: int
     no_error: str
@@ -315,13 +344,15 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     means = mean_torques
 
     def along(values: NDArray[np.float64]) -> xr.DataArray:
-        return xr.DataArray(values, {"perturber": means.labels}, ("perturber",))
+        laid = np.reshape(values, (len(means.labels), *means.cases.values()))
+        return xr.DataArray(laid, {"perturber": means.labels}, ("perturber", *means.cases))
 
     def labelled(of: rates.Estimate) -> rates.Estimate:
         return rates.Estimate(along(of.value), along(of.method), along(of.given))
 
     # labels cost more than the sums: a body of plain numbers gets them at the end
-    on_the_way, at_the_end = (along, _as_it_is) if body.labelled else (np.asarray, labelled)
+    many = body.labelled or means.cases
+    on_the_way, at_the_end = (along, _as_it_is) if many else (np.asarray, labelled)
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
     u_gm = on_the_way(rates.total_uncertainty(means.precessing, u_each))
     rate = rates.precession_estimate(
@@ -333,8 +364,8 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         u_gm,
     )
     torque = rates.torque_estimate(
-        on_the_way(np.linalg.norm(means.torque, axis=-1)),
-        on_the_way(np.linalg.norm(means.torque_error, axis=-1)),
+        on_the_way(np.linalg.norm(means.torque, axis=1)),
+        on_the_way(np.linalg.norm(means.torque_error, axis=1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
         body.relative_uncertainty_of_bulge(),
         u_gm,
@@ -342,7 +373,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     return MeanRates(
         rate=at_the_end(rate),
         torque=at_the_end(torque),
-        ratio=rates.rate_ratio(means.precessing),
+        ratio=along(rates.rate_ratio(means.precessing)),
         method=means.method,
         evaluations=means.evaluations,
         no_error=means.no_error,

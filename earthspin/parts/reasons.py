@@ -44,3 +44,9 @@ def no_accuracy(accuracy: float | None) -> str | None:
     return (
         "no accuracy is asked for, so the finest settings are taken" if accuracy is None else None
     )
+
+
+def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
+    """Leave out what is drawn of one sky where a mass stands for many."""
+    many = [p.name for p in perturbers if hasattr(p.gm, "dims")]
+    return f"the mass of '{many[0]}' stands for many" if many else None

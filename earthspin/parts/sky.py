@@ -91,6 +91,8 @@ class Pulled(Question):
     )
     #: Whether a body may be left to itself.
     may_be_alone: ClassVar[bool] = False
+    #: Whether masses of what pulls may be labelled arrays.
+    many_pulls: ClassVar[bool] = False
 
     def check(self) -> None:
         """A body with a mass, and others that pull on it, each once."""
@@ -104,7 +106,9 @@ class Pulled(Question):
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
         for one in self.perturbers:
-            if one.labelled_field is not None:
+            if one.labelled_field is not None and not (
+                self.many_pulls and one.labelled_field == "gm"
+            ):
                 raise self.error(
                     f"perturbers.{one.name}.{one.labelled_field}",
                     "an array",

@@ -40,6 +40,7 @@ class Moments:
 
     words = 'three values like "8.01e37 kg m2", or a table of "A", "B-A" and "C-A"'
     hint = "Values | Mapping[str, Value]"
+    unit, example = "kg m2", "8.01e37 kg m2"
 
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:

@@ -19,8 +19,15 @@ from earthspin.engine.question import key, made_of
 from earthspin.errors import UndefinedError
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.parts.choices import chosen_average
+from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import no_accuracy, no_moon, not_sun_and_moon, not_the_iaus_earth
+from earthspin.parts.reasons import (
+    many_pulls,
+    no_accuracy,
+    no_moon,
+    not_sun_and_moon,
+    not_the_iaus_earth,
+)
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky, stretch
 from earthspin.units import Relative
 
@@ -67,6 +74,17 @@ class Precession(Pulled, word="precession", call="precession"):
         doc="largest relative error of the rate by all perturbers; the cheapest settings "
         "that keep it are chosen",
     )
+
+    many_pulls = True
+
+    def check(self) -> None:
+        """One mass of each perturber where settings are chosen, or means of ellipses taken."""
+        super().check()
+        many = many_pulls(self.perturbers)
+        if many and self.accuracy is not None:
+            raise self.error("accuracy", self.accuracy, f"{many}; ask for one at a time")
+        if many and no_exact_means(self.body, self.perturbers) is None:
+            raise self.error("perturbers", "orbits by their elements", f"{many}; give one mass")
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -195,7 +213,7 @@ CONVERGENCE = without_error(
 )
 
 
-@part(gives=CONVERGENCE)
+@part(gives=CONVERGENCE, unless=many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
     """Averaged rate against the length of the window, plain mean and tapers."""
     import xarray as xr
@@ -245,7 +263,7 @@ FIGURE_MODELS = without_error(
 )
 
 
-@part(gives=FIGURE_MODELS, unless=no_figure)
+@part(gives=FIGURE_MODELS, unless=(no_figure, many_pulls))
 def figure_models(mean_torques: MeanTorques, body: Body) -> xr.Dataset:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
@@ -470,6 +488,8 @@ made_of(
         "neglected": neglected,
     },
     parts=(places, sky, stretch, chosen_average, *MEANS),
+    together=("body", "perturbers"),
+    widest=16384,
 )
 
 precession = ask(Precession)

@@ -244,6 +244,8 @@ made_of(
     answer=(torques, series_accuracy),
     sections={"neglected": neglected},
     parts=(places, sky, epochs, chosen_nutation, nutation),
+    together=("body",),
+    widest=256,
 )
 
 torque_series = ask(Torque)

@@ -460,6 +460,8 @@ made_of(
         "neglected": neglected,
     },
     parts=(inside,),
+    together=("body",),
+    widest=1024,
 )
 
 wobble_ladder = ask(Wobble)

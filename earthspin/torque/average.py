@@ -158,6 +158,7 @@ def window_mean_and_error(
     values: FloatArray,
     slow_swing: FloatArray,
     measured_error: FloatArray | None = None,
+    strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Means of several pulls and of their total, and how far each may be from that of all time.
 
@@ -173,14 +174,19 @@ def window_mean_and_error(
     measured_error : ndarray, shape (perturber,), optional
         Errors of the means as measured for this window and these steps; with them no other window
         is asked.
+    strength : ndarray, shape (perturber, m), optional
+        Factors of the pulls of m cases that differ in nothing else. Means are linear in them, so
+        that each window is taken once.
 
     Returns
     -------
-    mean, error : ndarray, shape (label, ...)
+    mean, error : ndarray, shape (label, ...) or (label, ..., m)
         The total stands last where there are several. The error is a 95 % half-width: the
         largest difference from the neighbouring windows and from the same window on every
         second sample, and the slow swing.
     """
+    if strength is not None:
+        return _means_of_many(window, times, values, slow_swing, strength)
     all_values = with_total(values)
     mean = window.mean(times, all_values)
     along = (-1, *(1,) * (values.ndim - 2))
@@ -193,6 +199,25 @@ def window_mean_and_error(
     size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
     swing = slow_swing.reshape(along) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
+
+
+def _means_of_many(
+    window: Window,
+    times: FloatArray,
+    values: FloatArray,
+    slow_swing: FloatArray,
+    strength: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """The same as `window_mean_and_error`, for pulls with many strengths, from the means of one."""
+    means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
+    means.append(window.mean(times[::2], values[::2]))
+    factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
+    scaled = with_total(np.stack(means)[..., np.newaxis] * factor)
+    spread = np.max(np.abs(scaled[1:] - scaled[0]), axis=0)
+    along = (-1, *(1,) * (values.ndim - 1))
+    size = window.mean(times, np.abs(values))[..., np.newaxis] * np.abs(factor)
+    swing = slow_swing.reshape(along) * size
+    return scaled[0], spread + with_total(swing[np.newaxis])[0]
 
 
 def with_total(values: FloatArray) -> FloatArray:

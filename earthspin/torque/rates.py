@@ -130,16 +130,23 @@ def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
 
     Parameters
     ----------
-    precessing : ndarray, shape (perturber,) or (perturber + 1,)
+    precessing : ndarray, shape (perturber, ...) or (perturber + 1, ...)
         The pulls, and their total where there are several.
     u_gm : sequence of float, shape (perturber,)
+
+    Returns
+    -------
+    ndarray
+        Of the same shape as the pulls.
     """
-    u = np.asarray(u_gm, dtype=float)
+    u = np.reshape(np.asarray(u_gm, dtype=float), (-1, *(1,) * (precessing.ndim - 1)))
+    each = np.broadcast_to(u, (u.size, *precessing.shape[1:]))
     if len(precessing) == u.size:
-        return u
-    absolute = np.sqrt(np.sum((precessing[:-1] * u) ** 2))
-    total = absolute / abs(precessing[-1]) if precessing[-1] else u.max()
-    return np.append(u, total)
+        return each
+    absolute = np.sqrt(np.sum((precessing[:-1] * u) ** 2, axis=0, keepdims=True))
+    whole = np.abs(precessing[-1:])
+    total = np.divide(absolute, whole, out=np.full_like(absolute, u.max()), where=whole != 0)
+    return np.concatenate([each, total])
 
 
 def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:

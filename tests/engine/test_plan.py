@@ -42,7 +42,8 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     """A key that nothing takes would do nothing and say nothing."""
     parts = question.graph.parts.values()
     used = {name for part in parts for name in (*part.needs, *part.uses)}
-    assert set(keys_of(question)) - used == {"title"}
+    of_the_engine = {"title", "members", "uncertainty", "n"}
+    assert set(keys_of(question)) - used == of_the_engine
     graph = question.graph
     assert used <= {*keys_of(question), *graph.parts, *graph.without, BLOCK}
 

@@ -16,7 +16,7 @@ from unittest import mock
 import earthspin
 from earthspin import EarthspinError, UndefinedError
 from earthspin.cli import main
-from earthspin.engine import asking, run
+from earthspin.engine import answering, asking, run
 from tests.fuzz import inputs
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.
@@ -31,8 +31,8 @@ def only_planned() -> Iterator[None]:
     with (
         tempfile.TemporaryDirectory() as folder,
         mock.patch.object(asking, "run", planned),
-        mock.patch.object(run, "run", planned),
-        mock.patch.object(run, "run_tree", planned),
+        mock.patch.object(answering, "run", planned),
+        mock.patch.object(answering, "run_tree", planned),
         mock.patch("earthspin.checks.gauntlet.judge", side_effect=UndefinedError("not tried")),
         mock.patch("earthspin.scenes._say_what_differs"),
         mock.patch.object(run.Again, "__init__", side_effect=UndefinedError("not tried")),

@@ -1,0 +1,206 @@
+"""The numbers of a question that members of an ensemble may differ in, by name.
+
+``"body.j2"`` is a number of the body, ``"moon.gm"`` one of a perturber, ``"spin"`` a key that is a
+number, and ``"moments.2"`` a number of a key that is a list of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from earthspin.engine.members import MEMBER, Distribution
+from earthspin.errors import Where, nearest
+from earthspin.units import Number
+
+if TYPE_CHECKING:
+    from earthspin.engine.question import Question
+
+
+@dataclass(frozen=True)
+class Input:
+    """One number of a question.
+
+    Attributes
+    ----------
+    name : str
+        As it was given.
+    key : str
+        The key of the question.
+    element : int or None
+        Which of several, where the key holds a list.
+    field : str
+        The field of a body; empty if the key itself is the number.
+    kind : Kind
+        How it is read.
+    labelled : bool
+        Whether it may be an array that stands for many bodies.
+    """
+
+    name: str
+    key: str
+    element: int | None
+    field: str
+    kind: Any
+    labelled: bool
+
+    @property
+    def unit(self) -> str:
+        """In which it is kept."""
+        return str(self.kind.unit)
+
+    @property
+    def label(self) -> str:
+        """Its name among the coordinates of an answer."""
+        return self.name.replace(".", "_")
+
+
+def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[str, Input]:
+    """Find inputs of a question by name.
+
+    Parameters
+    ----------
+    question : Question
+    names : iterable of str
+    where : Where
+        What named them.
+
+    Raises
+    ------
+    SceneError
+        If there is none of a name; it names the nearest.
+    """
+    return {name: _input(question, name, where) for name in names}
+
+
+def _input(question: Question, name: str, where: Where) -> Input:
+    every = dict(_every(question))
+    short = name.removeprefix(f"{question.table}.") if question.table else name
+    for spelled in (name, short):
+        if spelled in every:
+            key, element, of, kind, labelled = every[spelled]
+            return Input(name, key, element, of, kind, labelled)
+    raise where.error(name, nearest(name, every))
+
+
+def _every(question: Question) -> Iterable[tuple[str, tuple[str, int | None, str, Any, bool]]]:
+    """Every number of a question that is set, by name."""
+    from earthspin.engine.question import keys_of
+
+    for key, one in keys_of(question.__class__).items():
+        value = getattr(question, key)
+        if hasattr(value, "magnitudes"):
+            for field, kind in value.magnitudes().items():
+                yield f"{key}.{field}", (key, None, field, kind, field in value.LABELLED)
+        elif isinstance(value, tuple) and value and hasattr(value[0], "magnitudes"):
+            for number, of in enumerate(value):
+                for field, kind in of.magnitudes().items():
+                    yield f"{of.name}.{field}", (key, number, field, kind, field in of.LABELLED)
+        elif isinstance(one.kind, Number):
+            yield key, (key, None, "", one.kind, False)
+        elif hasattr(value, "numbers") or isinstance(value, np.ndarray):
+            of_list: Any = one.kind
+            kind = Number(of_list.unit, of_list.example)
+            if isinstance(value, np.ndarray):
+                yield key, (key, None, "", one.kind, False)
+            for number in range(np.size(getattr(value, "numbers", value))):
+                yield f"{key}.{number}", (key, number, "", kind, False)
+
+
+def published(question: Question) -> dict[str, Distribution]:
+    """Normal distributions of the numbers whose uncertainty is published with a body.
+
+    Of a body that only pulls, the mass alone counts. No correlation was published with any.
+    """
+    found: dict[str, Distribution] = {}
+    for name, (key, element, field, *_) in _every(question):
+        of = getattr(question, key)
+        of = of if element is None or not field else of[element]
+        u = getattr(of, "relative_uncertainty", {}).get(field, 0.0)
+        if u and (element is None or field == "gm") and np.ndim(getattr(of, field)) == 0:
+            value = float(getattr(of, field))
+            found[name] = Distribution("normal", (value, abs(value) * u))
+    return found
+
+
+def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]) -> Question:
+    """Put values into a question, which is then one of a member, or of several.
+
+    Parameters
+    ----------
+    question : Question
+    inputs : mapping of str to Input
+    values : mapping of str to float, ndarray or DataArray
+        By the same names; labelled arrays along `member` stand for several members.
+
+    Raises
+    ------
+    EarthspinError
+        If it cannot be, in one line.
+    """
+    changes = with_bodies(question, inputs, values)
+    for name, one in inputs.items():
+        if one.field:
+            continue
+        if one.element is None:
+            changes[one.key] = values[name]
+        else:
+            list_of = changes.get(one.key, getattr(question, one.key))
+            changes[one.key] = _with_number(list_of, one.element, values[name])
+    return question.replace(**changes)
+
+
+def _with_number(several: Any, place: int, value: float) -> Any:
+    """A list of numbers with one of them changed."""
+    if isinstance(several, np.ndarray):
+        several = several.copy()
+        several.flat[place] = value
+        return several
+    numbers = several.numbers
+    return replace(several, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
+
+
+def with_bodies(
+    question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Keys of a question that hold bodies, with values put into these.
+
+    Parameters
+    ----------
+    question : Question
+    inputs : mapping of str to Input
+    values : mapping of str to float or DataArray
+
+    Raises
+    ------
+    BodyError, UnitsError
+        If such a body cannot exist.
+    """
+    fields: dict[tuple[str, int | None], dict[str, Any]] = {}
+    for name, one in inputs.items():
+        if one.field:
+            fields.setdefault((one.key, one.element), {})[one.field] = values[name]
+    changes: dict[str, Any] = {}
+    for (key, element), of in fields.items():
+        value = changes.get(key, getattr(question, key))
+        if element is None:
+            changes[key] = value.replace(**of)
+        else:
+            new = value[element].replace(**of)
+            changes[key] = (*value[:element], new, *value[element + 1 :])
+    return changes
+
+
+def along_members(values: Mapping[str, Any], which: Any) -> dict[str, Any]:
+    """Values of several members as labelled arrays."""
+    import xarray as xr
+
+    return {name: xr.DataArray(of[which], dims=MEMBER) for name, of in values.items()}
+
+
+def one_member(values: Mapping[str, Any], number: int) -> dict[str, Any]:
+    """Values of one member."""
+    return {name: float(of[number]) if of.ndim == 1 else of[number] for name, of in values.items()}

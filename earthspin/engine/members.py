@@ -1,0 +1,429 @@
+"""Members of an ensemble: which numbers of a question differ among them, and how they are drawn.
+
+Every member has random numbers of its own, by its number and the seed (Philox over
+``SeedSequence(seed, spawn_key=(member,))``), so that member 17 is the same alone, in any block and
+on any machine. A member draws one standard normal number for each input, in the order in which they
+are named, and each distribution turns it into its own: correlations are those of these numbers.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+
+from earthspin.errors import OutputError, Where, nearest
+from earthspin.units import FloatArray, pack, unpack
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: The dimension of an ensemble.
+MEMBER = "member"
+#: As many members as numbers of one kind are ever held whole.
+MOST = 10_000_000
+
+Shape = Literal["normal", "uniform", "choice", "grid"]
+_SHAPES: dict[str, str] = {
+    "normal": "a mean and one standard deviation",
+    "uniform": "a lowest and a highest value",
+    "choice": "one value or more",
+    "grid": "one value or more, of which every combination is made",
+}
+_SETTINGS = ("n", "seed", "uncertainty", "impossible", "only", "correlations", "values")
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """How one input is distributed, its numbers as they were given.
+
+    Attributes
+    ----------
+    shape : str
+        ``"normal"``, ``"uniform"``, ``"choice"`` or ``"grid"``.
+    numbers : tuple
+        Numbers, or text with units.
+    """
+
+    shape: str
+    numbers: tuple[Any, ...]
+
+    @classmethod
+    def read(cls, given: Mapping[str, Any], where: Where) -> Distribution:
+        """Read a table like ``{ normal = [0.00327, 2e-9] }``."""
+        if len(given) != 1 or next(iter(given)) not in _SHAPES:
+            raise where.error(
+                dict(given), f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
+            )
+        ((shape, numbers),) = given.items()
+        numbers = numbers.tolist() if isinstance(numbers, np.ndarray) else numbers
+        many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
+        if many == 0 or (shape in ("normal", "uniform") and many != 2):
+            raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
+        return cls(shape, tuple(map(_plain, numbers)))
+
+    def values(self, kind: Any, where: Where) -> tuple[float, ...]:
+        """Its numbers as the input is kept, checked."""
+        read = [kind.read(number, where) for number in self.numbers]
+        if any(np.ndim(one) for one in read):
+            raise where.error(self.numbers, "give single numbers")
+        if self.shape == "normal" and not read[1] >= 0:
+            raise where.error(self.numbers, "a standard deviation is zero or more")
+        if self.shape == "uniform" and not read[0] <= read[1]:
+            raise where.error(self.numbers, "the lowest value comes first")
+        return tuple(map(float, read))
+
+
+def _plain(number: Any) -> Any:
+    """A number as a scene holds it."""
+    if hasattr(number, "to_value"):
+        return f"{float(number.value)!r} {number.unit}"
+    return number.item() if isinstance(number, np.generic) else number
+
+
+def drawn(
+    distribution: str, numbers: tuple[float, ...], normal: FloatArray, place: FloatArray
+) -> FloatArray:
+    """Turn standard normal numbers into those of a distribution.
+
+    Parameters
+    ----------
+    distribution : str
+    numbers : tuple of float
+        As `Distribution.values` gives them.
+    normal : ndarray, shape (n,)
+    place : ndarray of int, shape (n,)
+        Of a grid: which value.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    from scipy.special import ndtr
+
+    several = np.array(numbers, dtype=np.float64)
+    if distribution == "normal":
+        return np.asarray(numbers[0] + numbers[1] * normal)
+    share = ndtr(normal)
+    if distribution == "uniform":
+        return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
+    if distribution == "choice":
+        place = np.minimum((share * several.size).astype(int), several.size - 1)
+    return np.asarray(several[place])
+
+
+def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
+    """Standard normal numbers of members, each from a generator of its own.
+
+    Parameters
+    ----------
+    seed : int
+    members : ndarray of int, shape (n,)
+    inputs : int
+        How many for each.
+
+    Returns
+    -------
+    ndarray, shape (n, inputs)
+    """
+    found = np.empty((len(members), inputs))
+    for row, member in zip(found, members.tolist(), strict=True):
+        sequence = np.random.SeedSequence(seed, spawn_key=(member,))
+        np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Members:
+    """The members that a question is asked for.
+
+    Attributes
+    ----------
+    n : int or None
+        How many are drawn; None if grids or values say it.
+    seed : int
+    published : bool
+        Whether the numbers of the bodies are drawn from their published uncertainties.
+    impossible : str
+        ``"refuse"`` or ``"drop"``: what is done with members that cannot exist.
+    only : tuple of int
+        Numbers of the members that are made; all, if empty.
+    correlations : tuple of (str, str, float)
+    distributions : mapping of str to Distribution
+        By the name of the input, like ``"body.j2"``.
+    values : mapping of str to ndarray, shape (n, ...)
+        Given member by member.
+    """
+
+    n: int | None = None
+    seed: int = 0
+    published: bool = False
+    impossible: Literal["refuse", "drop"] = "refuse"
+    only: tuple[int, ...] = ()
+    correlations: tuple[tuple[str, str, float], ...] = ()
+    distributions: Mapping[str, Distribution] = field(default_factory=dict)
+    values: Mapping[str, FloatArray] = field(default_factory=dict)
+
+    words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
+    hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
+
+    # --- as a scene ------------------------------------------------------------------------------
+
+    @classmethod
+    def read(cls, given: object, where: Where) -> Members:
+        """Read how many, a table, a Dataset, or the path of a file with one.
+
+        Raises
+        ------
+        SceneError
+            If it is none of these, a name or a number is wrong, or there is no member.
+        """
+        if isinstance(given, Members):
+            return given
+        if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
+            return cls(n=_whole(given, where, 1), published=True)
+        if isinstance(given, (str, os.PathLike)):
+            given = read_file(Path(given))
+        if hasattr(given, "data_vars"):
+            return cls(values=_of_dataset(given, where))
+        if not isinstance(given, Mapping):
+            raise where.error(given, f"give {cls.words}")
+        return cls._of_table(given, where)
+
+    @classmethod
+    def _of_table(cls, table: Mapping[str, Any], where: Where) -> Members:
+        settings = {name: of for name, of in table.items() if name in _SETTINGS}
+        inputs = {name: of for name, of in table.items() if name not in _SETTINGS}
+        for name, of in inputs.items():
+            if not isinstance(of, Mapping):
+                words = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
+                raise where.at(name).error(of, words)
+        uncertainty = settings.get("uncertainty")
+        if uncertainty not in (None, "sample"):
+            raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
+        impossible = settings.get("impossible", "refuse")
+        if impossible not in ("refuse", "drop"):
+            raise where.at("impossible").error(impossible, nearest(impossible, ["refuse", "drop"]))
+        n = settings.get("n")
+        return cls(
+            n=None if n is None else _whole(n, where.at("n"), 1),
+            seed=_whole(settings.get("seed", 0), where.at("seed"), 0, 2**64 - 1),
+            published=uncertainty == "sample",
+            impossible=impossible,
+            only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
+            correlations=tuple(_correlations(settings.get("correlations", ()), where)),
+            distributions=dict(_distributions(inputs, where)),
+            values={
+                name: unpack(of, where.at(name)) for name, of in settings.get("values", {}).items()
+            },
+        )
+
+    def write(self) -> dict[str, Any]:
+        """Give the table, with every number."""
+        told: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
+        if self.n is not None:
+            told["n"] = self.n
+        if self.published:
+            told["uncertainty"] = "sample"
+        if self.only:
+            told["only"] = list(self.only)
+        if self.correlations:
+            told["correlations"] = [list(one) for one in self.correlations]
+        told |= {name: {of.shape: list(of.numbers)} for name, of in self.distributions.items()}
+        if self.values:
+            told["values"] = {name: pack(of) for name, of in self.values.items()}
+        return told
+
+
+def _whole(given: Any, where: Where, low: int, high: int = MOST) -> int:
+    if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
+        raise where.error(given, "give a whole number")
+    if not low <= given <= high:
+        raise where.error(given, f"it lies between {low} and {high}")
+    return int(given)
+
+
+def _distributions(
+    table: Mapping[str, Any], where: Where, before: str = ""
+) -> Iterator[tuple[str, Distribution]]:
+    """Distributions by name; TOML makes tables within tables of names with points."""
+    for name, of in table.items():
+        if (
+            isinstance(of, Mapping)
+            and of
+            and not set(of) & set(_SHAPES)
+            and all(isinstance(inner, Mapping) for inner in of.values())
+        ):
+            yield from _distributions(of, where, f"{before}{name}.")
+        elif isinstance(of, Mapping):
+            yield f"{before}{name}", Distribution.read(of, where.at(f"{before}{name}"))
+        else:
+            raise where.at(f"{before}{name}").error(of, "give a table like normal = [1, 2]")
+
+
+def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
+    for one in given:
+        try:
+            first, second, size = one
+        except (TypeError, ValueError):
+            first = second = size = None
+        if not (isinstance(first, str) and isinstance(second, str) and first != second):
+            raise where.at("correlations").error(
+                one, 'give two names and a number: ["a", "b", 0.5]'
+            )
+        if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
+            raise where.at("correlations").error(
+                one, "a correlation lies between -1 and 1, both excluded"
+            )
+        yield first, second, float(size)
+
+
+# --- from files ----------------------------------------------------------------------------------
+
+
+def read_file(path: Path) -> xr.Dataset:
+    """Read values of members from a file: a table with a line of names, or netCDF or Zarr.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in ``.csv``, ``.nc`` or ``.zarr``.
+
+    Raises
+    ------
+    OutputError, SceneError
+        If it cannot be read.
+    """
+    import xarray as xr
+
+    if not path.exists():
+        raise OutputError(path, "there is no such file", "give a .csv, .nc or .zarr, or a number")
+    try:
+        if path.suffix == ".csv":
+            import pandas as pd
+
+            frame = pd.read_csv(path, skipinitialspace=True)
+            columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
+            return xr.Dataset(columns)
+        if path.suffix in (".nc", ".zarr"):
+            with xr.open_dataset(path, **({} if path.suffix == ".nc" else _ZARR)) as found:
+                return found.load()
+    except Exception as error:  # whatever the libraries say of a file that is none
+        raise OutputError(path, f"it cannot be read: {error}") from None
+    raise OutputError(path, "it is no file of members", "its name ends in .csv, .nc or .zarr")
+
+
+_ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
+
+
+def _of_dataset(given: Any, where: Where) -> dict[str, FloatArray]:
+    """Values by name, from a Dataset along `member`; those of an ensemble that was made, too."""
+    values: dict[str, FloatArray] = {}
+    for name, of in {**given.data_vars, **given.coords}.items():
+        if name == MEMBER or (name in given.coords and "input" not in of.attrs):
+            continue
+        if name in given.data_vars and any("input" in c.attrs for c in given.coords.values()):
+            continue  # an answer: its inputs are what is asked again
+        inner = where.at(str(of.attrs.get("input", name)))
+        if not of.dims or of.dims[0] != MEMBER:
+            words = f"its first dimension is '{MEMBER}'"
+            raise inner.error(f"dimensions {', '.join(map(str, of.dims)) or 'none'}", words)
+        if of.dtype.kind not in "fiu" or not np.isfinite(of.values).all():
+            bad = [] if of.dtype.kind not in "fiu" else _first_bad(of.values)
+            raise inner.error(f"member {bad[0]}" if bad else "words", "give finite numbers")
+        values[str(of.attrs.get("input", name))] = of.values.astype(float)
+    if not values or not all(len(of) for of in values.values()):
+        raise where.error("a Dataset", f"it holds no member; give variables along '{MEMBER}'")
+    return values
+
+
+def _first_bad(values: FloatArray) -> list[int]:
+    flat = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
+    return [int(place) for place in np.flatnonzero(~flat)[:1]]
+
+
+# --- drawing -------------------------------------------------------------------------------------
+
+
+def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where) -> int:
+    """How many members there are, by number, grids or values, which must agree.
+
+    Raises
+    ------
+    SceneError
+        If they do not, or nothing says it.
+    """
+    grid = math.prod(len(of.numbers) for of in inputs.values() if of.shape == "grid")
+    gridded = any(of.shape == "grid" for of in inputs.values())
+    told = {"n": members.n} if members.n is not None else {}
+    told |= {name: len(of) for name, of in members.values.items()}
+    if len(set(told.values())) > 1:
+        raise where.error(told, "these are not equally many")
+    n = next(iter(told.values()), grid if gridded else None)
+    if n is None:
+        raise where.at("n").error(None, "say how many members are drawn")
+    if gridded and n % grid:
+        raise where.at("n").error(n, f"the grid has {grid} points: give a multiple of that")
+    if max((*members.only, 0)) >= n:
+        raise where.at("only").error(max(members.only), f"there are {n} members, from 0")
+    return int(n)
+
+
+def draw(
+    members: Members,
+    inputs: Mapping[str, Distribution],
+    numbers: Mapping[str, tuple[float, ...]],
+    which: FloatArray,
+    where: Where,
+) -> dict[str, FloatArray]:
+    """Values of every input that is drawn.
+
+    Parameters
+    ----------
+    members : Members
+    inputs : mapping of str to Distribution
+    numbers : mapping of str to tuple of float
+        Of each distribution, as the input is kept.
+    which : ndarray of int, shape (n,)
+        Numbers of the members.
+    where : Where
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n,)
+    """
+    if not inputs:
+        return {}
+    names = list(inputs)
+    normal = standard_normal(members.seed, which, len(names))
+    normal = normal @ _root(members, names, where).T if members.correlations else normal
+    place, found = which.astype(int), {}
+    for column, name in enumerate(names):
+        shape, size = inputs[name].shape, len(inputs[name].numbers)
+        found[name] = drawn(shape, numbers[name], normal[:, column], place % size)
+        if shape == "grid":
+            place = place // size
+    return found
+
+
+def _root(members: Members, names: list[str], where: Where) -> FloatArray:
+    """Lower triangle whose product with its transpose is the matrix of correlations."""
+    matrix = np.eye(len(names))
+    for first, second, size in members.correlations:
+        for name in (first, second):
+            if name not in names:
+                raise where.at("correlations").error(name, nearest(name, names))
+        i, j = names.index(first), names.index(second)
+        matrix[i, j] = matrix[j, i] = size
+    try:
+        return np.asarray(np.linalg.cholesky(matrix))
+    except np.linalg.LinAlgError:
+        told = [list(one) for one in members.correlations]
+        raise where.at("correlations").error(
+            told, "no numbers are correlated so; the matrix is not positive"
+        ) from None

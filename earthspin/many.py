@@ -1,0 +1,182 @@
+"""Ensembles: one question for many members, in memory or in a store that can be gone on with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from earthspin.engine.members import MEMBER
+from earthspin.errors import SceneError
+from earthspin.numerics import sampling
+from earthspin.scenes import load_scene
+
+
+def ensemble(
+    question: Any,
+    members: Any = None,
+    *,
+    seed: int | None = None,
+    path: str | Path | None = None,
+    client: object = None,
+    block: int | None = None,
+    impossible: Literal["refuse", "drop"] | None = None,
+) -> xr.Dataset:
+    """Answer one question for many members, whose numbers differ.
+
+    Member 17 is the same alone, in any block and with any workers: it draws its own random numbers
+    by the seed and its number.
+
+    Parameters
+    ----------
+    question : str, Path, Question or answer
+        As `load_scene` takes it.
+    members : int, mapping, Dataset or path, optional
+        How many: they are drawn from the published uncertainties of the bodies, or from what the
+        question's own table ``members`` says. A mapping, as that table has it, of inputs to
+        distributions: ``{"n": 1000, "body.j2": {"normal": [1.0826e-3, 1e-10]}}``, with ``normal``,
+        ``uniform``, ``choice`` and ``grid``. Or the values themselves: a Dataset of variables along
+        `member`, named after the inputs, or the path of a file (.csv, .nc, .zarr) that holds one.
+    seed : int, optional
+        Of the random numbers; 0 if nothing says otherwise.
+    path : str or Path, optional
+        A Zarr store to write into, block by block; if the run is ended before all is written, the
+        same call goes on from there.
+    client : Client, int or str, optional
+        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. A plain loop without.
+    block : int, optional
+        How many members are kept at a time; by their size if not given.
+    impossible : str, optional
+        What is done with members that cannot exist: ``"refuse"`` them all, or ``"drop"`` these.
+
+    Returns
+    -------
+    Dataset
+        The answer along `member`, whose coordinates hold the inputs; variables that no input
+        touches stand once. ``ds.earthspin.quantiles()`` and ``ds.earthspin.sensitivity()`` sum it
+        up. Opened from the store, if there is a `path`.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong, in one line; among it members that cannot exist.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> earths = earthspin.ensemble("precession", 1000)
+    >>> total = earths.precession_period.sel(perturber="total")
+    >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
+    25712.1 +/- 0.016 years
+    """
+    from earthspin.engine.ensemble import Ensemble, asked_of_members
+    from earthspin.engine.store import open as open_store
+    from earthspin.errors import OutputError
+
+    asked = asked_of_members(load_scene(question), members, seed, impossible=impossible)
+    if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
+        raise asked.error("block", block, "give a whole number, 1 or more")
+    if path is not None and Path(path).suffix != ".zarr":
+        raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
+    work = Ensemble(asked, block=block)
+    if path is None:
+        return work.hold(client)
+    found = open_store(work.write(path, client))
+    return found.to_dataset() if isinstance(found, xr.DataTree) else found
+
+
+def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
+    """Whether an answer is one of many members that were drawn or given."""
+    return MEMBER in answer.dims and any("input" in c.attrs for c in answer.coords.values())
+
+
+def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
+    """Quantiles of an ensemble; ``ds.earthspin.quantiles()``.
+
+    Parameters
+    ----------
+    answer : Dataset
+    shares : sequence of float
+
+    Raises
+    ------
+    SceneError
+        If it is no ensemble, or a share is not between 0 and 1.
+    """
+    try:
+        wanted = np.atleast_1d(np.asarray(shares, dtype=float))
+    except (TypeError, ValueError):
+        wanted = np.empty(0)
+    if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
+        raise SceneError("quantiles", shares, "give numbers between 0 and 1")
+    found = {}
+    for name, of in _members(answer, "quantiles").items():
+        values = sampling.quantiles(of.values.astype(float), wanted)
+        found[name] = (("quantile", *of.dims[1:]), values, of.attrs)
+    told = {"long_name": "share of the members below", "units": "1"}
+    labels = {"quantile": ("quantile", wanted, told)} | _other_labels(answer)
+    return xr.Dataset(found, labels, dict(answer.attrs))
+
+
+def sensitivity(answer: xr.Dataset) -> xr.Dataset:
+    """How much each input has to do with each number; ``ds.earthspin.sensitivity()``.
+
+    Parameters
+    ----------
+    answer : Dataset
+
+    Raises
+    ------
+    SceneError
+        If it is no ensemble, or has not more members than inputs.
+    """
+    outputs = {n: of for n, of in _members(answer, "sensitivity").items() if "_error" not in n}
+    columns = inputs_of(answer)
+    inputs = np.stack([*columns.values()], axis=1)
+    if len(inputs) <= len(columns) + 1:
+        words = f"{len(columns)} inputs take at least {len(columns) + 2} members"
+        raise SceneError("sensitivity", f"{len(inputs)} members", words)
+    found: dict[str, Any] = {}
+    for name, of in outputs.items():
+        told = sampling.shares_of_variance(inputs, of.values.astype(float))
+        what, rest = of.attrs.get("long_name", name), of.dims[1:]
+        slope_units = f"{of.attrs.get('units', '1')} per unit of the input"
+        for ending, values, dims, words, units in (
+            ("slope", told.slope, ("input", *rest), "change per unit of the input", slope_units),
+            ("share", told.share, ("input", *rest), "share of the variance", "1"),
+            ("unexplained", told.unexplained, rest, "share that straight lines leave", "1"),
+        ):
+            attrs = {"long_name": f"{words}, of the {what}", "units": units}
+            found[f"{name}_{ending}"] = (dims, values, attrs)
+    labels = {"input": ("input", [*columns], {"long_name": "number that differs"})}
+    return xr.Dataset(found, labels | _other_labels(answer), dict(answer.attrs))
+
+
+def inputs_of(answer: xr.Dataset) -> dict[str, sampling.FloatArray]:
+    """What differs among the members of an ensemble, by name, a column for each number."""
+    return {
+        f"{of.attrs['input']}{'' if of.ndim == 1 else f'.{k}'}": column
+        for of in answer.coords.values()
+        if "input" in of.attrs
+        for k, column in enumerate(of.values.reshape(of.sizes[MEMBER], -1).T)
+    }
+
+
+def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
+    """Numbers that differ among the members, `member` first."""
+    if not is_ensemble(answer):
+        words = "it is no ensemble; earthspin.ensemble makes one"
+        raise SceneError(what, answer.attrs.get("title", "a Dataset"), words)
+    return {
+        str(name): of.transpose(MEMBER, ...)
+        for name, of in answer.data_vars.items()
+        if MEMBER in of.dims and of.dtype.kind in "fiu"
+    }
+
+
+def _other_labels(answer: xr.Dataset) -> dict[Any, Any]:
+    return {name: of for name, of in answer.coords.items() if MEMBER not in of.dims}

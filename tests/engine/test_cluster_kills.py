@@ -1,0 +1,160 @@
+"""Kills of a worker, of the scheduler, of everything: nothing is lost, nothing left running."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+
+from earthspin.engine import loop
+from tests.engine.work import Squares, bytes_of
+
+ROOT = Path(__file__).parents[2]
+#: Seconds after which no process may be left.
+MINUTE = 60
+
+RUN = """
+import sys
+from earthspin.engine import loop
+from tests.engine.work import Squares
+
+if __name__ == "__main__":
+    client = int(sys.argv[2]) if sys.argv[2].isdecimal() else sys.argv[2]
+    loop.write(Squares(size=150, seconds=0.05), sys.argv[1], client=client)
+"""
+
+
+def slow() -> Squares:
+    return Squares(size=150)
+
+
+@pytest.fixture
+def undisturbed(tmp_path: Path) -> dict[str, str]:
+    """What an undisturbed run gives."""
+    return bytes_of(loop.write(slow(), tmp_path / "undisturbed.zarr"))
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Path:
+    """A program that writes a store by a cluster."""
+    file = tmp_path / "program.py"
+    file.write_text(RUN)
+    return file
+
+
+def started(program: Path, path: Path, client: str) -> subprocess.Popen[bytes]:
+    """The program on its way, with a few blocks done."""
+    process = subprocess.Popen(
+        [sys.executable, str(program), str(path), client],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
+    )  # fmt: skip
+    ledger = path.with_name(path.name + ".partial") / "ledger"
+    until(lambda: ledger.exists() and len(ledger.read_bytes().splitlines()) > 5)
+    return process
+
+
+def environment() -> dict[str, str]:
+    import os
+
+    return {**os.environ, "PYTHONPATH": str(ROOT)}
+
+
+def until(holds: object, seconds: float = MINUTE) -> None:
+    """Wait until something holds."""
+    assert callable(holds)
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, "it does not come"
+        time.sleep(0.02)
+
+
+def gone(processes: list[psutil.Process]) -> bool:
+    """Whether processes have ended."""
+    return not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in processes)
+
+
+def finished(path: Path, undisturbed: dict[str, str]) -> None:
+    """Go on with what was left, and compare."""
+    partial = path.with_name(path.name + ".partial")
+    had = len((partial / "ledger").read_bytes().splitlines())
+    work = slow()
+    loop.write(work, path)
+    assert len(work.made) == work.layout.count - had
+    assert bytes_of(path) == undisturbed
+    assert not partial.exists()
+
+
+def test_everything_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
+    path = tmp_path / "r.zarr"
+    process = started(program, path, "2")
+    children = psutil.Process(process.pid).children(recursive=True)
+    assert len(children) >= 2
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    until(lambda: gone(children))
+    finished(path, undisturbed)
+
+
+def test_a_worker_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
+    path = tmp_path / "r.zarr"
+    process = started(program, path, "2")
+    children = psutil.Process(process.pid).children()
+    workers = [c for c in children if "spawn_main" in " ".join(c.cmdline())]
+    workers[0].kill()
+    _, said = process.communicate(timeout=MINUTE)
+    assert process.returncode == 0, said
+    assert bytes_of(path) == undisturbed
+    until(lambda: gone(children))
+
+
+@pytest.fixture
+def scheduler(tmp_path: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
+    """A scheduler with two workers, each a process of its own."""
+    file = tmp_path / "scheduler.json"
+    dask = [sys.executable, "-m", "dask"]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment()}
+    made = [
+        subprocess.Popen(
+            [*dask, "scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)],
+            **quiet,  # type: ignore[call-overload]
+        )
+    ]
+    until(file.exists)
+    for _ in range(2):
+        made.append(
+            subprocess.Popen(
+                [
+                    *dask, "worker", "--scheduler-file", str(file), "--nthreads", "1",
+                    "--no-nanny", "--no-dashboard", "--death-timeout", "5",
+                ],
+                **quiet,  # type: ignore[call-overload]
+            )
+        )  # fmt: skip
+    import json
+
+    yield made[0], json.loads(file.read_text())["address"]
+    for process in made:
+        process.kill()
+        process.wait()
+
+
+def test_a_scheduler_killed(
+    tmp_path: Path,
+    program: Path,
+    undisturbed: dict[str, str],
+    scheduler: tuple[subprocess.Popen[bytes], str],
+) -> None:
+    path = tmp_path / "r.zarr"
+    its_process, address = scheduler
+    process = started(program, path, address)
+    its_process.kill()
+    _, said = process.communicate(timeout=MINUTE)
+    assert process.returncode != 0
+    assert b"the cluster lost it" in said
+    finished(path, undisturbed)

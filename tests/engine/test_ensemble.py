@@ -1,0 +1,391 @@
+"""Ensembles: members that are the same alone, drawn as they say, and whole or refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy import stats
+
+import earthspin
+from earthspin import EARTH, MOON, SUN, EarthspinError, SceneError
+from earthspin.engine.ensemble import ROW, Ensemble
+from earthspin.engine.inputs import inputs_of
+from earthspin.engine.members import standard_normal
+from earthspin.scenes import QUESTIONS, Scene, load_scene
+from tests.engine.work import bytes_of
+
+#: One question of each kind that is quick to answer, and an input that it may differ in.
+ASKED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "precession": ({}, {"body.j2": {"normal": [EARTH.j2, 1e-10]}}),
+    "torque": (
+        {"span": ["2000-01-01", "2000-01-03"], "step": "6 h"},
+        {"body.radius": {"uniform": ["6378.1 km", "6378.2 km"]}},
+    ),
+    "pole": (
+        {"span": ["2000-01-01", "2000-01-11"], "step": "5 d"},
+        {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}},
+    ),
+    "long-term": (
+        {"span": ["-20 kyr", "0 kyr"], "step": "10 kyr"},
+        {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}},
+    ),
+    "cassini-states": ({}, {"body.j2": {"normal": [2.033e-4, 1e-8]}}),
+    "polar-motion": ({}, {"body.gm": {"normal": [EARTH.gm, 8e5]}}),
+    "wobble": ({}, {"anelastic_exponent": {"uniform": [0.04, 0.19]}}),
+    "free-rotor": (
+        {"moments": [1, 2, 2.8], "omega": [0.01, 1, 0], "times": [0, 10]},
+        {"moments.2": {"grid": [2.5, 2.8]}, "omega.0": {"choice": [0.01, 0.02]}},
+    ),
+    "top": (
+        {
+            "transverse_moment": 1, "axial_moment": 1.2, "weight_moment": 1.5,
+            "theta": "40 deg", "spin": 3, "times": [0, 1, 2],
+        },
+        {"spin": {"uniform": [2, 4]}},
+    ),
+    "spheroid": (
+        {"position": ["7000 km", "0 km", "0 km"]},
+        {"body.flattening": {"normal": [EARTH.flattening, 1e-9]}},
+    ),
+}  # fmt: skip
+
+
+def asked(word: str, n: int = 4, **settings: Any) -> Any:
+    """A question with members."""
+    keys, inputs = ASKED[word]
+    members = {"n": n, **inputs, **settings}
+    if word == "cassini-states":  # its body has no default
+        return load_scene(word, {"members": members})
+    return QUESTIONS[word](members=members, **keys)
+
+
+def differ(one: xr.Dataset, other: xr.Dataset) -> list[str]:
+    """Variables that are not the same to the bit."""
+    return [str(n) for n in one.variables if not one[n].variable.equals(other[n].variable)]
+
+
+# --- every question ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("word", ASKED)
+def test_a_member_is_the_same_alone(word: str) -> None:
+    all_of_them = earthspin.run(asked(word))
+    alone = earthspin.run(asked(word, only=[2]))
+    assert all_of_them.sizes["member"] == 4
+    assert differ(alone, all_of_them.isel(member=[2])) == []
+    again = earthspin.ensemble(asked(word).replace(members=None), all_of_them.isel(member=[2, 3]))
+    assert differ(again.isel(member=[0]).drop_vars("member"), alone.drop_vars("member")) == []
+
+
+def test_every_question_has_its_example() -> None:
+    # these take ten seconds a member, and stand on the same sky and the same axes as the pole
+    assert set(ASKED) == set(QUESTIONS) - {"iau", "nutation"}
+
+
+def test_a_question_without_bodies_has_no_published_numbers() -> None:
+    with pytest.raises(SceneError, match="no body of this question has a published uncertainty"):
+        earthspin.free_rotor([1, 2, 2.8], [0.01, 1, 0], [0, 10], members=3)
+
+
+@pytest.mark.parametrize("word", ["precession", "torque", "wobble"])
+@pytest.mark.parametrize("field", sorted(EARTH.LABELLED - {"slow_swing"}))
+def test_side_by_side_is_one_by_one(word: str, field: str) -> None:
+    if getattr(EARTH, field) is None or getattr(EARTH, field) == 0:
+        return
+    value = float(getattr(EARTH, field))
+    values = value * (1 + 1e-7 * np.arange(5.0))
+    question = asked(word).replace(members=None)
+    many = earthspin.ensemble(question, xr.Dataset({f"body.{field}": ("member", values)}))
+    for number in (0, 4):
+        one = earthspin.run(question.replace(body=EARTH.replace(**{field: float(values[number])})))
+        for name, of in one.data_vars.items():
+            found = many[name]
+            found = found.isel(member=number) if "member" in found.dims else found
+            if word == "wobble" and of.dtype.kind == "f":
+                # numpy divides complex arrays otherwise than complex numbers (measured: 7e-16)
+                np.testing.assert_allclose(found, of, rtol=2e-15, atol=0)
+            else:
+                assert np.array_equal(found.values, of.values), name
+
+
+def test_masses_of_what_pulls_are_side_by_side() -> None:
+    values = MOON.gm * (1 + 1e-6 * np.arange(3.0))
+    given = xr.Dataset({"moon.gm": ("member", values)})
+    many = earthspin.ensemble("precession", given)
+    assert Ensemble(asked("precession").replace(members=given)).width > 1
+    for number in range(3):
+        moon = MOON.replace(gm=float(values[number]))
+        one = earthspin.precession(perturbers=[SUN, moon])
+        for name in one.data_vars:
+            if one[name].dtype.kind != "f":
+                continue
+            found = many[name].isel(member=number) if "member" in many[name].dims else many[name]
+            # The mean of a sum is not the sum of means to the last bit (measured 2e-15); errors are
+            # differences of such means, and rounding there is larger (measured: 1.5e-9).
+            rtol = 1e-8 if "error" in str(name) else 1e-14
+            np.testing.assert_allclose(found.values, one[name].values, rtol=rtol, atol=0)
+
+
+@pytest.mark.parametrize("n", [1, ROW, ROW + 1, 199])
+def test_any_number_in_any_block(n: int) -> None:
+    whole = earthspin.run(asked("precession", 200))
+    for block in (45, 64, 200):
+        part = earthspin.ensemble(asked("precession", n), block=block)
+        assert differ(part, whole.isel(member=slice(0, n))) == []
+
+
+@pytest.mark.parametrize("word", ["precession", "top"])
+def test_a_store_by_two_workers_is_the_same(word: str, tmp_path: Path) -> None:
+    question = asked(word, 130)
+    plain = earthspin.ensemble(question, path=tmp_path / "plain.zarr", block=20)
+    earthspin.ensemble(question, path=tmp_path / "two.zarr", block=20, client=2)
+    assert bytes_of(tmp_path / "plain.zarr") == bytes_of(tmp_path / "two.zarr")
+    assert plain.load().identical(earthspin.run(question))
+    assert earthspin.verify(tmp_path / "two.zarr")
+
+
+def test_an_ensemble_runs_again_to_the_same_bits(tmp_path: Path) -> None:
+    answer = earthspin.ensemble("precession", 20, seed=3)
+    assert earthspin.run(answer).identical(answer)
+    path = earthspin.write(answer, tmp_path / "r.nc")
+    assert earthspin.run(path).identical(answer)
+    assert earthspin.open(path).identical(answer)
+
+
+# --- how members are drawn -----------------------------------------------------------------------
+
+
+def draws(n: int, inputs: dict[str, Any], **settings: Any) -> dict[str, np.ndarray]:
+    question = Scene(compute="wobble", members={"n": n, **inputs, **settings})
+    return Ensemble(question).values
+
+
+def test_random_numbers_are_those_of_philox() -> None:
+    sequence = np.random.SeedSequence(7, spawn_key=(17,))
+    expected = np.random.Generator(np.random.Philox(sequence)).standard_normal(3)
+    assert np.array_equal(standard_normal(7, np.array([3, 17]), 3)[1], expected)
+    drawn = draws(18, {"body.j2": {"normal": [0.001, 1e-5]}}, seed=7)
+    assert drawn["body.j2"][17] == 0.001 + 1e-5 * expected[0]
+
+
+@pytest.mark.parametrize(
+    ("distribution", "expected"),
+    [
+        ({"normal": [0.0033, 1e-6]}, stats.norm(0.0033, 1e-6)),
+        ({"uniform": [0.0030, 0.0034]}, stats.uniform(0.0030, 0.0004)),
+    ],
+)
+def test_draws_follow_their_distribution(distribution: dict[str, Any], expected: Any) -> None:
+    found = draws(4000, {"body.dynamical_flattening": distribution})["body.dynamical_flattening"]
+    assert stats.kstest(found, expected.cdf).pvalue > 0.01  # the seed is fixed
+
+
+def test_choices_and_grids() -> None:
+    inputs = {"body.j2": {"choice": [0.001, 0.0011]}, "body.radius": {"grid": ["6000 km", "1 Mm"]}}
+    found = draws(4000, inputs)
+    assert abs(np.mean(found["body.j2"] == 0.001) - 0.5) < 0.03
+    assert np.array_equal(found["body.radius"][:4], [6e6, 1e6, 6e6, 1e6])
+    two = {"body.j2": {"grid": [0.001, 0.0011]}, "body.radius": {"grid": ["6000 km", "7000 km"]}}
+    every = Ensemble(Scene(compute="wobble", members=two)).values
+    assert len({*zip(every["body.j2"], every["body.radius"], strict=True)}) == 4
+
+
+def test_correlations() -> None:
+    inputs = {
+        "body.j2": {"normal": [0.001, 1e-5]},
+        "body.dynamical_flattening": {"normal": [0.0033, 1e-6]},
+    }
+    pair = [["body.j2", "body.dynamical_flattening", -0.8]]
+    found = draws(4000, inputs, correlations=pair)
+    assert np.corrcoef(*found.values())[0, 1] == pytest.approx(-0.8, abs=0.02)
+    assert np.array_equal(draws(4000, inputs)["body.j2"], found["body.j2"])
+
+
+def test_published_uncertainties_are_the_bodies_own() -> None:
+    work = Ensemble(Scene(compute="precession", members=4000))
+    assert list(work.inputs) == [
+        "body.gm", "body.radius", "body.j2", "body.dynamical_flattening", "body.flattening",
+        "sun.gm", "moon.gm",
+    ]  # fmt: skip
+    for name, one in work.inputs.items():
+        body = EARTH if one.key == "body" else {"sun": SUN, "moon": MOON}[name.split(".")[0]]
+        field = name.split(".")[1]
+        u = abs(getattr(body, field)) * body.relative_uncertainty[field]
+        drawn = work.values[name]
+        assert drawn.std() == pytest.approx(u, rel=0.04)
+        assert drawn.mean() == pytest.approx(getattr(body, field), abs=4 * u / np.sqrt(4000))
+
+
+# --- what they tell ------------------------------------------------------------------------------
+
+
+def test_quantiles_and_linear_errors_agree() -> None:
+    answer = earthspin.precession(uncertainty="sample", n=4000)
+    sampled, linear = answer.precession_rate_error_sampled, answer.precession_rate_error_input
+    np.testing.assert_allclose(sampled, linear, rtol=0.04, atol=0)  # 4000 members: 2 % of one sigma
+    assert "at most from precession_rate_error_input" in sampled.attrs["difference_from_linear"]
+    assert sampled.attrs["members"] == 4000
+    assert earthspin.run(answer).identical(answer)
+    plain = earthspin.precession()
+    for name in plain.data_vars:
+        assert answer[name].identical(plain[name])
+    ends = earthspin.ensemble("precession", 4000).earthspin.quantiles([0.025, 0.975])
+    half = ends.precession_rate.diff("quantile").squeeze("quantile", drop=True) / 2
+    np.testing.assert_allclose(half, sampled, rtol=1e-12, atol=0)
+
+
+def test_sections_stand_beside_a_sample() -> None:
+    question = earthspin.load_scene("precession", {"uncertainty": "sample", "n": 50})
+    tree = earthspin.run_tree(question, "seasons")
+    assert "precession_rate_error_sampled" in tree.data_vars
+    assert "general_precession" in tree["seasons"]
+
+
+def test_the_share_of_h_in_the_rate_is_that_of_the_linear_errors() -> None:
+    answer = earthspin.ensemble("precession", 2000)
+    told = answer.earthspin.sensitivity()
+    total = told.precession_rate_share.sel(perturber="total")
+    # the rate is proportional to H, and to the masses by their shares
+    rate = earthspin.precession().precession_rate
+    by_h = EARTH.relative_uncertainty["dynamical_flattening"]
+    by_moon = MOON.relative_uncertainty["gm"] * float(
+        rate.sel(perturber="moon") / rate.sel(perturber="total")
+    )
+    expected = by_h**2 / (by_h**2 + by_moon**2)
+    assert float(total.sel(input="body.dynamical_flattening")) == pytest.approx(expected, abs=3e-4)
+    slope = told.precession_rate_slope.sel(perturber="total", input="body.dynamical_flattening")
+    whole = float(rate.sel(perturber="total"))
+    assert float(slope) == pytest.approx(whole / EARTH.dynamical_flattening, rel=1e-6)
+    assert float(told.precession_rate_unexplained.max()) < 1e-9
+
+
+def test_what_is_no_ensemble_is_refused() -> None:
+    answer = earthspin.precession()
+    for call in (answer.earthspin.quantiles, answer.earthspin.sensitivity):
+        with pytest.raises(SceneError, match="it is no ensemble"):
+            call()
+    with pytest.raises(SceneError, match="7 inputs take at least 9 members"):
+        earthspin.ensemble("precession", 5).earthspin.sensitivity()
+    with pytest.raises(SceneError, match="between 0 and 1"):
+        earthspin.ensemble("precession", 5).earthspin.quantiles([2])
+    with pytest.raises(SceneError, match="an ensemble tells its answer"):
+        earthspin.run_tree(asked("precession"), "seasons")
+
+
+# --- what cannot be ------------------------------------------------------------------------------
+
+FLAT = {"n": 100, "body.dynamical_flattening": {"uniform": [0.4, 0.6]}}
+
+
+def test_impossible_members_are_refused_or_dropped() -> None:
+    with pytest.raises(SceneError, match=r"2, 5, 6, 8, 11 and 48 more.*of 100.*at most 0\.5"):
+        earthspin.ensemble("precession", FLAT)
+    kept = earthspin.ensemble("precession", FLAT, impossible="drop")
+    assert kept.sizes["member"] == 47
+    assert kept.attrs["members_dropped"].startswith("53 that cannot exist: 2, 5, 6")
+    assert 2 not in kept.member
+    assert float(kept.body_dynamical_flattening.max()) <= 0.5
+    with pytest.raises(SceneError, match="these cannot be"):
+        earthspin.ensemble("precession", {**FLAT, "only": [2, 5]}, impossible="drop")
+
+
+def test_a_member_that_fails_is_named() -> None:
+    given = xr.Dataset({"body.spin_period": ("member", [86164.0, 27.3217 * 86400])})
+    with pytest.raises(EarthspinError, match="member"):
+        earthspin.ensemble("precession", given)
+
+
+NAN = xr.Dataset({"body.j2": ("member", [1e-3, np.nan])})
+
+
+@pytest.mark.parametrize(
+    ("members", "words"),
+    [
+        (0, "between 1 and"),
+        (-3, "between 1 and"),
+        (2.5, "how many, a table of distributions"),
+        (True, "how many, a table of distributions"),
+        ("nowhere.csv", "there is no such file"),
+        (NAN, "member 1"),
+        (NAN.isel(member=[]), "it holds no member"),
+        (xr.Dataset(), "it holds no member"),
+        (NAN.fillna(1e-3).rename(member="row"), "its first dimension is 'member'"),
+        (NAN.fillna(1e-3).rename({"body.j2": "body.j3x"}), "did you mean 'body.j3'"),
+        (NAN.fillna(1e-3).astype(str), "give finite numbers"),
+        ({"n": 3}, "no body of this question has a published uncertainty; say what differs"),
+        ({"n": 3, "body.j": {"normal": [1, 2]}}, "did you mean 'body.j"),
+        ({"n": 3, "body.name": {"choice": [1, 2]}}, "allowed"),
+        ({"n": 3, "body.j2": 5}, "a table like normal"),
+        ({"n": 3, "body.j2": {"gauss": [1, 2]}}, "give one of normal, uniform, choice, grid"),
+        ({"n": 3, "body.j2": {"normal": [1]}}, "a mean and one standard deviation"),
+        ({"n": 3, "body.j2": {"normal": [1e-3, -1]}}, "zero or more"),
+        ({"n": 3, "body.j2": {"uniform": [2, 1]}}, "the lowest value comes first"),
+        ({"n": 3, "body.radius": {"uniform": ["1 s", "2 s"]}}, "is not a value in units of m"),
+        ({"n": 3, "body.j2": {"choice": []}}, "one value or more"),
+        ({"body.j2": {"normal": [1e-3, 1e-5]}}, "say how many members are drawn"),
+        ({"n": 3, "body.j2": {"grid": [1e-3, 2e-3]}}, "give a multiple of that"),
+        ({"n": 3, "uncertainty": "sampled"}, "did you mean 'sample'"),
+        ({"n": 3, "impossible": "ignore"}, "allowed: drop, refuse"),
+        ({"n": 3, "uncertainty": "sample", "only": [3]}, "there are 3 members, from 0"),
+        ({"n": 3, "uncertainty": "sample", "seed": -1}, "between 0 and"),
+        ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
+        ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: body"),
+        (
+            {"n": 3, "uncertainty": "sample", "correlations": [["body.j2", "body.gm", 1.5]]},
+            "between -1 and 1",
+        ),
+    ],
+)
+def test_bad_members_are_refused_in_one_line(members: object, words: str) -> None:
+    with pytest.raises(EarthspinError, match=words) as error:
+        earthspin.ensemble("wobble", members)
+    assert "\n" not in str(error.value)
+
+
+def test_correlations_that_no_numbers_have() -> None:
+    names = ("body.j2", "body.radius", "body.gm")
+    every = [[a, b, -0.9] for a, b in zip(names, (*names[1:], names[0]), strict=True)]
+    with pytest.raises(SceneError, match="the matrix is not positive"):
+        earthspin.ensemble("wobble", {"n": 3, "uncertainty": "sample", "correlations": every})
+
+
+def test_members_that_change_the_labels_are_refused() -> None:
+    given = {"n": 2, "step": {"grid": ["6 h", "12 h"]}}
+    with pytest.raises(EarthspinError, match="has other labels along 'time'"):
+        earthspin.ensemble(asked("torque").replace(members=None), given)
+
+
+def test_a_sample_beside_members_is_refused() -> None:
+    with pytest.raises(SceneError, match="give one of the two"):
+        earthspin.precession(members=3, uncertainty="sample")
+    with pytest.raises(SceneError, match="it belongs to uncertainty"):
+        earthspin.precession(n=3)
+
+
+def test_files_of_members(tmp_path: Path) -> None:
+    (tmp_path / "m.csv").write_text("member, body.j2, moon.gm\n0, 0.00108, 4.9e12\n1, 0.0011, 5e12")
+    by_table = earthspin.ensemble("precession", tmp_path / "m.csv")
+    given = xr.Dataset(
+        {"body.j2": ("member", [0.00108, 0.0011]), "moon.gm": ("member", [4.9e12, 5e12])}
+    )
+    given.to_netcdf(tmp_path / "m.nc")
+    assert differ(by_table, earthspin.ensemble("precession", tmp_path / "m.nc")) == []
+    (tmp_path / "bad.csv").write_bytes(b"\x00\xff")
+    (tmp_path / "m.txt").write_text("")
+    for name in ("bad.csv", "m.txt"):
+        with pytest.raises(EarthspinError):
+            earthspin.ensemble("precession", tmp_path / name)
+
+
+def test_inputs_have_their_units_and_names() -> None:
+    answer = earthspin.ensemble(asked("free-rotor"))
+    assert answer.moments_2.attrs["input"] == "moments.2"
+    assert answer.moments_2.attrs["units"] == "kg m2"
+    question = asked("precession").replace(members=None)
+    found = inputs_of(question, ["moon.gm", "body.mass"], question.where("members"))
+    assert found["moon.gm"].unit == "m3/s2"
+    assert found["body.mass"].unit == "kg"
