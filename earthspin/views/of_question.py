@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from earthspin.engine.plan import NOT_ASKED
+from earthspin.many import is_ensemble
 from earthspin.scenes import plan, run_tree
+from earthspin.views import ensemble
 from earthspin.views.reading import Result, answer_of, changes_of, section
 from earthspin.views.table import BRACKETS, Table, along
 
@@ -199,6 +201,8 @@ def what_ran(*trees: Result) -> list[Table]:
 
 def _view(tree: Result) -> ModuleType:
     """Module of the question of an answer; a plain table for one that has none."""
+    if is_ensemble(tree):
+        return ensemble
     name = f"earthspin.views.{str(tree.attrs['compute']).replace('-', '_')}"
     return import_module(name if find_spec(name) else "earthspin.views.plain")
 

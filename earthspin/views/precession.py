@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
+#: Numbers that an ensemble of answers shows first.
+CHIEF = ("precession_rate", "mean_torque")
 #: Sections that the figures stand on.
 DRAWN = ("convergence", "seasons")
 

@@ -14,6 +14,8 @@ from earthspin.views.table import Table, along, measured, with_error
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+#: Numbers that an ensemble of answers shows first.
+CHIEF = ("period_solar",)
 #: Sections that the figures stand on.
 DRAWN = ("observed",)
 

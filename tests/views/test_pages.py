@@ -25,6 +25,7 @@ from earthspin.views.typeset import typeset
 from tests import shipped
 
 FIGURES = {
+    "precession-ensemble": 2, "wobble-ensemble": 2,
     "precession": 2, "torque": 1, "pole": 1, "iau": 3, "nutation": 3, "long-term": 4,
     "rotation": 3, "wobble": 1,
     "polar-motion": 3,    "free-rotor": 2, "top-loop": 1, "spheroid": 0,
