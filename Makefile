@@ -48,6 +48,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/many_bodies.py
 	$(BIN)/python tests/benchmarks/leaving_out.py
 	$(BIN)/python tests/benchmarks/call_overhead.py
+	$(BIN)/python tests/benchmarks/ensemble.py
 
 clean:
 	rm -rf $(VENV) $(LOWEST) report build dist docs/_build

@@ -20,4 +20,5 @@ PAGES = (
     "long_term",
     "worlds",
     "rotation",
+    "ensembles",
 )
