@@ -220,6 +220,9 @@ def rotation(
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
