@@ -43,6 +43,7 @@ EXPLAINED = {
     "free-rotor": _ROTORS,
     "top": _ROTORS,
     "spheroid": _ROTORS,
+    "rotation": ("rotation", "The whole attitude"),
     "nutation": ("nutation", "From a rigid Earth to half a milliarcsecond"),
     "cassini-states": ("frames", "Which model, which time, which frame"),
 }

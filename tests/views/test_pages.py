@@ -29,7 +29,7 @@ FIGURES = {
     "precession": 2, "torque": 1, "pole": 1, "iau": 3, "nutation": 3, "long-term": 4,
     "rotation": 3, "wobble": 1,
     "polar-motion": 3,    "free-rotor": 2, "top-loop": 1, "spheroid": 0,
-    "love-numbers": 0, "compliances": 0,
+    "cassini-states": 1, "love-numbers": 0, "compliances": 0,
 }  # fmt: skip
 
 
