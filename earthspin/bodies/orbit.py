@@ -180,7 +180,8 @@ def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
             continue
         if hasattr(value, "dims") or (name in _RULES and isinstance(value, Mapping)):
             raise where.at(name).error("an array", "an element is one number")
-        read[name] = _KINDS[name].read(value, where.at(name))
+        plain = type(value) is float and math.isfinite(value)  # in SI: nothing to load for it
+        read[name] = value if plain else _KINDS[name].read(value, where.at(name))
         if name in _RULES and not _RULES[name][0](read[name]):
             raise where.at(name).error(value, _RULES[name][1])
     if "a" not in read and "period" not in read:
