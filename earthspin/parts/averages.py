@@ -219,7 +219,9 @@ def window_means(
     )
     if of_precessing is not None and times[1] - times[0] == SAMPLING:
         # daily samples: what the neighbours say counts as well, where it is less
-        _, by_neighbours = window_mean_and_error(window, times, samples.precessing, swing)
+        _, by_neighbours = window_mean_and_error(
+            window, times, samples.precessing, swing, strength=many
+        )
         precessing_error = np.minimum(precessing_error, by_neighbours)
     vector, vector_error = window_mean_and_error(
         window, times, samples.torque, swing, of_torque, many

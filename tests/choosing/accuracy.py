@@ -21,7 +21,7 @@ from earthspin.choosing.nutation import nutation_choices
 from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
-from earthspin.parts.averages import mean_rates, torque_samples
+from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
 from earthspin.parts.choices import averages_on_offer, chosen_average, windows_on_offer
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
 from earthspin.parts.sky import Pulled, Sky, places, sky, stretch
@@ -185,14 +185,15 @@ def rate_outcome(rng: Generator) -> Outcome:
 
     choice = chosen_average(body, pulling, within, asked)
     fewer = torque_samples(above, within, body, pulling, choice)
-    rates = mean_rates(fewer, body, pulling, choice)
+    rates = mean_rates(mean_torques(window_means(fewer, pulling, choice)), body, pulling)
     report = rate_accuracy(rates, asked)
     cost = cheapest = int(report.evaluations)
     menu = averages_on_offer(body, pulling, within)
     for one in sorted(menu, key=lambda c: c.evaluations):
         if one.evaluations < cheapest and off(one.settings.cycles, one.settings.step) <= asked:
             cheapest = one.evaluations
-    rate, best = (float(of.rate.value[-1]) for of in (rates, mean_rates(samples, body, pulling)))
+    widest = mean_rates(mean_torques(window_means(samples, pulling)), body, pulling)
+    rate, best = (float(of.rate.value[-1]) for of in (rates, widest))
     return Outcome(
         str(report.method_chosen.values),
         asked,

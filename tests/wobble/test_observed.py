@@ -16,7 +16,7 @@ from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import burg, envelope, observed, record, simulation, spectrum
 from tests.conftest import load_pins
-from tests.docs.numbers.wobble import held_by_burg
+from tests.docs.numbers.observed_pole import held_by_burg
 
 PINS = load_pins("wobble")
 

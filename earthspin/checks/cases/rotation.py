@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, Body
+from earthspin.bodies import Body
 from earthspin.checks.case import Cases, Distances, hard_because, held_against, refused
 from earthspin.checks.ladders import of_rotation
+from earthspin.checks.sky import BODY
 from earthspin.checks.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
@@ -146,4 +147,4 @@ def _at_rest() -> Distances:
 @hard_because("the flattening alone leaves some picoradians after a month")
 @refused("ask for less")
 def _too_fine() -> None:
-    rotation("2000-01-01", "2000-02-01", "10 d", body=EARTH, accuracy="1e-6 uas")
+    rotation("2000-01-01", "2000-02-01", "10 d", body=BODY, accuracy="1e-6 uas")
