@@ -80,7 +80,7 @@ def _sky() -> dict[str, object]:
 
 def _interior() -> dict[str, object]:
     """What the upper rungs of the Earth's ladder stand on, and the observed period."""
-    from earthspin.interior.love import elastic
+    from earthspin.interior.love import elastic, softening
     from earthspin.interior.named import INTERIORS
     from earthspin.scenes import run_tree
     from earthspin.wobble.ladder import Spin, inputs_of, love_radius
@@ -91,7 +91,7 @@ def _interior() -> dict[str, object]:
     inputs = inputs_of(interior, spin, {**figure, "triaxiality": 0.0})
     assert interior.layers is not None
     assert interior.observed_core_ellipticity is not None
-    love = elastic(interior.layers)
+    love, soft = elastic(interior.layers), softening(interior.layers)
     return {
         "flattening": EARTH.dynamical_flattening,
         "strain": spin.centrifugal(love_radius(interior, spin)) / EARTH.j2,
@@ -103,6 +103,9 @@ def _interior() -> dict[str, object]:
         "coreFraction": inputs.core_fraction,
         "coreEllipticity": interior.observed_core_ellipticity.value,
         "ocean": inputs.ocean,
+        "exponent": inputs.anelastic_exponent,
+        "softening": [of.coef.tolist() for of in soft],
+        "softeningRange": soft[0].domain.tolist(),
         "observed": run_tree("wobble", ["observed"])["observed"].observed_period.item(),
     }
 
@@ -158,10 +161,10 @@ PLAYS = {
         "The ladder of the free wobble, to play with",
         "A rigid Earth would wobble in ten months, ours takes fourteen. See what the mantle, the "
         "core and the ocean do to the period.",
-        "Bars of the period of the free wobble by four models, and a line at the observed period.",
+        "Bars of the period of the free wobble by five models, and a line at the observed period.",
         (
-            "Each rung adds to the one before it. The last rung of the ladder, anelasticity, needs "
-            "an integration through the mantle and is left out here, as are the three axes.",
+            "Each rung adds to the one before it. How the inside softens at long periods is that of "
+            "PREM, whatever its Love number is set to. The three axes of the Earth are left out.",
         ),
         _interior,
         still=True,

@@ -182,21 +182,63 @@ const formulas = (() => {
 
   // --- wobble ---------------------------------------------------------------------------------------
 
+  // Numbers with an imaginary part, as pairs.
+  const complex = {
+    add: ([a, b], [c, d]) => [a + c, b + d],
+    times: ([a, b], [c, d]) => [a * c - b * d, a * d + b * c],
+    over: ([a, b], [c, d]) => [(a * c + b * d) / (c * c + d * d), (b * c - a * d) / (c * c + d * d)],
+    scaled: (factor, [a, b]) => [factor * a, factor * b],
+    root([a, b]) {
+      const size = Math.hypot(a, b), real = Math.sqrt((size + Math.abs(a)) / 2);
+      if (real === 0) return [0, 0];
+      return a >= 0 ? [real, b / (2 * real)] : [Math.abs(b) / (2 * real), b < 0 ? -real : real];
+    },
+    // A Chebyshev series over a real range, at a complex place (Clenshaw).
+    series(coefficients, [low, high], place) {
+      const x = complex.add(complex.scaled(2 / (high - low), place), [-(low + high) / (high - low), 0]);
+      let [now, last] = [[0, 0], [0, 0]];
+      for (let k = coefficients.length - 1; k > 0; k -= 1) {
+        const next = complex.add(complex.add(complex.scaled(2, complex.times(x, now)), complex.scaled(-1, last)), [coefficients[k], 0]);
+        [last, now] = [now, next];
+      }
+      return complex.add(complex.add(complex.times(x, now), complex.scaled(-1, last)), [coefficients[0], 0]);
+    },
+  };
+
+  // How much softer rocks are at a long period (s) than at 1 s, at quality factor 1 (Liu, Anderson & Kanamori 1976).
+  function softerStrain(period, exponent) {
+    const grown = (period / 200) ** exponent, angle = (exponent * Math.PI) / 2;
+    const growth = exponent === 0 ? (2 / Math.PI) * Math.log(period / 200) : ((grown - 1) * Math.cos(angle)) / Math.sin(angle);
+    return [-(2 / Math.PI) * Math.log(200) - growth, grown];
+  }
+
   // Periods of the free wobble in turns of the body, rung by rung (Sasao, Okubo & Saito 1980):
   // [s - e + (1+s) kappa] [1 + s (1+beta) + e_f] = (1+s) X s (1+gamma).
-  function wobble({ flattening, unitStrain, k2, coreK, kPressure, coreKPressure, coreFraction, coreEllipticity, ocean }) {
+  function wobble({ flattening, unitStrain, k2, coreK, kPressure, coreKPressure, coreFraction, coreEllipticity, ocean, anelastic }) {
+    const { add, times, over, scaled } = complex, one = [1, 0];
     const e = flattening / (1 - flattening);
-    const root = (kappa) => {
-      const x = coreFraction + unitStrain * kPressure;
-      const gamma = (unitStrain * coreK) / coreFraction, beta = (unitStrain * coreKPressure) / coreFraction;
-      const [p, q, r, s] = [1 + kappa, kappa - e, 1 + beta, 1 + coreEllipticity], y = x * (1 + gamma);
-      const [A, B, C] = [p * r - y, p * s + q * r - y, q * s];
-      // The root near zero; the other, near -1, is the free core nutation.
-      const far = (-B - Math.sqrt(B * B - 4 * A * C)) / (2 * A);
-      return { turns: (A * far) / C, core: 1 / (1 + far) };
+    // k2 and its companions times what softens them; s is the root near zero, far the one near -1.
+    const roots = (water, soft = [one, one, one, one]) => {
+      const [k, ck, kp, ckp] = [k2, coreK, kPressure, coreKPressure].map((value, i) => scaled(unitStrain * value, soft[i]));
+      const kappa = add(k, [unitStrain * water, 0]), f = 1 + coreEllipticity;
+      const pull = times(add([coreFraction, 0], kp), add(one, scaled(1 / coreFraction, ck)));
+      const [p, q, b] = [add(one, kappa), add(kappa, [-e, 0]), add(one, scaled(1 / coreFraction, ckp))];
+      const A = add(times(p, b), scaled(-1, pull)), C = scaled(f, q);
+      const B = add(add(scaled(f, p), times(q, b)), scaled(-1, pull));
+      const square = complex.root(add(times(B, B), scaled(-4, times(A, C))));
+      const far = over(scaled(-1, add(B, square)), scaled(2, A));
+      const near = over(C, times(A, far))[0];  // not above zero: the body would turn over, not wobble
+      return { turns: near > 0 ? 1 / near : NaN, core: 1 / (1 + far[0]) };
     };
-    const kappa = unitStrain * k2, fluid = root(kappa), wet = root(kappa + unitStrain * ocean);
-    return { rigid: 1 / e, elastic: (1 + kappa) / (e - kappa), fluidCore: fluid.turns, ocean: wet.turns, coreNutation: wet.core };
+    const kappa = unitStrain * k2, fluid = roots(0), wet = roots(ocean);
+    const found = { rigid: 1 / e, elastic: (1 + kappa) / (e - kappa), fluidCore: fluid.turns, ocean: wet.turns, coreNutation: wet.core };
+    if (!anelastic) return found;
+    let turns = wet.turns;
+    for (let pass = 0; pass < 3; pass += 1) {
+      const strain = softerStrain(turns * anelastic.day, anelastic.exponent);
+      turns = roots(ocean, anelastic.softening.map((of) => complex.series(of, anelastic.range, strain))).turns;
+    }
+    return { ...found, anelastic: turns };
   }
 
   return { precession, rotor, top, wobble, jacobi, complete, incomplete };

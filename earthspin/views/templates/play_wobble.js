@@ -1,16 +1,17 @@
-// The ladder of the free wobble: from the rigid Earth to one with an elastic mantle, a core and an ocean.
+// The ladder of the free wobble: from the rigid Earth to one with an elastic mantle, a core, an ocean and rocks that give way slowly.
 "use strict";
 
 {
   const { shown } = play, given = JSON.parse(document.getElementById("given").textContent);
-  const RUNGS = [["rigid", "rigid"], ["elastic", "elastic mantle"], ["fluidCore", "fluid core"], ["ocean", "ocean"]];
+  const RUNGS = [["rigid", "rigid"], ["elastic", "elastic mantle"], ["fluidCore", "fluid core"], ["ocean", "ocean"], ["anelastic", "anelastic mantle"]];
 
-  const motion = ({ flattening, k2, core, ellipticity, ocean }) => {
+  const motion = ({ flattening, k2, core, ellipticity, ocean, exponent }) => {
     const scale = k2 / given.k2;
     return formulas.wobble({
       flattening: flattening / 1000, k2, coreFraction: core, coreEllipticity: ellipticity / 1000, ocean,
       coreK: given.coreK * scale, kPressure: given.kPressure * scale, coreKPressure: given.coreKPressure * scale,
       unitStrain: (given.strain * flattening) / (1000 - flattening),
+      anelastic: { exponent, day: given.day * 86400, softening: given.softening, range: given.softeningRange },
     });
   };
 
@@ -21,6 +22,7 @@
       { name: "core", words: "share of the core in the moment", unit: "", min: 0.01, max: 0.4, step: 0.0001, value: given.coreFraction },
       { name: "ellipticity", words: "ellipticity of the core", unit: "/ 1000", min: 1, max: 5, step: 0.0001, value: given.coreEllipticity * 1000 },
       { name: "ocean", words: "yielding of the ocean Δk", unit: "", min: 0, max: 0.1, step: 0.0001, value: given.ocean },
+      { name: "exponent", words: "exponent of anelasticity α", unit: "", min: 0, max: 0.3, step: 0.001, value: given.exponent },
     ],
     motion,
     pace: 1,
@@ -52,7 +54,8 @@
       pen.fillText("observed", left + 4 * scale, y(given.observed) - 6 * scale);
       pen.textAlign = "center";
       days.forEach((d, i) => {
-        const wide = ((width - left - right) / RUNGS.length) * 0.5;
+        const number = pen.measureText(shown(d, 4)).width + 6 * scale;
+        const wide = Math.max(((width - left - right) / RUNGS.length) * 0.5, number);
         pen.fillStyle = ink("blue");
         pen.fillRect(x(i) - wide / 2, y(d), wide, y(0) - y(d));
         pen.fillStyle = ink("paper");
