@@ -50,9 +50,8 @@
       pen.setLineDash([6 * scale, 4 * scale]);
       pen.beginPath(); pen.moveTo(left, y(given.observed)); pen.lineTo(width - right, y(given.observed)); pen.stroke();
       pen.setLineDash([]);
-      pen.textAlign = "left";
-      pen.fillText("observed", left + 4 * scale, y(given.observed) - 6 * scale);
       pen.textAlign = "center";
+      pen.fillText("observed", x(0), y(given.observed) - 6 * scale);
       days.forEach((d, i) => {
         const number = pen.measureText(shown(d, 4)).width + 6 * scale;
         const wide = Math.max(((width - left - right) / RUNGS.length) * 0.5, number);
