@@ -4,13 +4,17 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 LOWEST := .venv-lowest
 
-.PHONY: report test test-lowest check docs numbers bench fuzz mutants clean
+.PHONY: report test slow test-lowest check docs numbers bench fuzz mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
 
 test: $(VENV)/.test
 	$(BIN)/python -m pytest -q --numprocesses=auto --dist=loadfile
+
+# What takes some seconds each: random scenes, clusters, other processes, simulated records.
+slow: $(VENV)/.test
+	$(BIN)/python -m pytest -q -m slow --numprocesses=auto --dist=load
 
 # The oldest versions that pyproject.toml allows; what they themselves need is the newest. Two things
 # do not hold for them: numbers of the pages stand on the newest tables of polar motion, and the

@@ -132,6 +132,7 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
+NUMBERED = {"units": "1", "long_name": "number of the state after Peale (1969)"}
 STATES = {
     **with_error(
         "obliquity", Variable(("state",), "deg", "angle from the normal of the orbit to the axis")
@@ -180,7 +181,7 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
             "towards_pole": found.obliquity > 0,
             "stable": found.stable,
         },
-        coords={"state": found.number},
+        coords={"state": ("state", found.number, dict(NUMBERED))},
     )
     result["tilt"].attrs["inclination"] = math.degrees(own_orbit.i)
     locked = "locked" if locking.locked else "free"

@@ -163,8 +163,9 @@ PLAYS = {
         "core and the ocean do to the period.",
         "Bars of the period of the free wobble by five models, and a line at the observed period.",
         (
-            "Each rung adds to the one before it. How the inside softens at long periods is that of "
-            "PREM, whatever its Love number is set to. The three axes of the Earth are left out.",
+            "Each rung adds to the one before it. How the inside softens at long periods is that "
+            "of PREM, whatever its Love number is set to. The three axes of the Earth are left "
+            "out.",
         ),
         _interior,
         still=True,

@@ -23,6 +23,7 @@ from tests.choosing.accuracy import KINDS, UAS, outcomes, summary, true_axes
 SCENES = 120
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes_get_what_they_ask_for_at_a_fair_price(kind: str) -> None:
     found = list(outcomes(kind, SCENES))

@@ -90,6 +90,7 @@ def finished(path: Path, undisturbed: dict[str, str]) -> None:
     assert not partial.exists()
 
 
+@pytest.mark.slow
 def test_everything_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
     path = tmp_path / "r.zarr"
     process = started(program, path, "2")
@@ -101,6 +102,7 @@ def test_everything_killed(tmp_path: Path, program: Path, undisturbed: dict[str,
     finished(path, undisturbed)
 
 
+@pytest.mark.slow
 def test_a_worker_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
     path = tmp_path / "r.zarr"
     process = started(program, path, "2")
@@ -144,6 +146,7 @@ def scheduler(tmp_path: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
         process.wait()
 
 
+@pytest.mark.slow
 def test_a_scheduler_killed(
     tmp_path: Path,
     program: Path,

@@ -144,6 +144,7 @@ def test_any_number_in_any_block(n: int) -> None:
         assert differ(part, whole.isel(member=slice(0, n))) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", ["precession", "top"])
 def test_a_store_by_two_workers_is_the_same(word: str, tmp_path: Path) -> None:
     question = asked(word, 130)

@@ -11,6 +11,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 #: Prints a digest of every number of each shipped scene with all sections, and of what solvers
 #: give that go step by step; arrays begin elsewhere with another first argument.
 PROGRAM = """
@@ -73,6 +75,7 @@ def digests(surroundings: str) -> dict[str, str]:
     return dict(line.rsplit(" ", 1) for line in said.splitlines())
 
 
+@pytest.mark.slow
 def test_the_same_question_has_the_same_bits() -> None:
     one, other = (digests(surroundings) for surroundings in SURROUNDINGS)
     assert len(one) == 11

@@ -190,6 +190,7 @@ print(peak("210 min"), peak("21 min"))
 """
 
 
+@pytest.mark.slow
 def test_a_million_epochs_need_no_more_memory_than_a_hundred_thousand(tmp_path: Path) -> None:
     path = tmp_path / "series.zarr"
     out = subprocess.run(

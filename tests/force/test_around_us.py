@@ -261,6 +261,7 @@ def test_titles_do_nothing_to_the_terminal(capsys: pytest.CaptureFixture[str]) -
     assert "\nsecond" in shown
 
 
+@pytest.mark.slow
 def test_json_is_what_it_was(tmp_path: Path) -> None:
     """As xarray has it, dates in ISO 8601, infinity as text."""
     import datetime as dt

@@ -92,6 +92,7 @@ print(peak, time.perf_counter() - begun, file=sys.stderr)
 """
 
 
+@pytest.mark.slow
 def test_json_of_a_long_series_is_written_as_it_is_made(tmp_path: Path) -> None:
     """Text and lists of it would take 5 kB for each time; measured: 0.3 kB, the answer itself."""
 

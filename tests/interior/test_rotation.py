@@ -84,6 +84,7 @@ def test_a_core_in_a_rigid_mantle() -> None:
     assert np.isclose(modes["chandler_wobble"].real, F.e / mantle, rtol=4e-3, atol=0)
 
 
+@pytest.mark.slow
 def test_motion_in_time_under_a_torque_of_one_frequency() -> None:
     """Angular momenta integrated in time, and the forced wobble read off: the transfer function.
 

@@ -153,7 +153,8 @@ def _run(copy: Path, arguments: list[str]) -> tuple[str, str]:
     note.unlink(missing_ok=True)
     command = [
         *(sys.executable, "-m", "pytest", "-x", "-q", "--tb=no", "--no-header"),
-        *("-p", "no:cacheprovider", "-p", "tests.mutants.witness", *arguments),
+        *("-p", "no:cacheprovider", "-p", "tests.mutants.witness"),
+        *("-m", "not every_number and not every_kill", *arguments),
     ]
     # Hypothesis draws the same examples each time, so that the control means something.
     environment = os.environ | {"PYTHONPATH": str(copy), "CI": "1", NOTE: str(note)}

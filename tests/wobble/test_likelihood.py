@@ -99,6 +99,7 @@ def best_period(given: tuple[np.ndarray, np.ndarray]) -> float:
     return float(2 * np.pi / (MIDDLE + at[0]))
 
 
+@pytest.mark.slow
 def test_red_excitation_biases_no_period() -> None:
     """Half of what drives it red; in pairs, for the white part is the same.
 
@@ -137,6 +138,7 @@ def driven_pole(
     return days, p, 40 * chi
 
 
+@pytest.mark.slow
 def test_a_known_excitation_sharpens_the_fit() -> None:
     """A tenth of the excitation is not known: ten times less scatter than without."""
     found, plain, inside = [], [], []

@@ -70,6 +70,7 @@ def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
     assert np.max(abs(left)) < 5e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "runs", "bias", "scatter", "coverage"),
     [
