@@ -118,3 +118,11 @@ def test_without_trimesh_the_extra_is_named(
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     with pytest.raises(MissingExtraError, match="mesh"):
         Body.from_mesh(tmp_path / "a.stl", density=1.0)
+
+
+def test_a_body_takes_its_numbers_with_their_units() -> None:
+    told = Body(name="x", gm="4e14 m3/s2", radius=6400 * u.km, pole=("10 deg", "60 deg"))
+    plain = Body(name="x", gm=4e14, radius=6.4e6, pole=tuple(np.radians([10.0, 60.0]).tolist()))
+    assert told == plain
+    with pytest.raises(EarthspinError, match="gm"):
+        Body(name="x", gm="4e14 m2")

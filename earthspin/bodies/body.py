@@ -43,6 +43,8 @@ NOTHING = "nothing"
 class Body:
     """A body that spins, pulls, or both.
 
+    Numbers carry their units as text or Quantities (``"5 h"``); plain ones are SI and radians.
+
     Attributes
     ----------
     name : str
@@ -101,6 +103,8 @@ class Body:
 
     Raises
     ------
+    UnitsError
+        If a unit is unknown, or of another kind.
     BodyError
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
 
@@ -152,6 +156,7 @@ class Body:
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
+        self._read_units()
         for name in UNITS:
             value = getattr(self, name)
             if value is None and name not in ("gm", "cycle"):
@@ -204,6 +209,15 @@ class Body:
             if name not in UNITS:
                 raise BodyError(self.name, "relative_uncertainty", name, nearest(name, UNITS))
         self._check_polar_moment()
+
+    def _read_units(self) -> None:
+        """Bring text and Quantities to SI; plain numbers are, and nothing is loaded for them."""
+        for name in (*UNITS, "pole", "orbit_pole"):
+            value = getattr(self, name)
+            pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
+            if type(value) is str or pair or hasattr(value, "to_value"):
+                read = KINDS[name].read(value, Where(f"{self.name}.{name}"))
+                object.__setattr__(self, name, read)
 
     def _check_polar_moment(self) -> None:
         """C/(M a2) = J2/H lies between 0 and 1, and no difference of moments exceeds C.
