@@ -3,7 +3,7 @@ r"""Mantle, fluid core and inner core that turn against one another: one linear 
 In a frame that turns at Omega (z + m) with the mantle, the fluid core turns by Omega m_f and the
 inner core by Omega m_s beside it, and the axis of the inner core is tilted by n. With complex
 vectors (x + i y) that vary as exp(i sigma Omega t), sigma = -1 being at rest in space, and a tidal
-potential phi in the units of the wobbles (Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219):
+potential phi in the units of the wobbles (Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219)::
 
     (sigma - e) m + (1 + sigma) (c + A_f/A m_f + A_s/A (m_s + a3 e_s n)) = -e phi
     sigma (m + c_f - (A_s/A_f) a1 e_s n) + (1 + sigma + e_f) m_f + K ...  = 0
