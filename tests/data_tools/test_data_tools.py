@@ -107,6 +107,7 @@ def test_numbers_are_rounded_up() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_the_table_of_what_is_neglected_holds(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -58,6 +58,7 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     assert pictures[2] == pictures[0]
 
 
+@pytest.mark.slow
 def test_a_home_that_cannot_be_written_is_not_mentioned(tmp_path: Path) -> None:
     """Nor a backend that does not exist."""
     nowhere = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), "/proc/nowhere")

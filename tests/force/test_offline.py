@@ -81,6 +81,7 @@ for scale in ("utc", "ut1"):
         assert f"its scale, {scale}, is not known there; give TDB, or install newer" in line
 
 
+@pytest.mark.slow
 def test_scenes_ask_for_no_network() -> None:
     program = """
 for scene in ("precession", "torque", "wobble", "polar-motion", "pole", "iau"):

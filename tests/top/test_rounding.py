@@ -11,6 +11,7 @@ from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_bound_holds(family: str) -> None:
     for start in cases(family, 6):

@@ -69,7 +69,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    windows = (1e-6, 1e-8) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
+    windows = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-5, 1e-7, 1e-9)
     return [
