@@ -129,6 +129,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     behind = f" ({units})" if units not in ("", "1") else ""
     ax.set_xlabel(f"{_words(name, labels)} minus {_digits(middle, high)}{behind}")
     ax.set_ylabel("members")
+    ax.locator_params(axis="x", nbins=5)  # so few that they stay apart on a phone
     return ax
 
 
