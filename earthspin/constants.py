@@ -98,6 +98,22 @@ J2_AND_TILT_RATE = Constant(-269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2
 #: Of the rate of omega_A: the tides that the Earth raises and drags along tilt its axis.
 TIDES_IN_OBLIQUITY = Constant(2.4e-5, "arcsec yr-1", None, _P03_TABLE3 + ": tides, in obliquity")
 
+# --- Mars, whose bulge and whose layers answer to the same numbers -----------------------------
+MARS_GM = Constant(42828.375816e9, "m3 s-2", None, DE440)
+MARS_GRAVITY = "Konopliv et al. 2011, Icarus 211, 401 (MRO110B)"
+MARS_RADIUS = Constant(3396000.0, "m", None, "reference radius of Konopliv et al. 2011")
+MARS_J2 = Constant(
+    8.7502e-4 * math.sqrt(5.0), "", 1e-9, MARS_GRAVITY + ", normalised C20 = -8.7502e-4"
+)
+#: C/(M R2). With it our rate, geodesic precession included, is that observed from the ground.
+MARS_POLAR_MOMENT = Constant(
+    0.36367,
+    "",
+    0.00010,
+    "C/(M R2) after the precession observed by landers; as recalled, not seen in a public copy",
+)
+
+# --- the Earth inside ------------------------------------------------------------------------
 PREM_MEAN_MOMENT = Constant(
     0.330799,
     "",

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from earthspin import EARTH, MARS, SUN, BodyError, Scene, SceneError, UnitsError
 from earthspin.bodies import BODIES, NUMBERS, body
-from earthspin.bodies.body import KINDS
+from earthspin.bodies.body import Body
 from earthspin.errors import Where
 
 
@@ -230,7 +230,7 @@ def test_all_that_a_body_lacks_is_named_at_once(
         Scene(compute=compute, body=bare, **settings)
     told = str(error.value)
     assert told.count("\n") == 0
-    assert {name for name in KINDS if f" {name} = " in told} == needed
+    assert {name for name in Body.KINDS if f" {name} = " in told} == needed
     # what it asks for, given as it says, is enough
     example = re.findall(r"(\w+) = (\[.*?\]|\"[^\"]*\"|[-\d.e]+)", told.split("give ")[1])
     scene = tomllib.loads("\n".join(f"{name} = {text}" for name, text in example))

@@ -30,7 +30,7 @@ PACKAGES = (
 NO_KERNEL = {"__init__", "_checks"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
-    *("units", "dates", "bodies/body", "bodies/earth", "constants", "scenes"),
+    *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
     *("engine/drafts", "engine/checksums", "engine/zarr_folder", "errors", "process"),
 )

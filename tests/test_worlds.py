@@ -15,7 +15,7 @@ from earthspin.bodies.mars import MOVING_POLE
 from earthspin.bodies.planets import PLANETS, on_its_orbit, pulled_by
 from earthspin.bodies.satellites import Satellite, added_by
 from earthspin.cli import main
-from earthspin.constants import ARCSEC
+from earthspin.constants import ARCSEC, Constant
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.torque.locking import locked_turns
 
@@ -88,7 +88,8 @@ def test_uranus_with_a_moment_of_ones_own() -> None:
 
 def test_what_satellites_add() -> None:
     """One of a thousandth of the mass at ten radii: q = 0.05, l = 0.1 n/Omega."""
-    q, more = added_by([Satellite("s", 1.0, 10.0, 400.0)], 1000.0, 1.0, 4.0)
+    one = Satellite("one", *(Constant(number, "", None, "") for number in (1.0, 10.0, 400.0)))
+    q, more = added_by([one], 1000.0, 1.0, 4.0)
     assert (q, more) == pytest.approx((0.05, 0.001), rel=1e-14, abs=0)
     q, more = added_by(OF_SATURN, SATURN.gm, SATURN.radius, SATURN.spin_period)
     assert SATURN.j2 == pytest.approx(16290.57e-6 + q, rel=1e-14, abs=0)
@@ -103,8 +104,8 @@ def test_satellites_keep_keplers_third_law() -> None:
     """Of numbers recalled apart: a, period and mass of the planet; J2 moves Io by 7e-4."""
     for planet, moons in ((JUPITER, OF_JUPITER), (SATURN, OF_SATURN)):
         for one in moons:
-            by_law = 2 * math.pi * math.sqrt(one.a**3 / planet.gm)
-            assert one.period == pytest.approx(by_law, rel=2.5e-3, abs=0), one.name
+            by_law = 2 * math.pi * math.sqrt(one.a.value**3 / planet.gm)
+            assert one.period.value == pytest.approx(by_law, rel=2.5e-3, abs=0), one.name
 
 
 def test_the_moons_pole_goes_round_with_its_node() -> None:

@@ -1,7 +1,8 @@
 """Bodies as data: the class, and one cited file for each world."""
 
-from earthspin.bodies.body import BODIES, NUMBERS, Body, Numeric, all_of, body
+from earthspin.bodies.body import BODIES, NUMBERS, Body, body
 from earthspin.bodies.earth import EARTH
+from earthspin.bodies.labelled import Numeric, all_of
 from earthspin.bodies.mars import MARS
 from earthspin.bodies.moon import MOON
 from earthspin.bodies.orbit import Orbit

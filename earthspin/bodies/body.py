@@ -14,6 +14,9 @@ from dataclasses import replace as _replace
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
+from earthspin.bodies import sense
+from earthspin.bodies.figure import figure_of, moments_of
+from earthspin.bodies.from_mass import FromMass
 from earthspin.bodies.kinds import (
     CitedPeriod,
     Codes,
@@ -22,25 +25,20 @@ from earthspin.bodies.kinds import (
     OwnPlace,
     Uncertainties,
 )
+from earthspin.bodies.labelled import Numeric, all_of, is_close, is_same
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.sky.pole_tables import Angles
-from earthspin.sky.poles import NAMED_POLES, Direction, Pole, pole_of
+from earthspin.sky.poles import Direction, Pole, pole_of
 from earthspin.text import Text
-
-#: A float, or an array with named dimensions (anything numpy can read element by element).
-Numeric = Any
-
-#: Bounds of sense: more than the mass of all that is seen, and longer than its age.
-_LARGEST_GM, _LONGEST_DAY = 1e60, 1e30
 
 #: What a table starts from that names every number of its body.
 NOTHING = "nothing"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Body:
+class Body(FromMass):
     """A body that spins, pulls, or both.
 
     Numbers carry their units as text or Quantities (``"5 h"``); plain ones are SI and radians.
@@ -147,6 +145,10 @@ class Body:
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
+    #: How each field is read and written; the units of those that are numbers; and the numbers
+    #: that may be labelled arrays, which stand for many bodies.
+    KINDS: ClassVar[dict[str, Any]]
+    UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **_: object) -> Body:
@@ -157,173 +159,53 @@ class Body:
 
     def __post_init__(self) -> None:
         self._read_units()
-        for name in UNITS:
-            value = getattr(self, name)
-            if value is None and name not in ("gm", "cycle"):
-                continue
-            if isinstance(value, bool) or not (
-                isinstance(value, (int, float)) or hasattr(value, "dims")
-            ):
-                raise BodyError(
-                    self.name, name, value, "give a number, or a DataArray with named dimensions"
-                )
-            if not all_of(_is_finite(value)):
-                raise BodyError(self.name, name, value, "it must be a finite number")
-        self._check_words()
-        self._check_labels()
-        self._check_directions()
+        sense.check_kinds(self._fields(), self.UNITS)
+        for name, of in (("pole", pole_of), ("orbit_pole", Direction.of)):
+            given = getattr(self, name)
+            if given is not None:
+                object.__setattr__(self, name, sense.as_direction(self.name, name, given, of))
         if self.position is not None:
             from earthspin.sky.sources import read_position
 
-            object.__setattr__(
-                self, "position", read_position(self.position, Where(f"{self.name}.position"))
-            )
-        self._check_orbit()
-        self._require("gm", lambda gm: gm >= 0, "a mass is zero or more")
-        self._require("gm", lambda gm: gm <= _LARGEST_GM, f"give at most {_LARGEST_GM:g} m3 s-2")
-        self._require("cycle", lambda t: t > 0, "a cycle lasts longer than zero")
-        self._require("orbital_period", lambda t: t > 0, "a year lasts longer than zero")
-        for name, u in self.relative_uncertainty.items():
-            if not 0 <= u < math.inf:
-                raise BodyError(
-                    self.name, f"relative_uncertainty[{name!r}]", u, "it is zero or more, finite"
-                )
-        if self.radius is not None:
-            with_size = self.gm * self.radius * self.radius
-            if not all_of(_is_finite(with_size) & ((with_size > 0) | (self.gm == 0))):
-                raise BodyError(self.name, "radius", self.radius, "M a2 is out of a float's range")
-        self._require("radius", lambda a: a > 0, "a radius is greater than zero")
-        self._require("spin_period", lambda p: p != 0, "a period is not zero")
-        self._require(
-            "spin_period", lambda p: abs(p) <= _LONGEST_DAY, f"give at most {_LONGEST_DAY:g} s"
-        )
-        self._require("flattening", lambda f: f < 1, "a flattening is less than 1")
-        self._require(
-            "dynamical_flattening",
-            lambda h: h <= 0.5,
-            "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
-        )
-        self._require("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more")
-        self._require("slow_swing", lambda swing: swing >= 0, "a swing is zero or more")
-        for name in self.relative_uncertainty:
-            if name not in UNITS:
-                raise BodyError(self.name, "relative_uncertainty", name, nearest(name, UNITS))
-        self._check_polar_moment()
+            where = Where(f"{self.name}.position")
+            object.__setattr__(self, "position", read_position(self.position, where))
+        if self.orbit is not None:
+            self._read_orbit(self.orbit)
+        sense.check_numbers(self._fields(), self.UNITS)
+
+    def _fields(self) -> dict[str, Any]:
+        return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def _read_units(self) -> None:
         """Bring text and Quantities to SI; plain numbers are, and nothing is loaded for them."""
-        for name in (*UNITS, "pole", "orbit_pole"):
+        for name in (*self.UNITS, "pole", "orbit_pole"):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
             if type(value) is str or pair or hasattr(value, "to_value"):
-                read = KINDS[name].read(value, Where(f"{self.name}.{name}"))
+                read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 
-    def _check_polar_moment(self) -> None:
-        """C/(M a2) = J2/H lies between 0 and 1, and no difference of moments exceeds C.
-
-        With H = 0 the polar moment does not follow from J2, and nothing is said of it.
-        """
-        j2, h = self.j2, self.dynamical_flattening
-        if j2 is None or h is None:
-            return
-        if not all_of((j2 * h > 0) | (h == 0)):
-            allowed = f"it has the sign of dynamical_flattening = {h!r}, and is not 0"
-            raise BodyError(self.name, "j2", j2, allowed)
-        if not all_of((abs(j2) <= abs(h)) | (h == 0)):
-            allowed = f"C = (j2/H) M a2 cannot exceed M a2, so it is at most H = {h!r}"
-            raise BodyError(self.name, "j2", j2, allowed)
-        if not all_of((self.triaxiality * abs(h) <= abs(j2)) | (h == 0)):
-            raise BodyError(self.name, "triaxiality", self.triaxiality, "B - A cannot exceed C")
-
-    def _check_words(self) -> None:
-        """Names are words, codes are whole numbers, uncertainties a table of numbers."""
-        for name in ("name", "reference", "interior"):
-            value = getattr(self, name)
-            if not (isinstance(value, str) or (value is None and name == "interior")):
-                raise BodyError(self.name, name, value, "give a line of text")
-        if not isinstance(self.naif, tuple) or not all(type(code) is int for code in self.naif):
-            raise BodyError(self.name, "naif", self.naif, "give a tuple of whole numbers")
-        if not isinstance(self.observed_wobble, c.Constant | None):
-            raise BodyError(self.name, "observed_wobble", self.observed_wobble, "give a Constant")
-        of = self.relative_uncertainty
-        if not isinstance(of, Mapping) or not all(isinstance(u, (int, float)) for u in of.values()):
-            raise BodyError(self.name, "relative_uncertainty", of, "give a table of numbers")
-
-    def _check_labels(self) -> None:
-        """Labelled arrays that share a dimension have the same length and labels along it."""
-        along: dict[str, tuple[str, Any]] = {}
-        for name in UNITS:
-            array = getattr(self, name)
-            for dim in getattr(array, "dims", ()):
-                other, known = along.setdefault(dim, (name, array))
-                same = known.sizes[dim] == array.sizes[dim] and (
-                    not (dim in known.coords and dim in array.coords)
-                    or all_of(known.coords[dim].values == array.coords[dim].values)
-                )
-                if not same:
-                    raise BodyError(
-                        self.name,
-                        name,
-                        f"labels along '{dim}'",
-                        f"they differ from those of {other}",
-                    )
-            for label in getattr(array, "coords", ()):
-                kind = array.coords[label].dtype.kind
-                words = kind == "O" and all(
-                    isinstance(one, str) for one in array.coords[label].values.ravel()
-                )
-                if kind not in "fiubUM" and not words:
-                    raise BodyError(
-                        self.name, name, f"labels '{label}'", "give numbers, dates or words"
-                    )
-
-    def _check_directions(self) -> None:
-        """Keep a pole as what it is, also where a word or two angles were given."""
-        words = " or ".join(f"'{name}'" for name in NAMED_POLES)
-        allowed = f"write {words} or right ascension and declination, -90 to 90 deg, in rad"
-        for name, of in (("pole", pole_of), ("orbit_pole", Direction.of)):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            try:
-                object.__setattr__(self, name, of(value))
-            except (ValueError, TypeError):
-                several = value if isinstance(value, (list, tuple)) else (value,)
-                if any(getattr(one, "ndim", 0) for one in several):
-                    raise BodyError(
-                        self.name, name, "an array", f"it is one direction: {allowed}"
-                    ) from None
-                raise BodyError(self.name, name, value, allowed) from None
-
-    def _check_orbit(self) -> None:
+    def _read_orbit(self, given: object) -> None:
         """Read the elements; of what spins, take the normal of its orbit from them."""
-        if self.orbit is None:
-            return
-        object.__setattr__(self, "orbit", Orbit.read(self.orbit, Where(f"{self.name}.orbit")))
+        orbit = Orbit.read(given, Where(f"{self.name}.orbit"))
+        object.__setattr__(self, "orbit", orbit)
         if self.position is not None:
-            raise BodyError(self.name, "orbit", str(self.orbit), "position places it; set one")
+            raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
         if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
             from earthspin.sky.elements import Plane
 
-            if self.orbit.plane == "orbit":
-                raise BodyError(
-                    self.name, "orbit.plane", "orbit", "of its own orbit it is circular"
-                )
-            plane = Plane.of(self.orbit.plane, self.pole, None)
-            normal = plane.mean_normal(self.orbit.i, self.orbit.node, self.orbit.node_period)
+            if orbit.plane == "orbit":
+                allowed = "of its own orbit it is circular"
+                raise BodyError(self.name, "orbit.plane", "orbit", allowed)
+            plane = Plane.of(orbit.plane, self.pole, None)
+            normal = plane.mean_normal(orbit.i, orbit.node, orbit.node_period)
             object.__setattr__(self, "orbit_pole", normal)
-
-    def _require(self, name: str, holds: Any, allowed: str) -> None:
-        value = getattr(self, name)
-        if value is not None and not all_of(holds(value)):
-            raise BodyError(self.name, name, value, allowed)
 
     def __eq__(self, other: object) -> bool:
         """Whether every field is the same, labels of arrays included."""
         if not isinstance(other, Body):
             return NotImplemented
-        return all(_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+        return all(is_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
 
     def __hash__(self) -> int:
         return hash((self.name, self.naif))
@@ -333,22 +215,21 @@ class Body:
         return f"<Body {self.name}: {told}>"
 
     def _repr_html_(self) -> str:
-        return card(
-            self.name, [(name, words, self._source(name)) for name, words in self._in_words()]
-        )
+        told = [(name, words, self._source(name)) for name, words in self._in_words()]
+        return card(self.name, told)
 
     def _source(self, name: str) -> str:
         """Where a number comes from; empty if it has been changed."""
         own, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
         if isinstance(own, c.Constant):
             return own.source
-        return cited.source if cited is not None and _same(cited.value, own) else ""
+        return cited.source if cited is not None and is_same(cited.value, own) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
         """Every field that is set, with its unit."""
         told = []
         for one in fields(self):
-            value, unit = getattr(self, one.name), UNITS.get(one.name, "")
+            value, unit = getattr(self, one.name), self.UNITS.get(one.name, "")
             many = hasattr(value, "dims")
             if value is None or one.name in _NOT_TOLD or (not many and value in ((), {}, "")):
                 continue
@@ -359,167 +240,6 @@ class Body:
                 words += f" ± {abs(value) * self.relative_uncertainty[one.name]:.2g}"
             told.append((one.name, f"{words} {unit}".rstrip()))
         return told
-
-    # --- from where its mass lies ------------------------------------------------------------
-
-    @classmethod
-    def from_masses(
-        cls,
-        masses: Any,
-        positions: Any,
-        *,
-        name: str = "point masses",
-        radius: Any = None,
-        **fields: Any,
-    ) -> Body:
-        """Make a body of point masses, spinning about the axis of its greatest moment.
-
-        Parameters
-        ----------
-        masses : array_like or Quantity, shape (k,)
-            kg.
-        positions : array_like or Quantity, shape (k, 3)
-            m, along any axes.
-        name : str
-        radius : float, str or Quantity, optional
-            That J2, J3 and J4 refer to; if not given, the distance of the farthest mass from the
-            centre of mass.
-        **fields
-            More fields of `Body`, such as ``spin_period="5 h"``, as `replace` takes them.
-
-        Raises
-        ------
-        BodyError, UndefinedError
-            If a mass is not above zero, shapes do not match, or all lie in one point.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> dumbbell = earthspin.Body.from_masses([1e12, 1e12], [[-500, 0, 0], [500, 0, 0]])
-        >>> print(dumbbell.moments.round(3))
-        [0.e+00 5.e+17 5.e+17]
-        """
-        from earthspin.bodies.shapes import of_masses
-
-        return cls(name=name, **of_masses(masses, positions, radius)).replace(**fields)
-
-    @classmethod
-    def from_density(
-        cls,
-        density: Any,
-        x: Any,
-        y: Any,
-        z: Any,
-        *,
-        name: str = "grid",
-        radius: Any = None,
-        **fields: Any,
-    ) -> Body:
-        """Make a body of a density that is constant in each cell of a grid; exact for such cells.
-
-        Parameters
-        ----------
-        density : array_like or Quantity, shape (nx, ny, nz)
-            kg m-3; empty cells hold zero.
-        x, y, z : array_like or Quantity
-            Edges of the cells, one more than cells, rising, m.
-        name, radius, **fields
-            As for `from_masses`; the farthest place is the corner of a cell.
-
-        Raises
-        ------
-        BodyError, UndefinedError
-            If a density is negative, all are zero, or edges do not rise or fit.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> brick = earthspin.Body.from_density([[[2000.0]]], [0, 3], [0, 2], [0, 1])
-        >>> print(brick.moments.round(6))
-        [ 5000. 10000. 13000.]
-        """
-        from earthspin.bodies.shapes import of_density
-
-        return cls(name=name, **of_density(density, (x, y, z), radius)).replace(**fields)
-
-    @classmethod
-    def from_mesh(
-        cls,
-        mesh: Any,
-        *,
-        density: Any = None,
-        mass: Any = None,
-        unit: str = "m",
-        name: str = "mesh",
-        radius: Any = None,
-        **fields: Any,
-    ) -> Body:
-        """Make a homogeneous body of a closed mesh of triangles; exact for flat faces.
-
-        Parameters
-        ----------
-        mesh : path, Trimesh, or (vertices, faces)
-            A file of any format that trimesh reads, such as OBJ, PLY, STL, OFF; corners of each
-            triangle counter-clockwise as seen from outside.
-        density, mass : float, str or Quantity
-            One of the two.
-        unit : str
-            Of the vertices; files seldom say it.
-        name, radius, **fields
-            As for `from_masses`.
-
-        Raises
-        ------
-        BodyError
-            If the mesh is open or turned inside out, or not one of density and mass is given.
-        SeriesError
-            If the file cannot be read.
-        MissingExtraError
-            If the extra `mesh` is not installed, which files need.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
-        >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-        >>> rock = earthspin.Body.from_mesh((corners, faces), density="3 g/cm3", unit="km")
-        >>> print(f"{rock.mass:.6e} kg")
-        5.000000e+11 kg
-        """
-        from earthspin.bodies.shapes import of_mesh
-
-        return cls(name=name, **of_mesh(mesh, unit, density, mass, radius)).replace(**fields)
-
-    @classmethod
-    def from_layers(
-        cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
-    ) -> Body:
-        """Make a body of layers in hydrostatic equilibrium, to first order in its flattening.
-
-        Parameters
-        ----------
-        layers : LayeredBody or str
-            Or the name of an interior that has layers, like ``"prem"``.
-        spin_period : float, str or Quantity
-            How fast it turns shapes it.
-        name, **fields
-            As for `from_masses`.
-
-        Raises
-        ------
-        SceneError
-            If there is no such interior, or it has no layers.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> slow = earthspin.Body.from_layers("prem", spin_period="48 h")
-        >>> print(f"1/{1 / slow.flattening:.0f}")
-        1/1206
-        """
-        from earthspin.bodies.shapes import of_layers
-
-        return cls(name=name, **of_layers(layers, spin_period)).replace(**fields)
 
     # --- from and to a scene -----------------------------------------------------------------
 
@@ -580,8 +300,8 @@ class Body:
 
     def write(self) -> Any:
         """Give the table of every number."""
-        given = {name: getattr(self, name) for name in KINDS}
-        table = {n: KINDS[n].write(value) for n, value in given.items() if value is not None}
+        given = {name: getattr(self, name) for name in self.KINDS}
+        table = {n: self.KINDS[n].write(value) for n, value in given.items() if value is not None}
         return {"from": NOTHING} | table
 
     @property
@@ -595,12 +315,12 @@ class Body:
             from earthspin.sky.sources import describe_position
 
             words.append(f"position = {describe_position(self.position)}")
-        for name in (*UNITS, "pole", "orbit_pole", "interior"):
+        for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value, before = getattr(self, name), getattr(start, name)
             if hasattr(value, "dims"):
                 words.append(f"{name} along {', '.join(map(str, value.dims))}")
             elif value != before:
-                unit = UNITS.get(name, "")
+                unit = self.UNITS.get(name, "")
                 words.append(f"{name} = {value}{unit and ' '}{unit}")
         return "; ".join(words)
 
@@ -626,16 +346,12 @@ class Body:
             If `j2`, `dynamical_flattening` or `radius` are not set, or stand for many bodies, or
             the flattening is zero: then C does not follow from them.
         """
-        import numpy as np
-
         self.require(("j2", "dynamical_flattening", "radius"))
-        j2, h = self.number("j2"), self.number("dynamical_flattening")
+        h = self.number("dynamical_flattening")
         if h == 0:
             raise BodyError(self.name, "dynamical_flattening", h, "of a sphere C is not known")
         scale = self.number("gm") / c.G.value * self.number("radius") ** 2
-        polar = j2 / h
-        equatorial, half = polar - j2, self.number("triaxiality") / 2
-        return scale * np.array([equatorial - half, equatorial + half, polar])
+        return scale * moments_of(self.number("j2"), h, self.number("triaxiality"))
 
     def relative_uncertainty_of_bulge(self) -> float:
         """One standard deviation of C - A = J2 M a2, over its value; G is the worst known."""
@@ -673,7 +389,7 @@ class Body:
         """
         missing = [name for name in names if getattr(self, name) is None]
         if missing:
-            raise BodyError.lacking(self.name, {name: KINDS[name].example for name in missing})
+            raise BodyError.lacking(self.name, {name: self.KINDS[name].example for name in missing})
 
     def number(self, name: str) -> float:
         """Return a field as one float.
@@ -690,7 +406,7 @@ class Body:
 
     def magnitudes(self) -> dict[str, Magnitude]:
         """How each of its numbers is read, and its mass, by name; those that are set."""
-        known = {name: KINDS[name] for name in UNITS if getattr(self, name) is not None}
+        known = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return known | {"mass": _READ_AS["mass"]}
 
     @property
@@ -701,7 +417,7 @@ class Body:
     @property
     def labelled_field(self) -> str | None:
         """The first field that is a labelled array; None if there is none."""
-        return next((name for name in UNITS if hasattr(getattr(self, name), "dims")), None)
+        return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
         """Return a body with some fields changed, the rest kept consistent.
@@ -737,20 +453,7 @@ class Body:
             if "gm" in changes:
                 raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
             changes["gm"] = c.G.value * changes.pop("mass")
-        if "moments" in changes:
-            changes |= self._figure_from_moments(changes)
-        elif (
-            changes.get("j2") is not None
-            and "dynamical_flattening" not in changes
-            and self.j2 is not None
-        ):
-            if not all_of(self.j2 != 0):
-                raise BodyError(
-                    self.name, "j2", changes["j2"], "set dynamical_flattening too: C is not known"
-                )
-            changes["dynamical_flattening"] = (
-                self.needed("dynamical_flattening") * changes["j2"] / self.j2
-            )
+        changes |= self._figure(changes)
         if changes.get("orbit") is not None and self.orbit is not None:
             changes = {"orbit_pole": None} | changes  # that of the orbit before
         # A changed number is the user's own: what was known about the old one no longer holds.
@@ -760,60 +463,50 @@ class Body:
             return made
         return _replace(made, observed_wobble=None)
 
+    def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
+        """What else changes, so that moments stay those of one body; takes `moments` away."""
+        if "moments" in changes:
+            moments = changes.pop("moments")
+            clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
+            if clash:
+                allowed = f"moments already give {sorted(clash)[0]}; set one"
+                raise BodyError(self.name, "moments", moments, allowed)
+            gm: Numeric = changes.get("gm", self.gm)
+            radius: Numeric = changes["radius"] if "radius" in changes else self.needed("radius")
+            return figure_of(self.name, moments, gm / c.G.value * radius**2)
+        j2 = changes.get("j2")
+        if j2 is None or self.j2 is None or "dynamical_flattening" in changes:
+            return {}
+        if not all_of(self.j2 != 0):
+            allowed = "set dynamical_flattening too: C is not known"
+            raise BodyError(self.name, "j2", j2, allowed)
+        return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
+
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
         """Whether a change makes it a body whose wobble nobody has observed."""
         changed = _OF_THE_WOBBLE & set(changes)
-        return not all(_close(changes[name], getattr(self, name)) for name in changed)
+        return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
     @property
     def is_as_named(self) -> bool:
         """Whether figure and spin are those of the named body, to one per cent."""
         named = BODIES.get(self.name)
         return named is not None and all(
-            _close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE
+            is_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE
         )
 
-    def _figure_from_moments(self, changes: dict[str, Any]) -> dict[str, Any]:
-        moments = changes.pop("moments")
-        clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
-        if clash:
-            raise BodyError(
-                self.name, "moments", moments, f"moments already give {sorted(clash)[0]}; set one"
-            )
-        small, middle, polar = moments
-        if not all_of((small > 0) & (middle > 0) & (polar > 0)):
-            raise BodyError(self.name, "moments", moments, "each moment is greater than zero")
-        if not all_of(abs(small - middle) <= polar):
-            raise BodyError(self.name, "moments", moments, "no moment exceeds the other two's sum")
-        difference = polar - (small + middle) / 2
-        gm: Numeric = changes.get("gm", self.gm)
-        radius: Numeric = changes["radius"] if "radius" in changes else self.needed("radius")
-        scale = gm / c.G.value * radius**2
-        return {
-            "j2": difference / scale,
-            "dynamical_flattening": difference / polar,
-            "triaxiality": abs(middle - small) / scale,
-        }
 
-
-#: How each field is read and written.
-KINDS: dict[str, Any] = {
+Body.KINDS = {
     name: hint.__metadata__[0]
     for name, hint in get_type_hints(Body, include_extras=True).items()
     if get_origin(hint) is not ClassVar
 }
-
-#: Unit of every numeric field.
-UNITS: dict[str, str] = {
-    name: kind.unit for name, kind in KINDS.items() if isinstance(kind, Magnitude)
-}
-
-#: Numbers that may be labelled arrays, which stand for many bodies.
-Body.LABELLED = frozenset(UNITS) - {"meridian", "orbital_period", "cycle", "slow_swing"}
+Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
+Body.LABELLED = frozenset(Body.UNITS) - {"meridian", "orbital_period", "cycle", "slow_swing"}
 
 #: How all is read that a body can be made or changed by.
 _READ_AS: dict[str, Any] = {
-    **KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
+    **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
 }  # fmt: skip
 
 #: What no body is without, and how one would write it.
@@ -823,61 +516,13 @@ _LEAST = {"name": '"ceres"', "gm": '"62.6 km3/s2"'}
 _NOT_TOLD = {"name", "relative_uncertainty"}
 _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 
-#: Numbers that the free wobble follows from, and how far a body may be from the one observed.
+#: Numbers that the free wobble follows from.
 _OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
-SAME_BODY = 0.01
-
-
-def _placed(given: Any, where: Where) -> Body:
-    """The named body that a vector function of Skyfield's leads to, placed by it."""
-    found = next((b for b in BODIES.values() if given.target in b.naif), None)
-    if found is None:
-        raise where.error(given, "its mass is not known; give Body(name=..., gm=..., position=...)")
-    return found.replace(position=given)
-
-
-def _close(value: Numeric | None, other: Numeric | None) -> bool:
-    """Whether two numbers may belong to the same body."""
-    if value is None or other is None:
-        return value is other
-    return all_of(abs(value - other) <= SAME_BODY * abs(other))
-
-
-def _same(one: object, other: object) -> bool:
-    """Whether two values are equal, arrays with their labels."""
-    if hasattr(one, "identical"):
-        return type(one) is type(other) and bool(one.identical(other))
-    return not hasattr(other, "identical") and one == other
-
-
-def _is_finite(value: Numeric) -> Numeric:
-    """Elementwise: a real number that is neither infinite nor NaN."""
-    return (value == value) & (abs(value) != math.inf)
-
-
-def all_of(condition: Any) -> bool:
-    """Truth of a bool, or of every element of an array."""
-    return bool(condition.all()) if hasattr(condition, "all") else bool(condition)
 
 
 #: Every named body, and the source and uncertainty of its numbers; filled by the files of worlds.
 BODIES: dict[str, Body] = {}
 NUMBERS: dict[str, dict[str, c.Constant]] = {}
-
-
-def members(bodies: Iterable[Body]) -> int:
-    """How many bodies some bodies stand for, labelled arrays of theirs taken together.
-
-    Parameters
-    ----------
-    bodies : iterable of Body
-    """
-    along: dict[Any, int] = {}
-    for one in bodies:
-        for name in UNITS:
-            array = getattr(one, name)
-            along |= {dim: array.sizes[dim] for dim in getattr(array, "dims", ())}
-    return math.prod(along.values())
 
 
 def body(name: object, where: Where | None = None) -> Body:
@@ -899,3 +544,26 @@ def body(name: object, where: Where | None = None) -> Body:
     if found is None:
         raise (where or Where("body")).error(name, nearest(name, BODIES))
     return found
+
+
+def _placed(given: Any, where: Where) -> Body:
+    """The named body that a vector function of Skyfield's leads to, placed by it."""
+    found = next((one for one in BODIES.values() if given.target in one.naif), None)
+    if found is None:
+        raise where.error(given, "its mass is not known; give Body(name=..., gm=..., position=...)")
+    return found.replace(position=given)
+
+
+def members(bodies: Iterable[Body]) -> int:
+    """How many bodies some bodies stand for, labelled arrays of theirs taken together.
+
+    Parameters
+    ----------
+    bodies : iterable of Body
+    """
+    along: dict[Any, int] = {}
+    for one in bodies:
+        for name in one.UNITS:
+            array = getattr(one, name)
+            along |= {dim: array.sizes[dim] for dim in getattr(array, "dims", ())}
+    return math.prod(along.values())

@@ -12,8 +12,8 @@ import math
 from earthspin.bodies.body import Body
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import Satellite, carried
-from earthspin.constants import AU, DAY, DE440, Constant
+from earthspin.bodies.satellites import JPL, Satellite, carried
+from earthspin.constants import AU, DAY, DE440, JUPITER_ORBITAL_PERIOD, Constant
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
@@ -26,7 +26,12 @@ _NEPTUNE = "Jacobson 2009, AJ 137, 4322, as recalled"
 
 def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
     """Satellite by GM (km3 s-2), half axis (km) and period (d)."""
-    return Satellite(name, gm * 1e9, a * 1e3, days * DAY)
+    return Satellite(
+        name,
+        Constant(gm * 1e9, "m3 s-2", None, JPL),
+        Constant(a * 1e3, "m", None, JPL),
+        Constant(days * DAY, "s", None, JPL),
+    )
 
 
 OF_JUPITER = (
@@ -54,23 +59,58 @@ SATURN_CONSTANT = Constant(
 )
 
 
+def _year(days: float) -> Constant:
+    """Sidereal period of an orbit."""
+    return Constant(days * DAY, "s", None, ELEMENTS)
+
+
 def _numbers(
-    gm: float, radius: float, j2: Constant, spin: float, orbit: float
+    gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """Numbers of a giant: GM (km3 s-2), radius (km), spin in degrees a day, period of orbit (d)."""
+    """Numbers of a giant: GM (km3 s-2), radius (km), spin in degrees a day, period of its orbit."""
     return {
         "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites"),
         "radius": Constant(radius * 1e3, "m", None, j2.source),
         "j2": j2,
         "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015),
-        "orbital_period": Constant(orbit * DAY, "s", None, ELEMENTS),
+        "orbital_period": orbit,
         "slow_swing": SWING,
     }
 
 
-_JUPITER = _numbers(126712764.1, 71492.0, Constant(14696.57e-6, "", 1e-8, _JUNO), 870.536, 4332.59)
+def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
+    """Mean ellipse about the Sun: au, and longitudes in degrees."""
+    return Orbit(
+        a=a * AU,
+        e=e,
+        i=math.radians(i),
+        node=math.radians(node),
+        pericentre=math.radians(perihelion - node),
+        mean_anomaly=math.radians(mean - perihelion),
+        about="sun",
+        reference=ELEMENTS,
+    )
+
+
+#: Mean orbits, for averages over years that are too long for a kernel.
+ORBITS = {
+    "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
+    "saturn": _orbit(9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
+    "uranus": _orbit(19.18916464, 0.04725744, 0.77263783, 74.01692503, 170.95427630, 313.23810451),
+    "neptune": _orbit(30.06992276, 0.00859048, 1.77004347, 131.78422574, 44.96476227, -55.12002969),
+}
+
+
+def _normal(planet: str) -> Direction:
+    """Of the mean orbit."""
+    return Direction.across(ORBITS[planet].i, ORBITS[planet].node)
+
+
+_JUPITER = _numbers(
+    126712764.1, 71492.0, Constant(14696.57e-6, "", 1e-8, _JUNO), 870.536, JUPITER_ORBITAL_PERIOD
+)
 _SATURN = _numbers(
-    37940584.8418, 60330.0, Constant(16290.57e-6, "", 3e-8, _CASSINI), 810.7939024, 10759.22
+    37940584.8418, 60330.0, Constant(16290.57e-6, "", 3e-8, _CASSINI), 810.7939024, _year(10759.22)
 )
 
 JUPITER = Body.cited(
@@ -95,8 +135,7 @@ JUPITER = Body.cited(
             (0.000926, 49.511251, 64.3000),
         ],
     ),
-    # from i = 1.30439695, node = 100.47390909 deg to the ecliptic
-    orbit_pole=Direction(math.radians(273.25271), math.radians(66.76441)),
+    orbit_pole=_normal("jupiter"),
     reference=f"{_JUNO}; {JUPITER_MOMENT.source}; {IAU_2015}; DE440",
 )
 SATURN = Body.cited(
@@ -104,50 +143,28 @@ SATURN = Body.cited(
     _SATURN | carried(_SATURN, SATURN_MOMENT, OF_SATURN),
     naif=(699, 6),
     pole=MovingPole.published((40.589, -0.036), (83.537, -0.004)),
-    # from i = 2.48599187, node = 113.66242448 deg to the ecliptic
-    orbit_pole=Direction(math.radians(275.94626), math.radians(67.44972)),
+    orbit_pole=_normal("saturn"),
     reference=f"{_CASSINI}; {SATURN_MOMENT.source}; {IAU_2015}; DE440",
 )
 URANUS = Body.cited(
     "uranus",
-    _numbers(5794556.4, 25559.0, Constant(3510.7e-6, "", 7e-7, _URANUS), -501.1600928, 30688.5),
+    _numbers(
+        5794556.4, 25559.0, Constant(3510.7e-6, "", 7e-7, _URANUS), -501.1600928, _year(30688.5)
+    ),
     naif=(799, 7),
     pole=MovingPole.published((257.311, 0.0), (-15.175, 0.0)),
-    # from i = 0.77263783, node = 74.01692503 deg to the ecliptic
-    orbit_pole=Direction(math.radians(271.85090), math.radians(66.33697)),
+    orbit_pole=_normal("uranus"),
     reference=f"{_URANUS}; {IAU_2015}; DE440",
 )
 NEPTUNE = Body.cited(
     "neptune",
-    _numbers(6836527.10058, 25225.0, Constant(3408.4e-6, "", 5e-6, _NEPTUNE), 541.1397757, 60182.0),
+    _numbers(
+        6836527.10058, 25225.0, Constant(3408.4e-6, "", 5e-6, _NEPTUNE), 541.1397757, _year(60182.0)
+    ),
     naif=(899, 8),
     pole=MovingPole.published(
         (299.36, 0.0), (43.46, 0.0), [(0.70, 357.85, 52.316)], [(-0.51, 357.85, 52.316)]
     ),
-    # from i = 1.77004347, node = 131.78422574 deg to the ecliptic
-    orbit_pole=Direction(math.radians(273.48032), math.radians(67.70325)),
+    orbit_pole=_normal("neptune"),
     reference=f"{_NEPTUNE}; {IAU_2015}; DE440",
 )
-
-
-def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Mean ellipse about the Sun: au, and longitudes in degrees."""
-    return Orbit(
-        a=a * AU,
-        e=e,
-        i=math.radians(i),
-        node=math.radians(node),
-        pericentre=math.radians(perihelion - node),
-        mean_anomaly=math.radians(mean - perihelion),
-        about="sun",
-        reference=ELEMENTS,
-    )
-
-
-#: Mean orbits, for averages over years that are too long for a kernel.
-ORBITS = {
-    "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
-    "saturn": _orbit(9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
-    "uranus": _orbit(19.18916464, 0.04725744, 0.77263783, 74.01692503, 170.95427630, 313.23810451),
-    "neptune": _orbit(30.06992276, 0.00859048, 1.77004347, 131.78422574, 44.96476227, -55.12002969),
-}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
+from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.orbit import Orbit
 from earthspin.constants import DAY, DE440, JULIAN_YEAR, Constant
 from earthspin.sky.moving_pole import MovingPole
@@ -22,17 +23,11 @@ _HGM005 = "Mazarico et al. 2014, JGR Planets 119, 2417 (HgM005), as recalled"
 _MERCURY_J2 = Constant(5.03e-5, "", 2e-7, _HGM005)
 #: C/(M R2).
 MERCURY_MOMENT = Constant(0.346, "", 0.014, _MARGOT_2012)
+_MERCURY_YEAR = Constant(87.9691 * DAY, "s", None, ELEMENTS + ", as recalled")
 _VENUS_J2 = Constant(4.404e-6, "", None, "Konopliv et al. 1999, Icarus 139, 3 (MGNP180U), rounded")
 VENUS_MOMENT = Constant(0.337, "", 0.024, _MARGOT_2021)
 #: Rate of precession of the spin axis along the orbit, as observed.
 VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021)
-
-
-def flattening_of(j2: Constant, moment: Constant) -> Constant:
-    """H = J2 / (C/(M R2)), with the uncertainty of both."""
-    h = j2.value / moment.value
-    u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
-    return Constant(h, "", h * u, f"J2 over C/(M R2): {j2.source}; {moment.source}")
 
 
 MERCURY = Body.cited(
@@ -46,19 +41,19 @@ MERCURY = Body.cited(
         "triaxiality": Constant(4 * 8.04e-6, "", 4 * 8e-8, _HGM005),
         # three turns in two orbits
         "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015),
-        "orbital_period": Constant(87.9691 * DAY, "s", None, ELEMENTS + ", as recalled"),
+        "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
     },
     naif=(199, 1),
     pole=MovingPole.published((281.0103, -0.0328), (61.4155, -0.0049)),
-    # from i = 7.00497902, node = 48.33076593 deg to the ecliptic
-    orbit_pole=Direction(math.radians(280.98794), math.radians(61.44780)),
+    # Standish & Williams, approximate elements, as recalled
+    orbit_pole=Direction.across(math.radians(7.00497902), math.radians(48.33076593)),
     reference=f"{_MARGOT_2012}; {_HGM005}; {IAU_2015}; DE440",
 )
 
 #: Mercury's orbit on the plane that it precesses on; longitudes are not needed and not given.
 MERCURY_ORBIT = Orbit(
-    period=87.9691 * DAY,
+    period=_MERCURY_YEAR.value,
     e=0.2056,
     i=math.radians(8.6),
     node_period=-328e3 * JULIAN_YEAR,
@@ -83,7 +78,7 @@ VENUS = Body.cited(
     naif=(299, 2),
     # Archinal et al. 2011, Celest. Mech. 109, 101: no rates are given
     pole=FixedPole(math.radians(272.76), math.radians(67.16)),
-    # from i = 3.39467605, node = 76.67984255 deg to the ecliptic
-    orbit_pole=Direction(math.radians(278.00763), math.radians(65.56701)),
+    # Standish & Williams, approximate elements
+    orbit_pole=Direction.across(math.radians(3.39467605), math.radians(76.67984255)),
     reference=f"{_MARGOT_2021}; Konopliv et al. 1999; Archinal et al. 2011; DE440",
 )

@@ -5,41 +5,38 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.constants import DAY, DE440, Constant
+from earthspin.bodies.figure import flattening_of
+from earthspin.constants import (
+    DAY,
+    MARS_GM,
+    MARS_GRAVITY,
+    MARS_J2,
+    MARS_POLAR_MOMENT,
+    MARS_RADIUS,
+    Constant,
+)
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, FixedPole
 
-_MRO110B = "Konopliv et al. 2011, Icarus 211, 401 (MRO110B)"
+# Normalised coefficients of degree and order 2.
+_C22, _S22 = -8.4636e-5, 4.8935e-5
 
-# Normalised coefficients of degree 2.
-_C20, _C22, _S22 = -8.7502e-4, -8.4636e-5, 4.8935e-5
-
-J2 = Constant(-_C20 * math.sqrt(5.0), "", 1e-9, _MRO110B + ", normalised C20 = -8.7502e-4")
-#: C/(M R2). With it our rate, geodesic precession included, is that observed from the ground.
-POLAR_MOMENT = Constant(
-    0.36367,
-    "",
-    0.00010,
-    "C/(M R2) after the precession observed by landers; as recalled, not seen in a public copy",
-)
 #: Rate of precession of the spin axis.
 PRECESSION = Constant(
     -7.576, "arcsec yr-1", 0.035, "Folkner et al. 1997, Science 278, 1749 (Viking and Pathfinder)"
 )
 
 NUMBERS = {
-    "gm": Constant(42828.375816e9, "m3 s-2", None, DE440),
-    "radius": Constant(3396000.0, "m", None, "reference radius of Konopliv et al. 2011"),
-    "j2": J2,
-    "dynamical_flattening": Constant(
-        J2.value / POLAR_MOMENT.value,
-        "",
-        J2.value / POLAR_MOMENT.value * POLAR_MOMENT.relative_uncertainty,
-        f"J2 over C/(M R2): {J2.source}; {POLAR_MOMENT.source}",
-    ),
+    "gm": MARS_GM,
+    "radius": MARS_RADIUS,
+    "j2": MARS_J2,
+    "dynamical_flattening": flattening_of(MARS_J2, MARS_POLAR_MOMENT),
     # (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|
     "triaxiality": Constant(
-        4 * math.sqrt(5 / 12) * math.hypot(_C22, _S22), "", None, _MRO110B + ", degree 2, order 2"
+        4 * math.sqrt(5 / 12) * math.hypot(_C22, _S22),
+        "",
+        None,
+        MARS_GRAVITY + ", degree 2, order 2",
     ),
     "flattening": Constant(
         (3396.19 - 3376.20) / 3396.19,
@@ -82,8 +79,8 @@ MARS = Body.cited(
     naif=(499, 4),
     # Archinal et al. 2011, Celest. Mech. 109, 101, at J2000.0
     pole=FixedPole(math.radians(317.68143), math.radians(52.88650)),
-    # from i = 1.84969142, node = 49.55953891 deg to the ecliptic (Standish & Williams)
-    orbit_pole=Direction(math.radians(273.37323), math.radians(65.32299)),
+    # Standish & Williams, approximate elements
+    orbit_pole=Direction.across(math.radians(1.84969142), math.radians(49.55953891)),
     interior="mars-insight",
     observed_wobble=Constant(
         206.9, "d", 0.5, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568"

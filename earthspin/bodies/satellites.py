@@ -25,18 +25,18 @@ class Satellite:
     Attributes
     ----------
     name : str
-    gm : float
+    gm : Constant
         m3 s-2.
-    a : float
+    a : Constant
         Half the long axis, m.
-    period : float
+    period : Constant
         Sidereal, s.
     """
 
     name: str
-    gm: float
-    a: float
-    period: float
+    gm: Constant
+    a: Constant
+    period: Constant
 
 
 def added_by(
@@ -52,9 +52,9 @@ def added_by(
     """
     q = moment = 0.0
     for one in satellites:
-        spread = one.gm / gm * (one.a / radius) ** 2
+        spread = one.gm.value / gm * (one.a.value / radius) ** 2
         q += spread / 2
-        moment += spread * abs(spin_period) / one.period
+        moment += spread * abs(spin_period) / one.period.value
     return q, moment
 
 

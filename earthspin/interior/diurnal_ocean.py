@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import Constant
+
 Array = NDArray[Any]
 
 _IERS = "IERS Conventions (2010), IERS Technical Note 36"
@@ -21,8 +23,8 @@ FES2004_SOURCE = (
     "2 and order 1 as read in a public copy; heights of the equilibrium tide from table 6.5a, that "
     "of K1 read, those of O1 and Q1 recalled"
 )
-#: Normalised coefficient of the potential per metre of equilibrium tide, A_1 of eq. 6.8d, m-1.
-_PER_METRE = -3.1274e-8
+#: Normalised coefficient of the potential per metre of equilibrium tide, A_1.
+PER_METRE = Constant(-3.1274e-8, "m-1", None, _IERS + ", eq. 6.8d")
 #: Of the coefficients below: as the Conventions have it. The copy that was read says 1e-12; then
 #: the sea would do a tenth of what any tide model has it do.
 _UNIT = 1e-11
@@ -60,7 +62,7 @@ def wave_response(wave: Wave) -> complex:
 
     The Conventions write it for a phase that grows, which is the complex conjugate.
     """
-    over = -1j * _PER_METRE * wave.height
+    over = -1j * PER_METRE.value * wave.height
     return complex(np.conj((wave.cosine - 1j * wave.sine) * _UNIT / over))
 
 

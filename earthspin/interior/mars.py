@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from earthspin.constants import Constant, G
+from earthspin.constants import (
+    MARS_GM,
+    MARS_J2,
+    MARS_POLAR_MOMENT,
+    MARS_RADIUS,
+    Constant,
+    G,
+)
 from earthspin.interior.layers import Layer, LayeredBody
 
 _INSIGHT = "Le Maistre et al. 2023, Nature 619, 733"
@@ -17,16 +24,18 @@ CRUST_DENSITY = Constant(2900.0, "kg m-3", None, "between 2500 and 3100 kg m-3, 
 #: Where the minerals of the mantle change, about 1000 km deep.
 TRANSITION_RADIUS = Constant(2390e3, "m", None, "about 1000 km below the surface, recalled")
 MEAN_RADIUS = Constant(3389.5e3, "m", None, "Archinal et al. 2018, Celest. Mech. 130:22, table 4")
-#: Speeds of shear waves in crust, upper and lower mantle, m/s.
-SHEAR_SPEEDS = (2900.0, 4450.0, 4850.0)
-SHEAR_SOURCE = "near those of Khan et al. 2021, Science 373, 434; recalled"
-#: Ratio of the speeds of compressional and shear waves; the core's speed, m/s.
-SPEED_RATIO, CORE_SPEED = 1.8, 5000.0
+_KHAN = "near those of Khan et al. 2021, Science 373, 434; recalled"
+#: Speeds of shear waves in crust, upper and lower mantle.
+SHEAR_SPEEDS = tuple(Constant(speed, "m s-1", None, _KHAN) for speed in (2900.0, 4450.0, 4850.0))
+#: Of compressional waves: over that of shear waves in the solid, and in the core.
+SPEED_RATIO = Constant(1.8, "", None, "rounded; " + _KHAN)
+CORE_SPEED = Constant(5000.0, "m s-1", None, "rounded; " + _KHAN)
 #: Quality factor of the mantle in shear at 1 s.
-SHEAR_Q = 100.0
-_GM = Constant(42828.375816e9, "m3 s-2", None, "header of DE440")
-#: I/(M R2) of the mean moment, from C/(M a2) = 0.36367 and J2 = 1.9566e-3 with a = 3396 km.
-MOMENT = Constant(0.36376, "", 1e-4, "mean moment of C/(M a2) = 0.36367, as recalled")
+SHEAR_Q = Constant(100.0, "", None, "assumed: of the order that the acceleration of Phobos gives")
+#: I/(M R2) of the mean moment, (A + B + C)/3 = C - 2/3 J2 M a2.
+MOMENT = (MARS_POLAR_MOMENT.value - 2 / 3 * MARS_J2.value) * (
+    MARS_RADIUS.value / MEAN_RADIUS.value
+) ** 2
 
 
 def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
@@ -40,7 +49,7 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     core_radius : float
         m.
     """
-    mass = _GM.value / G.value
+    mass = MARS_GM.value / G.value
     tops = np.array(
         [core_radius, TRANSITION_RADIUS.value, MEAN_RADIUS.value - CRUST.value, MEAN_RADIUS.value]
     )
@@ -49,21 +58,21 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     known = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
     wanted = [
         mass - volume @ known,
-        MOMENT.value * mass * MEAN_RADIUS.value**2 - moment @ known,
+        MOMENT * mass * MEAN_RADIUS.value**2 - moment @ known,
     ]
     lower, upper = np.linalg.solve([volume[1:3], moment[1:3]], wanted)
-    crust, above, below = SHEAR_SPEEDS
+    crust, above, below = (speed.value for speed in SHEAR_SPEEDS)
     solids = zip(tops[1:], (lower, upper, CRUST_DENSITY.value), (below, above, crust), strict=True)
     return LayeredBody(
         "mars",
         (
-            Layer(core_radius, (CORE_DENSITY.value,), (CORE_SPEED,)),
+            Layer(core_radius, (CORE_DENSITY.value,), (CORE_SPEED.value,)),
             *(
-                Layer(float(top), (float(rho),), (SPEED_RATIO * vs,), (vs,), SHEAR_Q)
+                Layer(float(top), (float(rho),), (SPEED_RATIO.value * vs,), (vs,), SHEAR_Q.value)
                 for top, rho, vs in solids
             ),
         ),
-        f"core: {_INSIGHT}; crust: {CRUST.source}; shear speeds {SHEAR_SOURCE}; mantle densities "
+        f"core: {_INSIGHT}; crust: {CRUST.source}; shear speeds {_KHAN}; mantle densities "
         "from mass and moment of inertia",
     )
 

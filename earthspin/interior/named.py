@@ -10,18 +10,29 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from earthspin.constants import Constant
+from earthspin.constants import (
+    MARS_GM,
+    MARS_J2,
+    MARS_POLAR_MOMENT,
+    MARS_RADIUS,
+    Constant,
+    G,
+)
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
-from earthspin.interior.mars import MARS
+from earthspin.interior.mars import CORE_RADIUS, MARS
 from earthspin.interior.ocean import OCEAN_SOURCE, ocean_matrix
 from earthspin.interior.prem import PREM
+from earthspin.interior.published import DYNAMICAL_CORE_ELLIPTICITY, K_CMB
 
-_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
-
-#: (C_f - A_f)/A_f that the observed free core nutation asks for: their e_f = 2.6456e-3, and
-#: the coupling at the core's boundary, 2.2e-5, which acts like a larger ellipticity.
-CORE_ELLIPTICITY = Constant(2.6456e-3 + 2.232e-5, "", 2e-6, _MHB + ", table 2 (Re K_CMB added)")
+#: (C_f - A_f)/A_f that the observed free core nutation asks for: the core's own, and the coupling
+#: at its boundary, which acts like a larger one.
+CORE_ELLIPTICITY = Constant(
+    DYNAMICAL_CORE_ELLIPTICITY.value + K_CMB[0].value,
+    "",
+    DYNAMICAL_CORE_ELLIPTICITY.uncertainty,
+    DYNAMICAL_CORE_ELLIPTICITY.source + " (Re K_CMB added)",
+)
 
 #: Exponent of frequency in the mantle's quality factor.
 ANELASTIC_EXPONENT = Constant(
@@ -98,9 +109,14 @@ _LEFT_OUT_OF_PREM = {
     ),
 }
 
-#: Core radius 1835 (55) km (Le Maistre et al. 2023) and mean density 6000 (300) kg m-3 (Staehler et
-#: al. 2021), over A = (0.36367 - J2) M R2.
-_MARS_CORE = 8 * math.pi / 15 * 6000.0 * 1835e3**5 / (0.36171 * 6.4171e23 * 3396e3**2)
+#: Of the core of Mars on average.
+MARS_CORE_DENSITY = Constant(6000.0, "kg m-3", 300.0, "Staehler et al. 2021, Science 373, 443")
+#: Moment of that core, as if it were even, over A = (C/(M R2) - J2) M R2.
+_MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
+    (MARS_POLAR_MOMENT.value - MARS_J2.value) * MARS_GM.value / G.value * MARS_RADIUS.value**2
+)
+#: Love number of Mars as observed.
+MARS_K2 = Constant(0.174, "", 0.008, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568")
 
 INTERIORS: dict[str, Interior] = {
     interior.name: interior
@@ -127,24 +143,23 @@ INTERIORS: dict[str, Interior] = {
             layers=MARS,
             relative_uncertainty={
                 # Of the observed k2, and three times that of the core's radius.
-                "k2": 0.008 / 0.174,
-                "core_fraction": 3 * 55 / 1835,
+                "k2": MARS_K2.relative_uncertainty,
+                "core_fraction": 3 * CORE_RADIUS.relative_uncertainty,
                 "core_ellipticity": 0.1,
             },
         ),
         Interior(
             name="mars-insight",
             reference=(
-                "k2 = 0.174 (8): Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; "
-                "core: radius from Le Maistre et al. 2023, Nature 619, 733, density from Staehler "
-                "et al. 2021, Science 373, 443; its ellipticity such that the free core nutation "
+                f"k2: {MARS_K2.source}; core: radius from {CORE_RADIUS.source}, density from "
+                f"{MARS_CORE_DENSITY.source}; its ellipticity such that the free core nutation "
                 "has the -242 d of Le Maistre et al. 2023"
             ),
-            k2=0.174,
+            k2=MARS_K2.value,
             core_fraction=_MARS_CORE,
             core_ellipticity=3.91e-3,
             relative_uncertainty={
-                "k2": 0.008 / 0.174,
+                "k2": MARS_K2.relative_uncertainty,
                 # five times that of the radius, and that of the density
                 "core_fraction": 0.16,
                 "core_ellipticity": 0.1,

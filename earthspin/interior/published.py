@@ -1,4 +1,4 @@
-"""Compliances, ellipticities and coupling numbers of PREM as published."""
+"""Compliances, ellipticities and coupling numbers as published: of PREM, and from the nutations."""
 
 from __future__ import annotations
 
@@ -30,3 +30,19 @@ PREM_PUBLISHED: dict[str, Constant] = {
         ("inner", 7.3059e-4, _RECALLED),
     )
 }
+
+_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
+
+#: The free core nutation, observed through its resonance in the nutations, and built into
+#: IAU 2000A.
+CORE_NUTATION = Constant(-430.21, "d", 0.05, _MHB + ", table 4 (recalled)")
+CORE_NUTATION_QUALITY = Constant(20000.0, "", None, _MHB + " (recalled, rounded)")
+#: (C_f - A_f)/A_f of the core, without what couples it.
+DYNAMICAL_CORE_ELLIPTICITY = Constant(2.6456e-3, "", 2e-6, _MHB + ", table 2")
+#: What couples the core beside its figure, in phase and out, magnetic by that paper; all inferred
+#: from nutation.
+K_CMB = (Constant(2.232e-5, "", None, _MHB), Constant(-1.85e-5, "", 1.4e-6, _MHB + ", table 2"))
+K_ICB = (
+    Constant(1.11e-3, "", 1e-4, _MHB + ", table 2"),
+    Constant(-7.8e-4, "", 1.3e-4, _MHB + ", table 2"),
+)

@@ -21,20 +21,10 @@ from earthspin.interior.diurnal_ocean import diurnal_response
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
+from earthspin.interior.published import CORE_NUTATION, K_CMB, K_ICB
 from earthspin.interior.rotation import MODES, Parts, all_fluid, free_modes, transfer
 
 Array = NDArray[Any]
-
-_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
-
-#: Period of the free core nutation, observed through its resonance in the nutations.
-OBSERVED_CORE_NUTATION = Constant(-430.21, "d", 0.05, _MHB + ", table 4 (recalled)")
-#: What couples the core beside its figure, magnetic by that paper; all inferred from nutation.
-K_CMB = (Constant(2.232e-5, "", None, _MHB), Constant(-1.85e-5, "", 1.4e-6, _MHB + ", table 2"))
-K_ICB = (
-    Constant(1.11e-3, "", 1e-4, _MHB + ", table 2"),
-    Constant(-7.8e-4, "", 1.3e-4, _MHB + ", table 2"),
-)
 
 #: What each rung adds, in the order in which it is added.
 RUNGS = {
@@ -125,7 +115,7 @@ class Rung:
         """
         shares = {name: NORMAL_95 * relative.get(name, 0.0) for name in _INPUTS}
         if self.observed_core:
-            shares["core_ellipticity"] = NORMAL_95 * OBSERVED_CORE_NUTATION.relative_uncertainty
+            shares["core_ellipticity"] = NORMAL_95 * CORE_NUTATION.relative_uncertainty
         return [
             (self._scaled(field, share), self._scaled(field, -share))
             for field, share in zip(_INPUTS.values(), shares.values(), strict=True)
@@ -279,7 +269,7 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
 
 def _at_observed_period(setting: Setting, parts: Callable[..., Parts], **coupling: Any) -> Rung:
     """The anelastic rung with the core as flat as its observed nutation asks for."""
-    wanted = 1 / (OBSERVED_CORE_NUTATION.value * DAY * setting.spin_rate / (2 * np.pi)) - 1
+    wanted = 1 / (CORE_NUTATION.value * DAY * setting.spin_rate / (2 * np.pi)) - 1
 
     def rung(e_f: float) -> Rung:
         return Rung(lambda sigma: parts(sigma, soft=True, e_f=e_f, **coupling), observed_core=True)

@@ -47,9 +47,9 @@ ADDED_TO = {
 CORE_NUTATION_START = (-1.0023181, 0.000025)
 
 
-#: By what the fit may miss the free core nutation that made a series, s, and its quality factor,
-#: relative. Measured on IAU 2000A, which has -430.21 d and 20,000 built in (Mathews, Herring &
-#: Buffett 2002): 0.06 d and 21 per cent, with what it adds to a response taken away (`ADDED_TO`).
+#: By what the fit may miss the core nutation that made a series, s, and its quality factor,
+#: relative. Measured by what is built into IAU 2000A (`interior.published`): 0.06 d, 21 per cent,
+#: with what it adds to a response taken away (`ADDED_TO`).
 PERIOD_ERROR, QUALITY_ERROR = 0.3 * DAY, 0.3
 
 

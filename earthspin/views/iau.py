@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views.drawing import (
     BLUE,
     ORANGE,
@@ -163,8 +164,16 @@ def core(tree: Result) -> Table:
         "Free core nutation in IAU 2000A",
         ("quantity", "recovered", "built into IAU 2000A"),
         [
-            ("period in space, d", f"{float(of.core_nutation_period):.2f}", "-430.21"),
-            ("quality factor", f"{float(of.core_nutation_quality):.0f}", "20,000"),
+            (
+                "period in space, d",
+                f"{float(of.core_nutation_period):.2f}",
+                f"{CORE_NUTATION.value}",
+            ),
+            (
+                "quality factor",
+                f"{float(of.core_nutation_quality):.0f}",
+                f"{CORE_NUTATION_QUALITY.value:,.0f}",
+            ),
             *(
                 (
                     f"added to a response, {name}, uas",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.nutation.ladder import OBSERVED_CORE_NUTATION
+from earthspin.interior.published import CORE_NUTATION
 from earthspin.views.drawing import BLUE, ORANGE, RED, Drawing, axes, drawn, empty, note, style
 from earthspin.views.reading import Result, answer_of, needed, of_sections
 from earthspin.views.table import Table, along, date, measured, with_error
@@ -226,9 +226,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
         label="IAU 2000A / rigid",
     )  # fmt: skip
     ax.set_ylim(0.85, 1.45)
-    note(
-        ax, "free core nutation", (365.25 / OBSERVED_CORE_NUTATION.value, 0.9), (-8, 0), ha="right"
-    )
+    note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
     ax.set_ylabel("over a rigid body, in phase (ratio)")
     ax.legend(loc="upper right")

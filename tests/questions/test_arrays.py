@@ -8,7 +8,6 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, MOON, SUN, EarthspinError
-from earthspin.bodies.body import UNITS
 from earthspin.engine.question import Question
 from earthspin.scenes import load_scene, run
 
@@ -21,7 +20,7 @@ SCENES = {
     "wobble": {},
     "long-term": {"span": ["-2 kyr", "0 yr"]},
 }
-FIELDS = [name for name in UNITS if getattr(EARTH, name) is not None]
+FIELDS = [name for name in EARTH.UNITS if getattr(EARTH, name) is not None]
 
 #: What a field is named by where another follows from it.
 ALSO = {"j2": {"dynamical_flattening"}, "radius": {"interior"}, "gm": {"interior"}}

@@ -1,0 +1,68 @@
+"""J2, H and triaxiality of a body, which hang together through its moments of inertia."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from earthspin.bodies.labelled import Numeric, all_of
+from earthspin.constants import Constant
+from earthspin.errors import BodyError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+def flattening_of(j2: Constant, moment: Constant) -> Constant:
+    """H = J2 / (C/(M R2)), with the uncertainty of both."""
+    h = j2.value / moment.value
+    u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
+    return Constant(h, "", h * u, f"J2 over C/(M R2): {j2.source}; {moment.source}")
+
+
+def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
+    """Principal moments A <= B <= C over M a2, C about the axis of spin, shape (3,).
+
+    Parameters
+    ----------
+    j2, h, triaxiality : float
+        (C - (A + B)/2) and (B - A) over M a2, and the former over C, which is not zero.
+    """
+    import numpy as np
+
+    polar = j2 / h
+    equatorial, half = polar - j2, triaxiality / 2
+    return np.array([equatorial - half, equatorial + half, polar])
+
+
+def figure_of(
+    name: str, moments: tuple[Numeric, Numeric, Numeric], scale: Numeric
+) -> dict[str, Numeric]:
+    """J2, H and triaxiality of a body, by field.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    moments : three floats or labelled arrays
+        The polar one last, kg m2.
+    scale : float or labelled array
+        M a2, kg m2.
+
+    Raises
+    ------
+    BodyError
+        If no body has such moments.
+    """
+    small, middle, polar = moments
+    if not all_of((small > 0) & (middle > 0) & (polar > 0)):
+        raise BodyError(name, "moments", moments, "each moment is greater than zero")
+    if not all_of(abs(small - middle) <= polar):
+        raise BodyError(name, "moments", moments, "no moment exceeds the other two's sum")
+    difference = polar - (small + middle) / 2
+    return {
+        "j2": difference / scale,
+        "dynamical_flattening": difference / polar,
+        "triaxiality": abs(middle - small) / scale,
+    }

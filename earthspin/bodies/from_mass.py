@@ -1,0 +1,175 @@
+"""Ways to make a body from where its mass lies."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+
+class FromMass:
+    """What a body can be made of; each names the body's other fields as `Body.replace` does."""
+
+    def __init__(self, **fields: Any) -> None:
+        """Take the fields of a body by name, as the body does."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Change some fields, as the body does."""
+        raise NotImplementedError
+
+    @classmethod
+    def from_masses(
+        cls,
+        masses: Any,
+        positions: Any,
+        *,
+        name: str = "point masses",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a body of point masses, spinning about the axis of its greatest moment.
+
+        Parameters
+        ----------
+        masses : array_like or Quantity, shape (k,)
+            kg.
+        positions : array_like or Quantity, shape (k, 3)
+            m, along any axes.
+        name : str
+        radius : float, str or Quantity, optional
+            That J2, J3 and J4 refer to; if not given, the distance of the farthest mass from the
+            centre of mass.
+        **fields
+            More fields of `Body`, such as ``spin_period="5 h"``, as `replace` takes them.
+
+        Raises
+        ------
+        BodyError, UndefinedError
+            If a mass is not above zero, shapes do not match, or all lie in one point.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> dumbbell = earthspin.Body.from_masses([1e12, 1e12], [[-500, 0, 0], [500, 0, 0]])
+        >>> print(dumbbell.moments.round(3))
+        [0.e+00 5.e+17 5.e+17]
+        """
+        from earthspin.bodies.shapes import of_masses
+
+        return cls(name=name, **of_masses(masses, positions, radius)).replace(**fields)
+
+    @classmethod
+    def from_density(
+        cls,
+        density: Any,
+        x: Any,
+        y: Any,
+        z: Any,
+        *,
+        name: str = "grid",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a body of a density that is constant in each cell of a grid; exact for such cells.
+
+        Parameters
+        ----------
+        density : array_like or Quantity, shape (nx, ny, nz)
+            kg m-3; empty cells hold zero.
+        x, y, z : array_like or Quantity
+            Edges of the cells, one more than cells, rising, m.
+        name, radius, **fields
+            As for `from_masses`; the farthest place is the corner of a cell.
+
+        Raises
+        ------
+        BodyError, UndefinedError
+            If a density is negative, all are zero, or edges do not rise or fit.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> brick = earthspin.Body.from_density([[[2000.0]]], [0, 3], [0, 2], [0, 1])
+        >>> print(brick.moments.round(6))
+        [ 5000. 10000. 13000.]
+        """
+        from earthspin.bodies.shapes import of_density
+
+        return cls(name=name, **of_density(density, (x, y, z), radius)).replace(**fields)
+
+    @classmethod
+    def from_mesh(
+        cls,
+        mesh: Any,
+        *,
+        density: Any = None,
+        mass: Any = None,
+        unit: str = "m",
+        name: str = "mesh",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a homogeneous body of a closed mesh of triangles; exact for flat faces.
+
+        Parameters
+        ----------
+        mesh : path, Trimesh, or (vertices, faces)
+            A file of any format that trimesh reads, such as OBJ, PLY, STL, OFF; corners of each
+            triangle counter-clockwise as seen from outside.
+        density, mass : float, str or Quantity
+            One of the two.
+        unit : str
+            Of the vertices; files seldom say it.
+        name, radius, **fields
+            As for `from_masses`.
+
+        Raises
+        ------
+        BodyError
+            If the mesh is open or turned inside out, or not one of density and mass is given.
+        SeriesError
+            If the file cannot be read.
+        MissingExtraError
+            If the extra `mesh` is not installed, which files need.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+        >>> rock = earthspin.Body.from_mesh((corners, faces), density="3 g/cm3", unit="km")
+        >>> print(f"{rock.mass:.6e} kg")
+        5.000000e+11 kg
+        """
+        from earthspin.bodies.shapes import of_mesh
+
+        return cls(name=name, **of_mesh(mesh, unit, density, mass, radius)).replace(**fields)
+
+    @classmethod
+    def from_layers(
+        cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
+    ) -> Self:
+        """Make a body of layers in hydrostatic equilibrium, to first order in its flattening.
+
+        Parameters
+        ----------
+        layers : LayeredBody or str
+            Or the name of an interior that has layers, like ``"prem"``.
+        spin_period : float, str or Quantity
+            How fast it turns shapes it.
+        name, **fields
+            As for `from_masses`.
+
+        Raises
+        ------
+        SceneError
+            If there is no such interior, or it has no layers.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> slow = earthspin.Body.from_layers("prem", spin_period="48 h")
+        >>> print(f"1/{1 / slow.flattening:.0f}")
+        1/1206
+        """
+        from earthspin.bodies.shapes import of_layers
+
+        return cls(name=name, **of_layers(layers, spin_period)).replace(**fields)

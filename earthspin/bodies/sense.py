@@ -1,0 +1,185 @@
+"""Whether the numbers of a body make sense, each by itself and with the others.
+
+Fields come by name; what cannot be is refused with the field that says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from earthspin.bodies.labelled import Numeric, all_of, is_finite
+from earthspin.constants import Constant
+from earthspin.errors import BodyError, nearest
+from earthspin.sky.poles import NAMED_POLES
+
+#: Values of a body by field.
+Fields = Mapping[str, Any]
+
+#: Bounds of sense: more than the mass of all that is seen, and longer than its age.
+LARGEST_GM, LONGEST_DAY = 1e60, 1e30
+
+#: What single numbers must hold, in the order in which they are looked at.
+_HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
+    ("gm", lambda gm: gm >= 0, "a mass is zero or more"),
+    ("gm", lambda gm: gm <= LARGEST_GM, f"give at most {LARGEST_GM:g} m3 s-2"),
+    ("cycle", lambda t: t > 0, "a cycle lasts longer than zero"),
+    ("orbital_period", lambda t: t > 0, "a year lasts longer than zero"),
+    ("radius", lambda a: a > 0, "a radius is greater than zero"),
+    ("spin_period", lambda p: p != 0, "a period is not zero"),
+    ("spin_period", lambda p: abs(p) <= LONGEST_DAY, f"give at most {LONGEST_DAY:g} s"),
+    ("flattening", lambda f: f < 1, "a flattening is less than 1"),
+    (
+        "dynamical_flattening",
+        lambda h: h <= 0.5,
+        "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
+    ),
+    ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more"),
+    ("slow_swing", lambda swing: swing >= 0, "a swing is zero or more"),
+)
+
+
+def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
+    """Numbers are finite, names words, codes whole numbers, labels those of one table.
+
+    Parameters
+    ----------
+    body : mapping
+    numbers : iterable of str
+        Fields that are numbers.
+
+    Raises
+    ------
+    BodyError
+        With the first field that is not what it should be.
+    """
+    name = body["name"]
+    for field in numbers:
+        value = body[field]
+        if value is None and field not in ("gm", "cycle"):
+            continue
+        if isinstance(value, bool) or not (
+            isinstance(value, (int, float)) or hasattr(value, "dims")
+        ):
+            allowed = "give a number, or a DataArray with named dimensions"
+            raise BodyError(name, field, value, allowed)
+        if not all_of(is_finite(value)):
+            raise BodyError(name, field, value, "it must be a finite number")
+    _check_words(body)
+    _check_labels(name, {field: body[field] for field in numbers})
+
+
+def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
+    """Each number, the uncertainties, and what the figure's numbers say together.
+
+    Parameters
+    ----------
+    body : mapping
+    numbers : iterable of str
+        Fields that are numbers.
+
+    Raises
+    ------
+    BodyError
+        If they are those of no body.
+    """
+    name = body["name"]
+    for field, holds, allowed in _HOLDS:
+        value = body[field]
+        if value is not None and not all_of(holds(value)):
+            raise BodyError(name, field, value, allowed)
+    gm, radius = body["gm"], body["radius"]
+    if radius is not None:
+        with_size = gm * radius * radius
+        if not all_of(is_finite(with_size) & ((with_size > 0) | (gm == 0))):
+            raise BodyError(name, "radius", radius, "M a2 is out of a float's range")
+    for field, u in body["relative_uncertainty"].items():
+        if field not in numbers:
+            raise BodyError(name, "relative_uncertainty", field, nearest(field, numbers))
+        if not 0 <= u < math.inf:
+            of = f"relative_uncertainty[{field!r}]"
+            raise BodyError(name, of, u, "it is zero or more, finite")
+    j2, h = body["j2"], body["dynamical_flattening"]
+    if j2 is not None and h is not None:
+        _check_polar_moment(name, j2, h, body["triaxiality"])
+
+
+def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric) -> None:
+    """C/(M a2) = J2/H lies between 0 and 1, and no difference of moments exceeds C.
+
+    With H = 0 the polar moment does not follow from J2, and nothing is said of it.
+    """
+    if not all_of((j2 * h > 0) | (h == 0)):
+        allowed = f"it has the sign of dynamical_flattening = {h!r}, and is not 0"
+        raise BodyError(name, "j2", j2, allowed)
+    if not all_of((abs(j2) <= abs(h)) | (h == 0)):
+        allowed = f"C = (j2/H) M a2 cannot exceed M a2, so it is at most H = {h!r}"
+        raise BodyError(name, "j2", j2, allowed)
+    if not all_of((triaxiality * abs(h) <= abs(j2)) | (h == 0)):
+        raise BodyError(name, "triaxiality", triaxiality, "B - A cannot exceed C")
+
+
+def _check_words(body: Fields) -> None:
+    """Names are words, codes are whole numbers, uncertainties a table of numbers."""
+    name = body["name"]
+    for field in ("name", "reference", "interior"):
+        value = body[field]
+        if not (isinstance(value, str) or (value is None and field == "interior")):
+            raise BodyError(name, field, value, "give a line of text")
+    codes, wobble, of = body["naif"], body["observed_wobble"], body["relative_uncertainty"]
+    if not isinstance(codes, tuple) or not all(type(code) is int for code in codes):
+        raise BodyError(name, "naif", codes, "give a tuple of whole numbers")
+    if not isinstance(wobble, Constant | None):
+        raise BodyError(name, "observed_wobble", wobble, "give a Constant")
+    if not isinstance(of, Mapping) or not all(isinstance(u, (int, float)) for u in of.values()):
+        raise BodyError(name, "relative_uncertainty", of, "give a table of numbers")
+
+
+def _check_labels(name: str, numbers: Fields) -> None:
+    """Labelled arrays that share a dimension have the same length and labels along it."""
+    along: dict[str, tuple[str, Any]] = {}
+    for field, array in numbers.items():
+        for dim in getattr(array, "dims", ()):
+            other, known = along.setdefault(dim, (field, array))
+            same = known.sizes[dim] == array.sizes[dim] and (
+                not (dim in known.coords and dim in array.coords)
+                or all_of(known.coords[dim].values == array.coords[dim].values)
+            )
+            if not same:
+                differ = f"they differ from those of {other}"
+                raise BodyError(name, field, f"labels along '{dim}'", differ)
+        for label in getattr(array, "coords", ()):
+            kind = array.coords[label].dtype.kind
+            words = kind == "O" and all(
+                isinstance(one, str) for one in array.coords[label].values.ravel()
+            )
+            if kind not in "fiubUM" and not words:
+                allowed = "give numbers, dates or words"
+                raise BodyError(name, field, f"labels '{label}'", allowed)
+
+
+def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
+    """Read a pole or the normal of an orbit, also where a word or two angles were given.
+
+    Parameters
+    ----------
+    name, field : str
+        Of the body, and of its field.
+    value : object
+    read : callable
+
+    Raises
+    ------
+    BodyError
+        If it is no direction, or several.
+    """
+    try:
+        return read(value)
+    except (ValueError, TypeError):
+        words = " or ".join(f"'{word}'" for word in NAMED_POLES)
+        allowed = f"write {words} or right ascension and declination, -90 to 90 deg, in rad"
+        several = value if isinstance(value, (list, tuple)) else (value,)
+        if any(getattr(one, "ndim", 0) for one in several):
+            value, allowed = "an array", f"it is one direction: {allowed}"
+        raise BodyError(name, field, value, allowed) from None
