@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from earthspin.engine.labels import Schema, Variable, build, from_si
+from earthspin.engine.labels import Schema, Variable, build, from_si, si
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,6 +43,12 @@ def report(
     # as it was asked for: 1 arcsec is 1e6 uas, not a rounding less
     result["error_asked"].values[...] = float(f"{float(result.error_asked):.14g}")
     return result
+
+
+def report_of(schema: Schema, asked: float | None, error: xr.DataArray) -> xr.Dataset:
+    """Label what was asked and the largest error of a series, which names its method."""
+    by = error.attrs
+    return report(schema, asked, float(si(error).max()), by["method"], by["evaluations"])
 
 
 def closed_form(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
+from earthspin.constants import Constant
 from earthspin.engine.labels import Variable, build, from_si
 
 if TYPE_CHECKING:
@@ -35,6 +36,17 @@ class Neglected:
     unit: str = "1"
     what: str = "nothing that has a known size"
     source: str = ""
+
+    @classmethod
+    def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
+        """Sizes that each have a source, all of one unit."""
+        (unit,) = {size.unit for size in sizes.values()}
+        return cls(
+            {name: size.value / from_si(unit) for name, size in sizes.items()},
+            unit,
+            what,
+            "; ".join(f"{name}: {size.source}" for name, size in sizes.items()),
+        )
 
     @property
     def largest(self) -> str:

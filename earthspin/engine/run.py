@@ -36,39 +36,12 @@ class Ran:
 
 
 def run(question: Question) -> xr.Dataset:
-    """Answer a question.
-
-    Parameters
-    ----------
-    question : Question
-
-    Returns
-    -------
-    Dataset
-        The answer alone, its complete question among the attributes.
-
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-    """
+    """The answer to a question for one, its complete question among the attributes."""
     return _answer(_run_parts(plan(question)))
 
 
 def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """Answer a question with sections beside the answer, and the plan with its seconds.
-
-    Parameters
-    ----------
-    question : Question
-    sections : str or iterable of str
-        Names, or ``"all"``.
-
-    Returns
-    -------
-    DataTree
-        The answer at the root, a node for each section, and the node ``plan``.
-    """
+    """The answer at the root, a node for each section, and the node ``plan``."""
     import xarray as xr
 
     ran = _run_parts(plan(question, sections))

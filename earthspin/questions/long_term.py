@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by, with_error, without_error
@@ -316,9 +316,7 @@ PROMISE = promise("arcsec", "in direction")
 @part(gives=PROMISE, unless=no_accuracy)
 def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the pole: asked, estimated, and the method."""
-    error = series.pole_error
-    worst = float(error.max()) * ARCSEC
-    return report(PROMISE, accuracy, worst, error.attrs["method"], error.attrs["evaluations"])
+    return report_of(PROMISE, accuracy, series.pole_error)
 
 
 # --- sections ------------------------------------------------------------------------------------

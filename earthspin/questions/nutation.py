@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, in_a_sentence
-from earthspin.constants import DAYS_PER_CENTURY, MAS, NORMAL_95
+from earthspin.constants import DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error, without_error
@@ -391,12 +391,7 @@ def neglected() -> Neglected:
     """What the last rung leaves out."""
     from earthspin.nutation.ladder import LEFT_OUT
 
-    return Neglected(
-        {name: size.value * MAS for name, size in LEFT_OUT.items()},
-        "mas",
-        "change of the largest term that is concerned",
-        "; ".join(f"{name}: {size.source}" for name, size in LEFT_OUT.items()),
-    )
+    return Neglected.cited(LEFT_OUT, "change of the largest term that is concerned")
 
 
 made_of(

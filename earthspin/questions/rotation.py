@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, si
+from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
@@ -368,10 +368,7 @@ PROMISE = promise("mas", "of the attitude")
 @part(gives=PROMISE, unless=no_accuracy)
 def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the attitude: asked, estimated, and the method."""
-    error = turning.attitude_error
-    return report(
-        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
-    )
+    return report_of(PROMISE, accuracy, turning.attitude_error)
 
 
 DIVERGENCE = {

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, si, with_error
+from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
@@ -217,10 +217,7 @@ PROMISE = promise("mas", "in direction")
 @part(gives=PROMISE, unless=no_accuracy)
 def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> xr.Dataset:
     """Accuracy of the directions: asked, estimated, and the method chosen."""
-    error = torques.direction_error
-    return report(
-        PROMISE, accuracy, float(si(error).max()), error.attrs["method"], error.attrs["evaluations"]
-    )
+    return report_of(PROMISE, accuracy, torques.direction_error)
 
 
 @part

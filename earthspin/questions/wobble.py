@@ -440,11 +440,8 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
             what="an inner core, and rotation and ellipticity in the Love number: their sizes "
             f"were not found for this {body.name}"
         )
-    return Neglected(
-        {name: days.value * DAY for name, days in left_out.items()},
-        "d",
-        "change of the last rung; winds and currents drive the wobble, and not its period",
-        "; ".join(f"{name}: {days.source}" for name, days in left_out.items()),
+    return Neglected.cited(
+        left_out, "change of the last rung; winds and currents drive the wobble, and not its period"
     )
 
 

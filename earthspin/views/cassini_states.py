@@ -40,8 +40,10 @@ def drawings(tree: Result) -> list[Drawing]:
     """The axes of the states in the plane that they share."""
     caption = (
         "Spin axes in the states, in the plane of the orbit's normal (dashed) and of the pole that "
-        "it goes round (dotted). Whole lines stay where they are, the red one leaves."
+        "it goes round (dotted)."
     )
+    if not bool(answer_of(tree).stable.all()):
+        caption += " An axis beside a blue one stays there; beside the red one it leaves."
     return [drawn("The states", caption, plot_states(tree), square=True)]
 
 
