@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics.gauss_windows import Windows, integrated
+from earthspin.numerics.gauss_windows import Windows, integrated, rule
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
 
@@ -29,10 +29,11 @@ FloatArray = NDArray[np.float64]
 ORDER = 16
 #: Windows solved at once: a million years.
 BLOCK = 50
-#: When a block is solved, rad: a step of Newton from there would change it by 1e-12.
+#: When a block is solved, rad: a step of Newton's method from there is expected to change it by
+#: less, by the share that sweeps leave or that by which the last step was less than the one before.
 SETTLED = 1e-9
 MOST_STEPS, DIVERGES = 25, 10.0
-#: Sweeps that solve a window's linear equations, until they change it by less than this.
+#: Sweeps that solve a window's linear equations, until they change it by less than this share.
 MOST_SWEEPS, SWEPT = 40, 1e-3
 #: Height above which longitude about an axis is of no use: 8 degrees from it.
 TOO_NEAR = 0.99
@@ -169,16 +170,17 @@ class _Way:
                 for of in on
             )
         )
-        values = self._at_one_height(windows, on, state)
+        values, before = self._at_one_height(windows, on, state), 1.0
         for _ in range(MOST_STEPS):
             self.steps += 1
             values, change = _newton(windows, on, values, state)
             if not (change < DIVERGES and np.max(np.abs(values[1])) < 1):
                 return None
-            if change < SETTLED:
+            before, expected = change, change * max(change / before, SWEPT)
+            if expected < SETTLED:
                 self.height = float(np.mean(values[1]))
                 slope, _ = _slope(on, values[0], values[1])
-                starts, end = _starts(windows, slope, state)
+                _, starts, end = _moved(windows, slope, state)
                 return integrated(windows.coefficients(slope), windows.half, starts), end
         return None
 
@@ -191,18 +193,22 @@ class _Way:
         return np.stack([phi + before[:, np.newaxis] + inside, np.full_like(inside, z)])
 
 
-def _starts(
+def _moved(
     windows: Windows, slope: FloatArray, state: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Where each window starts, shape (2, w), and where the last one ends."""
-    ends = state[:, np.newaxis] + np.cumsum(windows.integral(slope)[1], axis=1)
-    return np.concatenate([state[:, np.newaxis], ends[:, :-1]], axis=1), ends[:, -1]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Integrals from the start of each window to its nodes; where windows start, and the last ends.
+
+    Of shape (2, w, n), (2, w) and (2,).
+    """
+    inside, across = windows.integral(slope)
+    ends = state[:, np.newaxis] + np.cumsum(across, axis=1)
+    return inside, np.concatenate([state[:, np.newaxis], ends[:, :-1]], axis=1), ends[:, -1]
 
 
 def _newton(
     windows: Windows, on: Pull, values: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, float]:
-    """One step of Newton's method: new values at the nodes, and the largest change.
+    """One step of Newton's method: new values at the nodes, and the largest change, or infinity.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about what there is, the change is d = c + S J d,
@@ -210,23 +216,38 @@ def _newton(
     step.
     """
     slope, jacobian = _slope(on, values[0], values[1])
-    starts, _ = _starts(windows, slope, state)
-    moved, _ = windows.integral(slope)
-    defect = starts[..., np.newaxis] + moved - values
+    moved, starts, _ = _moved(windows, slope, state)
     sides = np.zeros((2, 3, *values.shape[1:]))
-    sides[:, 0], sides[0, 1], sides[1, 2] = defect, 1.0, 1.0
-    change, ends = sides.copy(), np.empty((2, 3, values.shape[1]))
-    for _ in range(MOST_SWEEPS):
-        before = change[0].copy()
-        for row in (1, 0):
-            of = jacobian[row, 0] * change[0] + jacobian[row, 1] * change[1]
-            inside, ends[row] = windows.integral(of)
-            change[row] = sides[row] + inside
-        if np.max(np.abs(change[0] - before)) < SWEPT * np.max(np.abs(change[0])):
-            break
-    shifts = _scan(ends)
-    total = change[:, 0] + np.einsum("rkwn,kw->rwn", change[:, 1:], shifts[:, :-1])
+    sides[:, 0] = starts[..., np.newaxis] + moved - values
+    sides[0, 1] = sides[1, 2] = 1.0
+    solved = _linear(windows, jacobian, sides)
+    if solved is None:
+        return values, np.inf
+    change, ends = solved
+    shifts = _scan(ends)[:, :-1, np.newaxis]
+    total = change[:, 0] + change[:, 1] * shifts[0] + change[:, 2] * shifts[1]
     return values + total, float(np.max(np.abs(total)))
+
+
+def _linear(
+    windows: Windows, jacobian: FloatArray, sides: FloatArray
+) -> tuple[FloatArray, FloatArray] | None:
+    """Solve d = c + S J d in every window for several c at once, shape (2, k, w, n); and its end.
+
+    Height first, then longitude with it: what turns longitude into height is small, so that a
+    sweep leaves little of the error. None if sweeps do not settle.
+    """
+    gauss = rule(windows.order)
+    (j00, j01), (j10, j11) = jacobian * windows.half
+    phi, z = sides
+    for _ in range(MOST_SWEEPS):
+        before = phi
+        z = sides[1] + (j10 * phi + j11 * z) @ gauss.integrate
+        phi = sides[0] + (j00 * phi + j01 * z) @ gauss.integrate
+        if np.max(np.abs(phi - before)) < SWEPT * np.max(np.abs(phi)):
+            slopes = j00 * phi + j01 * z, j10 * phi + j11 * z
+            return np.stack([phi, z]), np.stack([of @ gauss.weights for of in slopes])
+    return None
 
 
 def _scan(ends: FloatArray) -> FloatArray:
