@@ -14,9 +14,11 @@ import numpy as np
 
 from earthspin.engine.members import MEMBER, Distribution
 from earthspin.errors import Where, nearest
-from earthspin.units import Number
+from earthspin.units import FloatArray, Number
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from earthspin.engine.question import Question
 
 
@@ -37,7 +39,7 @@ class Input:
     kind : Kind
         How it is read.
     labelled : bool
-        Whether it may be an array that stands for many bodies.
+        Whether it may be an array that stands for many, where the question takes one in this key.
     """
 
     name: str
@@ -100,14 +102,14 @@ def _every(question: Question) -> Iterable[tuple[str, tuple[str, int | None, str
                 for field, kind in of.magnitudes().items():
                     yield f"{of.name}.{field}", (key, number, field, kind, field in of.LABELLED)
         elif isinstance(one.kind, Number):
-            yield key, (key, None, "", one.kind, False)
+            yield key, (key, None, "", one.kind, True)
         elif hasattr(value, "numbers") or isinstance(value, np.ndarray):
             of_list: Any = one.kind
             kind = Number(of_list.unit, of_list.example)
             if isinstance(value, np.ndarray):
-                yield key, (key, None, "", one.kind, False)
+                yield key, (key, None, "", one.kind, True)
             for number in range(np.size(getattr(value, "numbers", value))):
-                yield f"{key}.{number}", (key, number, "", kind, False)
+                yield f"{key}.{number}", (key, number, "", kind, True)
 
 
 def published(question: Question) -> dict[str, Distribution]:
@@ -141,26 +143,40 @@ def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str
     EarthspinError
         If it cannot be, in one line.
     """
-    changes = with_bodies(question, inputs, values)
+    changes: dict[str, Any] = {}
+    several = False
     for name, one in inputs.items():
         if one.field:
             continue
+        several = several or hasattr(values[name], "dims")
         if one.element is None:
             changes[one.key] = values[name]
         else:
             list_of = changes.get(one.key, getattr(question, one.key))
             changes[one.key] = _with_number(list_of, one.element, values[name])
-    return question.replace(**changes)
+    changed = question.replace(**with_bodies(question, inputs, values))
+    return changed.holding(**changes) if several else changed.replace(**changes)
 
 
-def _with_number(several: Any, place: int, value: float) -> Any:
-    """A list of numbers with one of them changed."""
-    if isinstance(several, np.ndarray):
-        several = several.copy()
-        several.flat[place] = value
-        return several
-    numbers = several.numbers
-    return replace(several, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
+def _with_number(several: Any, place: int, value: Any) -> Any:
+    """A list of numbers with one of them changed, or changed to one for each member."""
+    if hasattr(several, "numbers"):
+        numbers = several.numbers
+        return replace(several, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
+    if hasattr(value, "dims") and not hasattr(several, "dims"):
+        several = _for_each(several, value.size)
+    several = several.copy()
+    rows = value.size if hasattr(value, "dims") else 1
+    getattr(several, "values", several).reshape(rows, -1)[:, place] = value
+    return several
+
+
+def _for_each(values: FloatArray, count: int) -> xr.DataArray:
+    """The same numbers for each of so many members, `member` first."""
+    import xarray as xr
+
+    dims = (MEMBER, *(f"{MEMBER}_{axis}" for axis in range(values.ndim)))
+    return xr.DataArray(np.broadcast_to(values, (count, *values.shape)).copy(), dims=dims)
 
 
 def with_bodies(
@@ -198,7 +214,10 @@ def along_members(values: Mapping[str, Any], which: Any) -> dict[str, Any]:
     """Values of several members as labelled arrays."""
     import xarray as xr
 
-    return {name: xr.DataArray(of[which], dims=MEMBER) for name, of in values.items()}
+    return {
+        name: xr.DataArray(of[which], dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(of.ndim - 1))))
+        for name, of in values.items()
+    }
 
 
 def one_member(values: Mapping[str, Any], number: int) -> dict[str, Any]:

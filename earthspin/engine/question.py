@@ -282,6 +282,19 @@ class Question:
         made._fill(changes, self.read_from, in_scene=False, known=kept)
         return made
 
+    def holding(self, **several: Any) -> Self:
+        """Return the question with numbers of many members in some keys, checked one by one before.
+
+        Parameters
+        ----------
+        **several
+            As the parts of a question take them that says so (`made_of`, `together`).
+        """
+        kept = {name: getattr(self, name) for name in self.given} | several
+        made = type(self).__new__(type(self))
+        made._fill({"title": self.title}, self.read_from, in_scene=False, known=kept)
+        return made
+
     def _repr_html_(self) -> str:
         """Every key with its value, the given ones marked, and what it means."""
         rows = [
@@ -350,8 +363,8 @@ class Graph:
     without : tuple of str
         What parts would use and the question does not have.
     together : tuple of str
-        Keys whose bodies may be labelled arrays in every part of the answer, so that members of an
-        ensemble are computed side by side.
+        Keys whose numbers may be labelled arrays in every part of the answer, so that members of
+        an ensemble are computed side by side.
     widest : int
         How many of them at most.
     """
@@ -391,7 +404,7 @@ def made_of(
     without : tuple of str
         What its parts would use and the question does not have.
     together : tuple of str
-        Keys whose bodies may be labelled arrays in every part of the answer.
+        Keys whose numbers may be labelled arrays in every part of the answer.
     widest : int
         How many members of an ensemble are then computed side by side at most.
 

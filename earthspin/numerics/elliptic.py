@@ -10,7 +10,8 @@ k' (DLMF 19.8 and 22.7) is held with 32 digits, for phases that run over 10^4 pe
 leading axes hold bodies, the last one times. One step down from k the modulus is
 k1 = (1 - k')/(1 + k') and the argument v = (1 + k')u/2; the functions of both are kept, because
 the third kind has no cancellation there. `jacobi_sncndn` and `complete_third_kind` take plain
-floats and broadcast.
+floats and broadcast. Each element takes as many steps as it needs and then waits for the others:
+it is the same to the bit alone and among many.
 """
 
 from __future__ import annotations
@@ -73,8 +74,11 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
     b = where(separatrix, 1.0, complementary_modulus)
     a = as_double_double(np.ones_like(b.hi))
     arithmetic, geometric = [a], [b]
-    while len(arithmetic) < 2 or np.any(np.abs((a - b).hi) > 1e-15 * a.hi):
-        a, b = (a + b).scaled(0.5), (a * b).sqrt()
+    apart = np.ones_like(separatrix)
+    while np.any(apart):
+        mean = (a + b).scaled(0.5)
+        a, b = mean, where(apart, (a * b).sqrt(), mean)
+        apart = np.abs((a - b).hi) > 1e-15 * a.hi
         arithmetic.append(a)
         geometric.append(b)
     arithmetic.append((a + b).scaled(0.5))
@@ -100,19 +104,20 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
     b = [mean.hi[..., np.newaxis] for mean in descent.geometric]
     on = descent.separatrix[..., np.newaxis]
     regular = np.where(on, 0.0, u)  # u may be infinite on the separatrix
-    depth = 1
-    while depth < len(b) and np.any(a[depth - 1] - b[depth - 1] > 2 * _CIRCULAR * a[depth - 1]):
-        depth += 1
-    s, c, d = np.sin(a[depth] * regular), np.cos(a[depth] * regular), np.ones_like(u)
+    depth, mean = np.ones(on.shape, dtype=int), a[1]  # where sin and cos are the functions
+    for step in range(1, len(b)):
+        deeper = (depth == step) & (a[step - 1] - b[step - 1] > 2 * _CIRCULAR * a[step - 1])
+        depth, mean = depth + deeper, np.where(deeper, a[step + 1], mean)
+    s, c, d = np.sin(mean * regular), np.cos(mean * regular), np.ones_like(u)
     lower = Jacobi(s, c, d)
-    for step in range(depth - 1, -1, -1):
+    for step in range(int(np.max(depth, initial=1)) - 1, -1, -1):
         lower = Jacobi(s, c, d)
         half = (a[step] - b[step]) / 2
         rise, run = a[step] * s, a[step + 1] * c * d
-        d = (b[step] + half * c * c) / (a[step + 1] + half * s * s)
+        up = (b[step] + half * c * c) / (a[step + 1] + half * s * s)
         # From the ratio alone: errors of cn would double in every step, those of sn halve.
         length = np.sqrt(rise * rise + run * run)
-        s, c = rise / length, run / length
+        s, c, d = _choose(step < depth, Jacobi(rise / length, run / length, up), lower)
     upper = Jacobi(s, c, d)
     if not np.any(on):
         return upper, lower
@@ -150,11 +155,11 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
     p = a[1] * (n + 1.0).sqrt()
     term = total = as_double_double(np.ones_like(p.hi))
     step = 1
-    while np.any(term.hi > 1e-32):
+    while np.any(counts := term.hi > 1e-32):
         product = a[step] * b[step]
         square = p * p
         term = (term * (square - product) / (square + product)).scaled(0.5)
-        total = total + term
+        total = where(counts, total + term, total)
         p = (square + product) / p.scaled(2.0)
         step = min(step + 1, len(b) - 1)
     return where(descent.separatrix, 1.0, total.scaled(0.5)) / (n + 1.0)
@@ -220,21 +225,24 @@ def jacobi_sncndn(
     argument, complement = np.broadcast_arrays(argument, complement)
     on_separatrix = complement == 0
     mean, root = np.ones_like(complement), np.sqrt(np.where(on_separatrix, 1.0, complement))
-    means = [(mean, root)]
-    while np.any(mean - root > 1e-8 * mean):  # the next mean is then right to the last digit
-        mean, root = (mean + root) / 2, np.sqrt(mean * root)
-        means.append((mean, root))
+    means = [(mean, root, np.ones_like(on_separatrix))]
+    while np.any(apart := mean - root > 1e-8 * mean):  # the next mean is right to the last digit
+        mean, root = (
+            np.where(apart, (mean + root) / 2, mean),
+            np.where(apart, np.sqrt(mean * root), root),
+        )
+        means.append((mean, root, apart))
     mean = (mean + root) / 2
 
     at_zero = np.abs(argument) < 1e-100  # where sn is the argument
     angle = np.where(at_zero, 1.0, mean * argument)
     cotangent = mean / np.tan(angle)  # of the amplitude, times the mean of its level
     dn = np.ones_like(mean)
-    for upper_mean, upper_root in reversed(means):
+    for upper_mean, upper_root, taken in reversed(means):
         square = cotangent**2 / mean
-        cotangent = cotangent * dn
-        dn = (upper_root + square) / (upper_mean + square)
-        mean = upper_mean
+        up = (upper_root + square) / (upper_mean + square)
+        cotangent = np.where(taken, cotangent * dn, cotangent)
+        dn, mean = np.where(taken, up, dn), np.where(taken, upper_mean, mean)
     sn = np.sign(angle) / np.hypot(1.0, cotangent)
     cn = sn * cotangent
     sn, cn, dn = (np.where(at_zero, limit, f) for limit, f in ((argument, sn), (1, cn), (1, dn)))
@@ -265,12 +273,14 @@ def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray
     root, product = np.sqrt(complement), np.sqrt(complement)
     mean, p = np.ones_like(root), np.sqrt(shape)
     a, b = np.zeros_like(root), 1 / p
-    while True:
+    integral, found = np.zeros_like(root), np.zeros(root.shape, dtype=bool)
+    while not np.all(found):
         a, b = b / p + a, 2 * (a * product / p + b)
         p = product / p + p
         last, mean = mean, root + mean
-        if np.all(last - root <= 1e-8 * last):
-            integral: FloatArray = np.pi / 2 * (b + a * mean) / (mean * (mean + p))
-            return integral
+        settled = ~found & (last - root <= 1e-8 * last)
+        integral = np.where(settled, np.pi / 2 * (b + a * mean) / (mean * (mean + p)), integral)
+        found |= settled
         root = 2 * np.sqrt(product)
         product = root * mean
+    return integral

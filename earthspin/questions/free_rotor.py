@@ -74,6 +74,16 @@ class Moments:
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
+    def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
+        """Of many bodies, as the physics takes them, with axes of length 1 for their starts."""
+        from earthspin.rotor.moments import KEYS
+
+        many = np.broadcast_arrays(*(np.asarray(number) for number in self.numbers))
+        laid = [one.reshape(one.shape + (1,) * starts) for one in many]
+        if self.differences:
+            return dict(zip(KEYS, laid, strict=True))
+        return np.stack(laid, axis=-1)
+
 
 class FreeRotor(
     Question,
@@ -150,11 +160,13 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
     from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
     from earthspin.rotor.triaxial import free_rotation as rotate
 
-    motion = rotate(moments.given, omega, instants)
-    starts = ("start",) * (motion.energy.ndim - 1)
+    many = {dim for of in (omega, *moments.numbers) for dim in getattr(of, "dims", ())[:1]}
+    starts = ("start",) * (np.ndim(omega) - 1 - hasattr(omega, "dims"))
+    given = moments.of_many(len(starts)) if many else moments.given
+    motion = rotate(given, np.asarray(omega), instants)
 
     def laid(values: FloatArray, *dims: str) -> xr.DataArray:
-        return xr.DataArray(values, dims=(*starts, "time", *dims))
+        return xr.DataArray(values, dims=(*many, *starts, "time", *dims))
 
     return build(
         ROTATION,
@@ -272,6 +284,8 @@ made_of(
     answer=(free_rotation, rotation_accuracy),
     sections={"poinsot": poinsot, "neglected": neglected},
     parts=(instants,),
+    together=("moments", "omega"),
+    widest=4096,
 )
 
 free_rotor = ask(FreeRotor)

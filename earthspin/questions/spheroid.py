@@ -14,6 +14,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.side_by_side import SideBySide
 from earthspin.units import FloatArray, Number, Numbers, Relative
 
 if TYPE_CHECKING:
@@ -86,16 +87,19 @@ def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
     """Potential, attraction and torque of a homogeneous spheroid, exact."""
     from earthspin.mass import spheroid
 
-    figure = body.number("gm"), body.number("radius"), body.number("flattening")
-    scaled = position / body.number("radius")
+    of = SideBySide.of(gm=body.gm, radius=body.radius, flattening=body.flattening, mass=point_mass)
+    gm, radius, flattening, mass = of.columns("gm", "radius", "flattening", "mass")
+    figure = gm, radius, flattening
+    scaled = position / radius[..., np.newaxis]
+    vectors = ("point", "component")
     return build(
         FIELD,
         {
             "position": position,
-            "potential": spheroid.spheroid_potential(*figure, position),
-            "attraction": spheroid.spheroid_attraction(*figure, position),
-            "torque": spheroid.spheroid_torque(*figure, point_mass, position),
-            "relative_error": spheroid.error_bound(body.number("flattening"), scaled),
+            "potential": of.lay(spheroid.spheroid_potential(*figure, position), "point"),
+            "attraction": of.lay(spheroid.spheroid_attraction(*figure, position), *vectors),
+            "torque": of.lay(spheroid.spheroid_torque(*figure, mass, position), *vectors),
+            "relative_error": of.lay(spheroid.error_bound(flattening, scaled), "point"),
         },
         coords={"component": ["x", "y", "z"]},
         frame="principal axes of the spheroid, z along its axis",
@@ -139,6 +143,8 @@ made_of(
     Spheroid,
     answer=(field, field_accuracy),
     sections={"neglected": neglected},
+    together=("body", "point_mass"),
+    widest=16_384,
 )
 
 spheroid_field = ask(Spheroid)

@@ -13,6 +13,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.times import FROM_START, Seconds, instants
 from earthspin.units import Duration, FloatArray, Number, Relative, Whole
 
@@ -24,6 +25,12 @@ if TYPE_CHECKING:
 
 #: Points of the effective potential, ends included.
 POTENTIAL_POINTS = 361
+
+#: Keys that make the top and its start.
+_OF_THE_TOP = (
+    *("transverse_moment", "axial_moment", "weight_moment"),
+    *("theta", "spin", "phi_rate", "theta_rate", "phi", "psi"),
+)
 
 Moment = Annotated[float, Number("kg m2", "2e-4 kg m2")]
 Angle = Annotated[float, Number("rad", "30 deg")]
@@ -80,9 +87,15 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     psi: Angle = setting("0 deg", doc="rotation angle of the body about its axis at t = 0")
     accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
+    def check(self) -> None:
+        """Such a top can be, and can start so."""
+        from earthspin.top.start import HeavyTop
+
+        HeavyTop(**{name: getattr(self, name) for name in _OF_THE_TOP})
+
 
 @part
-def heavy_top_start(
+def numbers(
     transverse_moment: float,
     axial_moment: float,
     weight_moment: float,
@@ -92,11 +105,9 @@ def heavy_top_start(
     theta_rate: float,
     phi: float,
     psi: float,
-) -> HeavyTop:
-    """The top and its motion at the start."""
-    from earthspin.top.start import HeavyTop
-
-    return HeavyTop(
+) -> SideBySide:
+    """The top and its motion at the start, or several tops."""
+    return SideBySide.of(
         transverse_moment=transverse_moment,
         axial_moment=axial_moment,
         weight_moment=weight_moment,
@@ -107,6 +118,14 @@ def heavy_top_start(
         phi=phi,
         psi=psi,
     )
+
+
+@part
+def heavy_top_start(numbers: SideBySide) -> HeavyTop:
+    """The same, checked."""
+    from earthspin.top.start import HeavyTop
+
+    return HeavyTop(**numbers.numbers)
 
 
 @part
@@ -146,25 +165,26 @@ MOTION = covered_by(
 
 @part(gives=MOTION)
 def euler_angles(
-    motion: HeavyTopMotion, heavy_top_start: HeavyTop, instants: FloatArray
+    motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
 ) -> xr.Dataset:
     """The motion of the top in time."""
     from earthspin.top.rounding import error_bound
 
+    lay = numbers.lay
     # the error grows with time: the last instants and some before tell it
     told = instants[np.unique(np.linspace(0, instants.size - 1, TOLD_BY).astype(int))]
     return build(
         MOTION,
         {
-            "theta": motion.theta,
-            "phi": motion.phi,
-            "psi": motion.psi,
-            "attitude": motion.attitude,
-            "omega_body": motion.omega_body,
-            "pattern": motion.pattern,
-            "nutation_period": motion.nutation_period,
-            "mean_precession_rate": motion.precession_rate,
-            "relative_error": error_bound(heavy_top_start, told),
+            "theta": lay(motion.theta, "time"),
+            "phi": lay(motion.phi, "time"),
+            "psi": lay(motion.psi, "time"),
+            "attitude": lay(motion.attitude, "time", "quaternion"),
+            "omega_body": lay(motion.omega_body, "time", "component"),
+            "pattern": lay(motion.pattern),
+            "nutation_period": lay(motion.nutation_period),
+            "mean_precession_rate": lay(motion.precession_rate),
+            "relative_error": lay(error_bound(heavy_top_start, told)),
         },
         coords={
             "time": ("time", instants, FROM_START),
@@ -223,7 +243,7 @@ def top_accuracy(
     """Accuracy of the top: asked, estimated, and the method."""
     from earthspin.top.rounding import error_bound
 
-    bound = error_bound(heavy_top_start, instants)
+    bound = float(error_bound(heavy_top_start, instants))
     return closed_form(PROMISE, accuracy, bound, "elliptic functions", instants.size)
 
 
@@ -237,7 +257,9 @@ made_of(
     Top,
     answer=(euler_angles, top_accuracy),
     sections={"turning": turning, "potential": potential, "neglected": neglected},
-    parts=(instants, heavy_top_start, motion),
+    parts=(instants, numbers, heavy_top_start, motion),
+    together=_OF_THE_TOP,
+    widest=4096,
 )
 
 heavy_top = ask(Top)

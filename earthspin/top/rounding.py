@@ -16,13 +16,14 @@ from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
 
 FloatArray = NDArray[np.float64]
+Numbers = NDArray[np.complex128] | FloatArray
 
 #: The closed form keeps this, or twice the effect of rounding where that is larger: measured on
 #: 500 starts of each of ten families (`python -m tests.top.accuracy 500`).
 CLOSED_FORM_ERROR = 1e-13
 
 
-def error_bound(top: HeavyTop, times: ArrayLike) -> float:
+def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
     """Bound on the error of `heavy_top_motion`, at its largest over times and quantities.
 
     Parameters
@@ -33,14 +34,14 @@ def error_bound(top: HeavyTop, times: ArrayLike) -> float:
 
     Returns
     -------
-    float
+    ndarray, of the shape of the tops
         Of theta relative to itself; of phi, psi and the transverse angular velocity relative to
         their largest values; of the elements of the attitude.
     """
-    return max(CLOSED_FORM_ERROR, 2 * effect_of_rounding(top, times))
+    return np.maximum(CLOSED_FORM_ERROR, 2 * effect_of_rounding(top, times))
 
 
-def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> float:
+def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
     """Sum over all numbers of a start of what one unit in the last place of each does.
 
     Parameters
@@ -51,7 +52,7 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> float:
 
     Returns
     -------
-    float
+    ndarray, of the shape of the tops
         As for `error_bound`.
     """
     t = np.atleast_1d(np.asarray(times, dtype=np.float64))
@@ -61,28 +62,33 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> float:
     for name, value in start.items():
         moved = np.nextafter(value, 0.0)  # towards zero: every bound on a start is an upper one
         if np.any(moved != value):
-            total += _difference(heavy_top_motion(HeavyTop(**(start | {name: moved})), t), motion)
+            total = total + _difference(
+                heavy_top_motion(HeavyTop(**(start | {name: moved})), t), motion
+            )
     return total
 
 
-def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> float:
-    """Largest difference of two motions."""
+def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
+    """Largest difference of two motions, for each top."""
     across, reference = (m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (one, other))
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
     turned = 2 * np.abs(one.attitude - sign * other.attitude)
-    return max(
+    ratios = (
         _relative(one.theta - other.theta, np.abs(other.theta)),
-        _relative(one.phi - other.phi, np.abs(other.phi).max()),
-        _relative(one.psi - other.psi, np.abs(other.psi).max()),
-        _relative(across - reference, np.abs(reference).max()),
-        float(turned.max()),
+        _relative(one.phi - other.phi, _largest(other.phi)),
+        _relative(one.psi - other.psi, _largest(other.psi)),
+        _relative(across - reference, _largest(reference)),
+        turned.max(axis=(-2, -1)),
     )
+    return np.asarray(np.max(ratios, axis=0))
 
 
-def _relative(difference: NDArray[np.complex128] | FloatArray, size: ArrayLike) -> float:
-    """Largest ratio; nothing over nothing is nothing."""
-    off = np.abs(difference)
-    scale = np.broadcast_to(size, off.shape)
-    tiny = np.finfo(float).tiny
-    return float(np.max(off / np.maximum(scale, tiny)))
+def _largest(values: Numbers) -> FloatArray:
+    """Largest over the times, which keep an axis of length 1."""
+    return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
+
+
+def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
+    """Largest ratio over the times; nothing over nothing is nothing."""
+    return np.asarray(np.max(np.abs(difference) / np.maximum(size, np.finfo(float).tiny), axis=-1))

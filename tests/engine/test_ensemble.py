@@ -118,6 +118,65 @@ def test_side_by_side_is_one_by_one(word: str, field: str) -> None:
                 assert np.array_equal(found.values, of.values), name
 
 
+@pytest.mark.parametrize(
+    ("word", "name", "low", "high"),
+    [
+        ("top", "spin", 2.0, 4.0),
+        ("top", "theta", 0.1, 3.0),
+        ("top", "axial_moment", 0.3, 1.9),
+        ("spheroid", "body.flattening", -3.0, 0.9),
+        ("spheroid", "point_mass", 1.0, 1e20),
+    ],
+)
+def test_numbers_of_a_question_are_side_by_side(
+    word: str, name: str, low: float, high: float
+) -> None:
+    """And the same bits as the question has by itself."""
+    values = np.linspace(low, high, 5)
+    given = asked(word).replace(members=xr.Dataset({name: ("member", values)}))
+    assert Ensemble(given).width > 1
+    many = earthspin.run(given)
+    for number, value in enumerate(values.tolist()):
+        key, _, field = name.partition(".")
+        changed = EARTH.replace(**{field: value}) if field else value
+        one = earthspin.run(given.replace(members=None, **{key: changed}))
+        for variable in many.data_vars:
+            found = many[variable]
+            found = found.isel(member=number) if "member" in found.dims else found
+            assert np.array_equal(found.values, one[variable].values), variable
+
+
+@pytest.mark.parametrize("omega", [[0.01, 1, 0], [[0.01, 1, 0], [1, 0.2, 0.3]]])
+@pytest.mark.parametrize(
+    "moments", [[1, 2, 2.8], {"A": "1 kg m2", "B-A": "1e-3 kg m2", "C-A": "2e-3 kg m2"}]
+)
+def test_rotors_are_side_by_side(moments: Any, omega: Any) -> None:
+    """One of three moments and one of the angular velocities, with one start and with two."""
+    values = {"moments.0": np.array([1.0, 1.1, 1.2]), "omega.1": np.array([1.0, 1e-3, 0.0])}
+    question = QUESTIONS["free-rotor"](moments=moments, omega=omega, times=[0, 7, 90])
+    given = xr.Dataset({name: ("member", of) for name, of in values.items()})
+    assert Ensemble(question.replace(members=given)).width > 1
+    many = earthspin.ensemble(question, given)
+    for number in range(3):
+        start = np.array(omega, dtype=float)
+        start.flat[1] = values["omega.1"][number]
+        first = float(values["moments.0"][number])
+        own = {**moments, "A": first} if isinstance(moments, dict) else [first, *moments[1:]]
+        one = earthspin.free_rotor(own, start, [0, 7, 90])
+        for name in one.data_vars:
+            found = many[name]
+            found = found.isel(member=number) if "member" in found.dims else found
+            assert np.array_equal(found.values, one[name].values), name
+
+
+def test_a_top_that_cannot_be_is_named() -> None:
+    """More than twice the transverse moment about the axis: no body has it."""
+    given = xr.Dataset({"axial_moment": ("member", [1.2, 1.9, 2.5, 1.0])})
+    with pytest.raises(SceneError, match=r"of 4 these cannot be.*axial_moment") as caught:
+        earthspin.run(asked("top").replace(members=given))
+    assert "members = '2'" in str(caught.value)
+
+
 def test_masses_of_what_pulls_are_side_by_side() -> None:
     values = MOON.gm * (1 + 1e-6 * np.arange(3.0))
     given = xr.Dataset({"moon.gm": ("member", values)})

@@ -1,0 +1,58 @@
+"""Numbers of many, laid against one another so that physics takes them as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class SideBySide:
+    """Numbers by name, of which some may stand for many.
+
+    Attributes
+    ----------
+    numbers : mapping of str to float or ndarray
+        All of the shape that `dims` has.
+    dims : tuple of str
+        Along which they stand; empty for one of each.
+    labels : mapping
+        Coordinates of these.
+    """
+
+    numbers: Mapping[str, Any]
+    dims: tuple[str, ...] = ()
+    labels: Mapping[Any, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, **given: Any) -> Self:
+        """Lay numbers and labelled arrays against one another."""
+        arrays = {name: one for name, one in given.items() if hasattr(one, "dims")}
+        if not arrays:
+            return cls(given)
+        import xarray as xr
+
+        laid = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
+        first = next(iter(laid.values()))
+        numbers = {
+            name: np.broadcast_to(laid[name].values if name in laid else one, first.shape)
+            for name, one in given.items()
+        }
+        return cls(numbers, tuple(map(str, first.dims)), first.coords)
+
+    def columns(self, *names: str) -> tuple[Any, ...]:
+        """Some of the numbers, those of many with an axis of length 1 behind their own."""
+        return tuple(np.asarray(self.numbers[name])[..., np.newaxis] for name in names)
+
+    def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
+        """Label what came out, the dimensions of many in front."""
+        import xarray as xr
+
+        return xr.DataArray(values, self.labels, (*self.dims, *dims))
