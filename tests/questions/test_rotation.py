@@ -255,6 +255,28 @@ def test_phobos_librates_by_a_little_more_than_a_degree() -> None:
     assert "never measured" in found.attitude_error.attrs["no_error"]
 
 
+def test_elements_and_an_ellipse_of_ones_own_give_one_motion() -> None:
+    """What the elements place has errors of rounding, and an error of the attitude is given."""
+    placed = moon("mars", (13.0e3, 11.4e3, 9.1e3), 0.31891, 0.0151)
+    orbit = earthspin.Orbit(a=placed.position.size, period="0.31891 d", e=0.0151, plane="icrf")
+    own, by_elements = (
+        earthspin.rotation(
+            "2000-01-01T12:00",
+            "2000-01-02T12:00",
+            "1 h",
+            body=body,
+            perturbers=["mars"],
+            start_attitude=[1, 0, 0, 0],
+            start_omega=[0, 0, 2 * np.pi / (0.31891 * DAY)],
+        )
+        for body in (placed, placed.replace(position=None, orbit=orbit))
+    )
+    # 4.5e-12 measured: the kernel's positions are rounded at their distance from the Sun
+    np.testing.assert_allclose(by_elements.attitude, own.attitude, rtol=0, atol=2e-11)
+    assert "ephemeris" not in by_elements.attrs
+    assert float(by_elements.attitude_error.max()) < 1e-9
+
+
 HYPERION = moon("saturn", (180e3, 133e3, 102.5e3), 21.28, 0.1)
 
 

@@ -15,30 +15,19 @@ import numpy as np
 
 import earthspin
 
-PERIOD, E, SIZE = 21.28, 0.1, 1.481e9
-
-
-class Ellipse:  # Hyperion seen from Saturn (the barycentre, 6), m at days from J2000.0
-    centre, coverage = 6, (-np.inf, np.inf)
-
-    def positions(self, days):
-        anomaly = mean = 2 * np.pi * days / PERIOD
-        for _ in range(40):
-            anomaly = mean + E * np.sin(anomaly)
-        x, y = np.cos(anomaly) - E, np.sqrt(1 - E**2) * np.sin(anomaly)
-        return SIZE * np.stack([x, y, 0 * days], axis=-1)
-
+PERIOD = 21.28 * 86400
+orbit = earthspin.Orbit(period=PERIOD, e=0.1, plane="icrf")
 
 # semi-axes 180, 133 and 102.5 km, the same density throughout
 b2, c2 = (133 / 180) ** 2, (102.5 / 180) ** 2
 j2 = (1 + b2 - 2 * c2) / 10
 figure = {"radius": 1.8e5, "j2": j2, "dynamical_flattening": 5 * j2 / (1 + b2)}
 hyperion = earthspin.Body(
-    name="hyperion", gm=3.7e8, triaxiality=(1 - b2) / 5, position=Ellipse(), **figure
+    name="hyperion", gm=3.7e8, triaxiality=(1 - b2) / 5, orbit=orbit, **figure
 )
 same = {"body": hyperion, "perturbers": "saturn", "start_attitude": [1, 0, 0, 0]}
 for name, start in {"aslant": [0.5, 0.3, 1.5], "about the long axis": [4, 0.1, 0.8]}.items():
-    omega = 2 * np.pi / (PERIOD * 86400) * np.array(start)
+    omega = 2 * np.pi / PERIOD * np.array(start)
     turned = earthspin.rotation("2000-01-01T12:00", "2003-06-01", "4 d", start_omega=omega, **same)
     years = (turned.time - turned.time[0]) / np.timedelta64(31557600, "s")
     plt.semilogy(years, turned.attitude_error_method, label=name)
