@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: Newton steps: after these no M moves further, at any e up to 1 - 1e-12.
-STEPS = 6
+#: Newton steps: after these no M moves further, at any e up to 1 - 1e-12. What E - sin(E) loses to
+#: cancellation does not matter before the last two.
+STEPS, LAST_STEPS = 6, 2
 
 _TURN = 2 * np.pi
 
@@ -34,9 +35,10 @@ def eccentric_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
         circle = np.minimum(half + e, half / (1 - e))
         parabola = np.cbrt(np.pi**2 * half / np.maximum(e, np.finfo(float).tiny))
     found = np.minimum(np.minimum(circle, np.pi), parabola)
-    for _ in range(STEPS):
+    for step in range(STEPS):
+        less_sine = found - np.sin(found) if step < STEPS - LAST_STEPS else _less_sine(found)
         # (1 - e) stands apart, so that nothing cancels next to a parabola
-        off = (1 - e) * found + e * _less_sine(found) - half
+        off = (1 - e) * found + e * less_sine - half
         found = found - off / ((1 - e) + 2 * e * np.sin(found / 2) ** 2)
     return np.asarray(turns + np.copysign(found, mean - turns))
 
