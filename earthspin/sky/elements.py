@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
-from earthspin.numerics.kepler import true_anomaly
+from earthspin.numerics.kepler import eccentric_anomaly
 from earthspin.sky.poles import Direction, Pole
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
 FloatArray = NDArray[np.float64]
 
-#: Roundings in a direction, of all angles together; measured: 0.46 at most, over 301 days of two
-#: centuries at e up to 0.99, against 40 digits.
+#: Roundings in a direction, of all angles together; measured: 0.73 at most, over 301 days of two
+#: centuries at e up to 0.99, against 50 digits.
 ROUNDINGS = 2
 
 #: Code of the spinning body in `Elements`.
@@ -145,12 +145,14 @@ class Ellipse:
             Days from J2000.0 TDB.
         """
         time = (days - self.epoch) * DAY
-        e = np.asarray(self.e)
-        anomaly = true_anomaly(self.mean_anomaly + self.motion * time, e)
-        along = self.pericentre + self.pericentre_rate * time + anomaly  # from the node
+        anomaly = eccentric_anomaly(self.mean_anomaly + self.motion * time, np.asarray(self.e))
+        # from the focus, x to the pericentre; (1 - e) stands apart, so that nothing cancels there
+        x = self.a * ((1 - self.e) - 2 * np.sin(anomaly / 2) ** 2)
+        y = self.a * math.sqrt((1 - self.e) * (1 + self.e)) * np.sin(anomaly)
+        along = self.pericentre + self.pericentre_rate * time  # from the node
+        cos, sin = np.cos(along), np.sin(along)
+        ahead, across = x * cos - y * sin, x * sin + y * cos
         node = self.node + self.node_rate * time
-        distance = self.a * (1 - e * e) / (1 + e * np.cos(anomaly))
-        ahead, across = distance * np.cos(along), distance * np.sin(along)
         flat, up = across * math.cos(self.i), across * math.sin(self.i)
         cos, sin = np.cos(node), np.sin(node)
         in_plane = np.stack([ahead * cos - flat * sin, ahead * sin + flat * cos, up], axis=-1)
