@@ -57,6 +57,8 @@ def main(words: list[str] | None = None) -> int:
         one = verbs.add_parser(verb, help=words_of)
         if verb in WITH_KERNEL:
             one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
+        if verb == "accuracy-pages":
+            one.add_argument("quantities", nargs="*", metavar="QUANTITY", help="default: all")
     given = parser.parse_args(words)
     try:
         return VERBS[given.verb][0](given)

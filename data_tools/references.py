@@ -14,7 +14,9 @@ import numpy as np
 
 from earthspin.checks import stored
 from earthspin.checks.ladders import (
+    of_elements,
     of_free_rotor,
+    of_mean_orbit,
     of_pole,
     of_rotation,
     of_spheroid,
@@ -82,6 +84,30 @@ def spheroid() -> Made:
         }
 
 
+def elements() -> Made:
+    """Places on ellipses that turn."""
+    import mpmath as mp
+
+    from tests.sky.textbook import DIGITS, place
+
+    days = of_elements.days().tolist()
+    with mp.workdps(DIGITS):
+        return of_elements.INPUTS, {
+            "places": _pairs([[place(one, day) for day in days] for one in of_elements.ORBITS])
+        }
+
+
+def mean_orbit() -> Made:
+    """Mean precessing torque of an orbit whose node turns."""
+    import mpmath as mp
+
+    from tests.sky.textbook import DIGITS, mean_precessing_torque
+
+    with mp.workdps(DIGITS):
+        mean = mean_precessing_torque(of_elements.ORBIT, of_mean_orbit.GM, of_mean_orbit.TILT)
+        return of_mean_orbit.INPUTS, {"mean": _pairs(mean)}
+
+
 def pole() -> Made:
     """Figure axis under Sun and Moon."""
     from data_tools.pole_reference import figure_axis
@@ -111,6 +137,8 @@ MAKERS: dict[str, Callable[[], Made]] = {
     "free-rotor": free_rotor,
     "top": top,
     "spheroid": spheroid,
+    "elements": elements,
+    "mean-orbit": mean_orbit,
     "pole": pole,
     "rotation": tumbling,
 }

@@ -44,6 +44,8 @@ QUANTITIES: dict[str, str] = {
     "torque": "of_torque",
     "pole": "of_pole",
     "long-term": "of_long_term",
+    "elements": "of_elements",
+    "mean-orbit": "of_mean_orbit",
     "rotation": "of_rotation",
     "free-rotor": "of_free_rotor",
     "top": "of_top",
@@ -297,6 +299,16 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
     return np.asarray((~beaten & np.isfinite(e) & np.isfinite(t)).reshape(np.shape(error)))
 
 
+def _fronts(ladder: Ladder, error: FloatArray, run_time: FloatArray) -> BoolArray:
+    """Front of each task, over methods and rungs."""
+    tasks = np.array([method.task for method in ladder.methods])
+    on_front = np.zeros(error.shape, dtype=bool)
+    for task in set(tasks.tolist()):
+        mine = tasks == task
+        on_front[mine] = pareto_front(error[mine], run_time[mine])
+    return on_front
+
+
 # --- the result --------------------------------------------------------------------------------
 
 
@@ -306,8 +318,9 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     Parameters
     ----------
     quantity : str
-        ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"free-rotor"``, ``"top"``,
-        ``"spheroid"``, ``"excitation"`` or ``"chandler"``.
+        ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"elements"``,
+        ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
+        ``"excitation"`` or ``"chandler"``.
     quick : bool
         A short problem with few settings, in a second or two.
 
@@ -317,8 +330,8 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
         Over `method` and `rung`: `error` (in the unit of the quantity), `run_time` with its
         `run_time_spread` and `warm_up_time` (s), `evaluations`, `setting` in words, `pareto`,
         and `at_floor` where the reference is not a hundred times better; over `method`:
-        `ours`, `bound` (infinite where none is claimed) and `holds`. A method with few
-        settings stays at its last one.
+        `ours`, `bound` (infinite where none is claimed), `holds`, and `task`, of which each
+        has a front of its own. A method with few settings stays at its last one.
 
     Raises
     ------
@@ -376,7 +389,8 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
         schema(ladder.unit),
         measured
         | {
-            "pareto": pareto_front(error, measured["run_time"]),
+            "pareto": _fronts(ladder, error, measured["run_time"]),
+            "task": np.array([method.task for method in ladder.methods]),
             "at_floor": error < REFERENCE_MARGIN * ladder.reference_error,
             "ours": ours,
             "bound": bound,
@@ -408,6 +422,7 @@ def schema(unit: str) -> Mapping[str, Variable]:
         "bound": Variable(method, unit, "bound on the error of the last setting"),
         "holds": Variable(method, "", "the last setting stays within its bound"),
         "settings": Variable(method, "1", "how many settings differ"),
+        "task": Variable(method, "", "what is asked for, where there are two"),
     }
 
 

@@ -119,8 +119,9 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
 def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     """Error against run time on log axes: filled markers are methods of this package.
 
-    The broad line is the front. A bar is half the range of the run times. The thin line of a method
-    joins those of its settings for which no other setting is both faster and more exact.
+    The broad line is the front, each task with its own. A bar is half the range of the run times.
+    The thin line of a method joins those of its settings for which no other setting is both faster
+    and more exact.
 
     Parameters
     ----------
@@ -165,7 +166,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         )
     ax.set_xscale("log")
     ax.set_yscale("log")
-    _draw_front(result, ax)
+    _draw_fronts(result, ax)
     ax.set_xlabel("run time (s)")
     ax.set_ylabel(f"error ({unit.strip()})" if unit else "relative error")
     if float(result.error.max() / result.error.min()) < FEW_DECADES:
@@ -192,22 +193,25 @@ def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]
     return time[kept], error[kept]
 
 
-def _draw_front(result: xr.Dataset, ax: Axes) -> None:
-    """Steps through the points of the front."""
-    on_front = result.pareto.values
-    time, error = _front(result.run_time.values[on_front], result.error.values[on_front])
+def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
+    """Steps through the points of each task's front."""
     right, top = float(result.run_time.max()), float(result.error.max())
-    ax.step(
-        [time[0], *time, right],
-        [top, *error, error[-1]],
-        where="post",
-        color="0.55",
-        lw=3.5,
-        alpha=0.35,
-        zorder=1,
-        solid_joinstyle="round",
-        label="front (Pareto)",
-    )
+    label = "front (Pareto)"
+    for task in dict.fromkeys(result.task.values.tolist()):
+        mine = (result.task == task) & result.pareto
+        time, error = _front(result.run_time.values[mine], result.error.values[mine])
+        ax.step(
+            [time[0], *time, right],
+            [top, *error, error[-1]],
+            where="post",
+            color="0.55",
+            lw=3.5,
+            alpha=0.35,
+            zorder=1,
+            solid_joinstyle="round",
+            label=label,
+        )
+        label = "_"  # the others are alike
 
 
 def accuracy_figure(result: xr.Dataset) -> Figure:

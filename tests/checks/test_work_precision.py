@@ -307,6 +307,24 @@ def test_error_may_be_judged_on_more_than_one_run() -> None:
     assert measured(one).error.item() == 4.0
 
 
+def test_each_task_has_its_own_front() -> None:
+    """A method is not beaten by one that does something else."""
+    methods = [
+        Method(name, name == "b", [Setting("", lambda error=error: (error, 1))], task=task)
+        for name, error, task in (("a", 1.0, "there"), ("b", 1e-3, "back"), ("c", 1e-6, "back"))
+    ]
+    one = Ladder("q", "1", "p", "s", "r", 1e-12, methods, float)
+    points = [
+        [work_precision.Point("", float(m.settings[0].run()[0]), time, 0.0, 0.0, 1)]
+        for m, time in zip(methods, (1.0, 0.1, 0.05), strict=True)
+    ]
+    result = dataset(one, points, quick=True)
+    assert result.pareto.values.ravel().tolist() == [True, False, True]
+    assert result.task.values.tolist() == ["there", "back", "back"]
+    lines = [line for line in plot_accuracy(result).get_lines() if line.get_linewidth() > 3]
+    assert len(lines) == 2
+
+
 def test_sentence_names_the_cheapest_that_is_good_enough() -> None:
     point = work_precision.Point
     methods = [Method("quick", False, []), Method("exact", True, [])]
@@ -348,7 +366,7 @@ def test_a_peer_is_measured_or_left_out_with_a_line() -> None:
 # --- references ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["free-rotor", "top", "spheroid", "pole"])
+@pytest.mark.parametrize("name", ["free-rotor", "top", "spheroid", "pole", "elements"])
 def test_stored_references_are_refused_for_other_problems(name: str) -> None:
     with pytest.raises(earthspin.UndefinedError, match="python -m data_tools references"):
         stored.load(name, {"moments": [1, 2, 3]})
@@ -366,7 +384,7 @@ def test_stored_values_keep_more_digits_than_a_float() -> None:
 def test_references_are_made_again_as_stored() -> None:
     from data_tools import references
 
-    for name in ("free-rotor", "top", "spheroid"):
+    for name in ("free-rotor", "top", "spheroid", "elements", "mean-orbit"):
         inputs, values = references.MAKERS[name]()
         there = stored.load(name, inputs)
         for key, pair in values.items():

@@ -37,7 +37,7 @@ INPUTS = {
     "span": SPAN,
 }
 #: Steps of half the length change the reference by 4e-17.
-REFERENCE_ERROR = 1e-16
+REFERENCE_ERROR = 5e-17
 
 
 def times() -> FloatArray:

@@ -1,0 +1,206 @@
+r"""Places on orbits by their elements, against what one would type.
+
+Others find the place in the plane of the orbit and turn it as a textbook does. With M the mean
+anomaly and J the functions of Bessel,
+
+    cos E = -e/2 + sum (2/k) J_k'(k e) cos kM,    sin E = (2/e) sum J_k(k e)/k sin kM.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.special import jv, jvp
+
+from earthspin.checks.stored import load
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.constants import DAY
+from earthspin.sky.elements import Ellipse, Plane
+
+FloatArray = NDArray[np.float64]
+#: Places, shape (3, n, 3), and how often the costly function was evaluated.
+Found = tuple[FloatArray, int]
+#: Coordinates in the plane of an orbit, x to the pericentre, m, and the same count.
+Planar = tuple[FloatArray, FloatArray, int]
+#: From an ellipse, mean anomalies and a setting.
+InPlane = Callable[[Ellipse, FloatArray, float], Planar]
+
+#: Of the three ellipses on which places are asked for: the Earth's, and two that cost something.
+ECCENTRICITIES = (0.0167, 0.5, 0.99)
+#: A month, and a node that goes round in nineteen years.
+ELEMENTS = {
+    "a": 4e8,
+    "e": 0.5,
+    "i": 0.2,
+    "node": 1.0,
+    "pericentre": 2.0,
+    "mean_anomaly": 0.5,
+    "epoch": 0.0,
+    "motion": 2.5e-6,
+    "node_rate": -1.05e-8,
+    "pericentre_rate": 3.3e-8,
+}
+PLANE = Plane(tuple(np.eye(3).ravel().tolist()))
+ORBIT = Ellipse(**ELEMENTS, plane=PLANE)
+ORBITS = tuple(Ellipse(**ELEMENTS | {"e": e}, plane=PLANE) for e in ECCENTRICITIES)
+#: So many places on each in so many turns; fewer in a quick run.
+TURNS, TIMES, FEW = 30, 100, 20
+#: What the stored reference hangs on.
+INPUTS = ELEMENTS | {
+    "turns": TURNS,
+    "times": TIMES,
+    "eccentricities": list(ECCENTRICITIES),
+}
+ROUNDING = 1e-28
+
+
+def days() -> FloatArray:
+    """Days of the places, in sixteenths of a day, so that they are the same wherever made."""
+    turn = 2 * math.pi / ORBIT.motion / DAY
+    return np.asarray(np.rint(16 * np.linspace(0, TURNS * turn, TIMES)) / 16)
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    true = load("elements", INPUTS)
+    wanted = np.arange(TIMES)[:: TIMES // FEW if quick else 1]
+    return Ladder(
+        quantity="elements",
+        unit="1",
+        problem="places on ellipses of eccentricity 0.0167, 0.5 and 0.99 whose nodes and "
+        f"pericentres turn, at {wanted.size} times in {TURNS} turns; the error is the largest, "
+        "over half the long axis",
+        subject="places by elements",
+        reference="Kepler's equation with 50 digits, kept to 32",
+        reference_error=ROUNDING,
+        methods=_methods(days()[wanted], quick),
+        error=lambda found: _error(true["places"][:, wanted].error_of(found)),
+        useful=0.1,
+    )
+
+
+def _error(off: FloatArray) -> float:
+    """Largest of all places, off by so much, m, shape (3, n, 3)."""
+    return float(np.max(np.linalg.norm(off, axis=-1)) / ORBIT.a)
+
+
+def _methods(t: FloatArray, quick: bool) -> list[Method]:
+    by_hand: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
+        ("fixed-point iteration", "{} steps", _fixed_point, (5, 20, 80, 320)),
+        ("Newton's method from M", "{} steps", _newton, (2, 4, 8, 16)),
+        ("Newton's method, Danby's start", "{} steps", _danby, (2, 3, 4, 6, 8)),
+        ("series in the eccentricity", "{} terms", _series, (3, 10, 30, 100, 300)),
+        ("solve_ivp DOP853", "rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
+        ("universal variables by Skyfield", "", _skyfield, (0.0,)),
+    ]
+    ours = Setting("", lambda: (np.stack([one.positions(t) for one in ORBITS]), t.size * 3))
+    return [
+        Method("ellipses by their elements", True, [ours], bound=1e-13),
+        *(
+            Method(
+                name,
+                False,
+                settings(words, partial(_placed, run, t), (quick and values[1::2]) or values),
+            )
+            for name, words, run, values in by_hand
+        ),
+    ]
+
+
+def _placed(run: InPlane, t: FloatArray, setting: float) -> Found:
+    """Places on all ellipses by a method that finds them in the plane, x to the pericentre."""
+    found, calls = [], 0
+    for one in ORBITS:
+        x, y, more = run(one, one.mean_anomaly + one.motion * DAY * t, setting)
+        found.append(_turned(one, t, x, y))
+        calls += more
+    return np.stack(found), calls
+
+
+def _turned(one: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """From the plane of the orbit to axes at rest, as a textbook does."""
+    along = one.pericentre + one.pericentre_rate * DAY * t
+    node = one.node + one.node_rate * DAY * t
+    u, v = x * np.cos(along) - y * np.sin(along), x * np.sin(along) + y * np.cos(along)
+    flat, up = v * math.cos(one.i), v * math.sin(one.i)
+    across = u * np.cos(node) - flat * np.sin(node), u * np.sin(node) + flat * np.cos(node)
+    return np.stack([*across, up], axis=-1)
+
+
+def _on_ellipse(one: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
+    """From the cosine and sine of the eccentric anomaly."""
+    return one.a * (cosine - one.e), one.a * math.sqrt(1 - one.e**2) * sine, int(calls)
+
+
+def _fixed_point(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
+    anomaly = mean
+    for _ in range(int(steps)):
+        anomaly = mean + one.e * np.sin(anomaly)
+    return _on_ellipse(one, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
+
+
+def _newton(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
+    return _by_newton(one, mean, mean, int(steps))
+
+
+def _danby(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
+    """From M + 0.85 e, on the side of the pericentre that M is on (Danby 1988, section 6.6)."""
+    return _by_newton(one, mean, mean + 0.85 * one.e * np.sign(np.sin(mean)), int(steps))
+
+
+def _by_newton(one: Ellipse, mean: FloatArray, anomaly: FloatArray, steps: int) -> Planar:
+    for _ in range(steps):
+        off = anomaly - one.e * np.sin(anomaly) - mean
+        anomaly = anomaly - off / (1 - one.e * np.cos(anomaly))
+    return _on_ellipse(one, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
+
+
+def _series(one: Ellipse, mean: FloatArray, terms: float) -> Planar:
+    k = np.arange(1, int(terms) + 1)
+    angle = np.outer(mean, k)
+    cosine = -one.e / 2 + np.cos(angle) @ (2 / k * jvp(k, k * one.e))
+    sine = np.sin(angle) @ (2 / one.e / k * jv(k, k * one.e))
+    return _on_ellipse(one, cosine, sine, mean.size * terms)
+
+
+def _start(one: Ellipse) -> tuple[FloatArray, FloatArray, float]:
+    """Place and velocity at the pericentre, m and m/s, and the GM that goes with them."""
+    fast = one.motion * one.a * math.sqrt((1 + one.e) / (1 - one.e))
+    place, velocity = np.array([one.a * (1 - one.e), 0.0, 0.0]), np.array([0.0, fast, 0.0])
+    return place, velocity, one.motion**2 * one.a**3
+
+
+def _integrated(one: Ellipse, mean: FloatArray, rtol: float) -> Planar:
+    """The equations of motion, from the pericentre before the first time."""
+    place, velocity, gm = _start(one)
+
+    def slopes(time: float, state: FloatArray) -> list[float]:
+        x, y, u, v = state
+        pull = -gm / (x * x + y * y) ** 1.5
+        return [u, v, pull * x, pull * y]
+
+    since, size = mean / one.motion, np.array([one.a, one.a, velocity[1], velocity[1]])
+    done = solve_ivp(
+        slopes,
+        (0.0, float(since[-1])),
+        [*place[:2], *velocity[:2]],
+        "DOP853",
+        t_eval=since,
+        rtol=rtol,
+        atol=rtol * size,
+    )
+    return done.y[0], done.y[1], done.nfev
+
+
+def _skyfield(one: Ellipse, mean: FloatArray, setting: float) -> Planar:
+    """What Skyfield takes for comets, after SPICE."""
+    from skyfield.keplerlib import propagate
+
+    place, velocity, gm = _start(one)
+    (x, y, _), _ = propagate(place, velocity, 0.0, mean / one.motion, gm)
+    return x, y, mean.size

@@ -1,0 +1,113 @@
+"""The mean pull of an orbit by its elements: its closed form against windows and sums.
+
+Windows are what a question takes where not every pull is one ellipse about the body.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.checks.ladders.of_elements import ELEMENTS, ORBIT, PLANE, ROUNDING
+from earthspin.checks.stored import load
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.constants import DAY
+from earthspin.sky.elements import Ellipse
+from earthspin.torque.average import Window, precessing_torque
+from earthspin.torque.gravity import torque_from_position
+from earthspin.torque.mean_orbit import mean_square_of_normal, mean_tide, mean_torque
+
+FloatArray = NDArray[np.float64]
+#: A mean, and how many places it took.
+Found = tuple[float, int]
+
+#: Of what pulls, m3 s-2; the tilt of the axis that it turns, rad.
+GM, TILT = 4e14, 0.4
+#: What the stored reference hangs on.
+INPUTS = ELEMENTS | {"gm": GM, "tilt": TILT}
+#: Turns of the node, and days between samples.
+WINDOWS = ((3, 4), (3, 2), (3, 1), (4, 1), (6, 1), (8, 1))
+AXIS = np.array([math.sin(TILT), 0.0, math.cos(TILT)])
+NORMAL = np.array([0.0, 0.0, 1.0])
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    true = load("mean-orbit", INPUTS)["mean"]
+    return Ladder(
+        quantity="mean-orbit",
+        unit="1",
+        problem=f"mean precessing torque of an orbit of eccentricity {ORBIT.e:g}, inclined by "
+        f"{math.degrees(ORBIT.i):.3g} deg, whose node and pericentre turn; the error is relative",
+        subject="the mean pull of an orbit by elements",
+        reference="sum over anomaly and node with 50 digits, kept to 32",
+        reference_error=ROUNDING,
+        methods=_methods(quick),
+        error=lambda found: abs(float(true.error_of(found) / true.hi)),
+        useful=0.1,
+    )
+
+
+def _methods(quick: bool) -> list[Method]:
+    cycle = 2 * math.pi / abs(ORBIT.node_rate)
+    windows = WINDOWS[2:4] if quick else WINDOWS
+    counts = (8, 32) if quick else (8, 16, 32, 64, 120)
+    plain = (cycle,) if quick else (DAY * 365.25, DAY * 3652.5, cycle, 5 * cycle)
+    return [
+        Method("closed mean", True, [Setting("", lambda: (_closed(), 1))], bound=2e-15),
+        Method(
+            "sin4 window",
+            True,
+            [
+                Setting(
+                    f"{turns} turns, {step} d",
+                    partial(_windowed, Window(0.0, turns, cycle, "sin4"), step * DAY),
+                )
+                for turns, step in windows
+            ],
+            bound=1e-8 if quick else 2e-14,
+        ),
+        Method(
+            "sum over anomaly and node",
+            False,
+            settings("{} anomalies", _summed, counts),
+        ),
+        Method(
+            "plain mean over years",
+            False,
+            [
+                Setting(
+                    f"{length / DAY / 365.25:.3g} years, 1 d",
+                    partial(_windowed, Window(0.0, 1.0, length, "plain"), DAY),
+                )
+                for length in plain
+            ],
+        ),
+    ]
+
+
+def _precessing(places: FloatArray) -> FloatArray:
+    return precessing_torque(torque_from_position(GM, 1.0, places, AXIS), AXIS, NORMAL)
+
+
+def _closed() -> float:
+    tide = mean_tide(GM, ORBIT.a, ORBIT.e, mean_square_of_normal(NORMAL, ORBIT.i))
+    return float(precessing_torque(mean_torque(tide, AXIS)[np.newaxis], AXIS, NORMAL)[0])
+
+
+def _windowed(window: Window, step: float) -> Found:
+    times = window.sample_times(step)
+    return float(window.mean(times, _precessing(ORBIT.positions(times / DAY)))), times.size
+
+
+def _summed(count: float) -> Found:
+    """Even anomalies on each of four orbits, their nodes a quarter turn from one another."""
+    total, mean = 0.0, 2 * np.pi * np.arange(int(count)) / int(count)
+    still = {"node_rate": 0.0, "pericentre_rate": 0.0, "mean_anomaly": 0.0, "motion": 1 / DAY}
+    for node in np.arange(4) * np.pi / 2:
+        orbit = Ellipse(**ELEMENTS | still | {"node": node}, plane=PLANE)
+        total += float(np.mean(_precessing(orbit.positions(mean)))) / 4
+    return total, 4 * int(count)
