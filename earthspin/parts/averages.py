@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin._version import version
-from earthspin.bodies import Body, in_a_sentence
+from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -302,15 +302,19 @@ def mean_torques(
 
 @dataclass(frozen=True)
 class MeanRates:
-    """Averages over orbits, along `perturber`; the last one is of all.
+    """Averages over orbits, by perturber; the last one is of all.
+
+    Where a body or a pull stands for many they are labelled arrays, else plain ones: labels cost
+    more than the sums.
 
     Attributes
     ----------
+    labels : list of str
     rate : Estimate
         Of precession, rad/s.
     torque : Estimate
         Magnitude of the mean torque, N m.
-    ratio : DataArray
+    ratio : ndarray or DataArray
         Rate over that of the first perturber.
     method : str
         Window and sampling in words.
@@ -320,61 +324,55 @@ class MeanRates:
         Why errors are not given; empty if they are.
     """
 
+    labels: list[str]
     rate: Estimate
     torque: Estimate
-    ratio: xr.DataArray
+    ratio: Numeric
     method: str
     evaluations: int
     no_error: str
 
-    def total(self) -> tuple[xr.DataArray, xr.DataArray]:
+    def total(self) -> tuple[Numeric, Numeric]:
         """Rate by all perturbers and its error, rad/s."""
-        value, error = (
-            of.isel(perturber=-1, drop=True) for of in (self.rate.value, self.rate.error)
-        )
-        return value, error
+        return of_all(self.rate.value), of_all(self.rate.error)
+
+
+def of_all(by_perturber: Numeric) -> Numeric:
+    """What all perturbers do together: the last of what each does."""
+    if hasattr(by_perturber, "dims"):
+        return by_perturber.isel(perturber=-1, drop=True)
+    return by_perturber[-1]
 
 
 @part
 def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
     """Averages over orbits: rate, period, mean torque, with errors."""
-    import xarray as xr
-
     from earthspin.mass.inertia import moment_difference
     from earthspin.torque import rates
 
     means = mean_torques
-
-    def along(values: NDArray[np.float64]) -> xr.DataArray:
-        laid = np.reshape(values, (len(means.labels), *means.cases.values()))
-        return xr.DataArray(laid, {"perturber": means.labels}, ("perturber", *means.cases))
-
-    def labelled(of: rates.Estimate) -> rates.Estimate:
-        return rates.Estimate(along(of.value), along(of.method), along(of.given))
-
-    # labels cost more than the sums: a body of plain numbers gets them at the end
-    many = body.labelled or means.cases
-    on_the_way, at_the_end = (along, _as_it_is) if many else (np.asarray, labelled)
+    along = _labelled(means) if body.labelled or means.cases else np.asarray
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = on_the_way(rates.total_uncertainty(means.precessing, u_each))
+    u_gm = along(rates.total_uncertainty(means.precessing, u_each))
     rate = rates.precession_estimate(
-        on_the_way(means.precessing),
-        on_the_way(means.precessing_error),
+        along(means.precessing),
+        along(means.precessing_error),
         body.needed("dynamical_flattening"),
         body.spin_rate,
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
     torque = rates.torque_estimate(
-        on_the_way(np.linalg.norm(means.torque, axis=1)),
-        on_the_way(np.linalg.norm(means.torque_error, axis=1)),
+        along(np.linalg.norm(means.torque, axis=1)),
+        along(np.linalg.norm(means.torque_error, axis=1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
         body.relative_uncertainty_of_bulge(),
         u_gm,
     )
     return MeanRates(
-        rate=at_the_end(rate),
-        torque=at_the_end(torque),
+        labels=means.labels,
+        rate=rate,
+        torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
         method=means.method,
         evaluations=means.evaluations,
@@ -382,9 +380,13 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     )
 
 
-def _as_it_is(of: Estimate) -> Estimate:
-    """An estimate that has its labels."""
-    return of
+def _labelled(means: MeanTorques) -> Callable[[NDArray[np.float64]], xr.DataArray]:
+    """What lays an array along perturbers and cases."""
+    import xarray as xr
+
+    dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
+    labels = {"perturber": means.labels}
+    return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)
 
 
 #: What stands between the sky and `mean_rates`, for the questions that use it.

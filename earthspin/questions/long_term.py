@@ -141,7 +141,7 @@ def strength(
     from earthspin.secular import strength as of
 
     cosine = math.cos(mean_torques.obliquity)
-    rates = dict(zip(mean_torques.labels, mean_rates.rate.value.values.tolist(), strict=True))
+    rates = dict(zip(mean_torques.labels, mean_rates.rate.value.tolist(), strict=True))
     as_published = not_the_iaus_earth(body, perturbers) is None
     more = sum(
         float(effect.value) * ARCSEC / JULIAN_YEAR

@@ -17,7 +17,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
 from earthspin.errors import UndefinedError
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
@@ -94,10 +94,10 @@ def _check_accuracy(asked: float | None, rate: Estimate) -> None:
     """Refuse a relative accuracy that the total does not reach, and say what takes most of it."""
     if asked is None:
         return
-    if not (rate.value.isel(perturber=-1) != 0).all():
+    if not all_of(of_all(rate.value) != 0):
         raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
     method, given, best = (
-        float((share / abs(rate.value)).isel(perturber=-1).max())
+        float((of_all(share) / abs(of_all(rate.value))).max())
         for share in (rate.method, rate.given, rate.error)
     )
     remedy = (
@@ -167,6 +167,7 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
             "obliquity": mean_torques.obliquity,
             "reference_epoch": datetime64(np.array(mean_torques.epoch / DAY)),
         },
+        {"perturber": mean_rates.labels},
         no_error=mean_rates.no_error,
     )
     result["precession_rate"].attrs |= {

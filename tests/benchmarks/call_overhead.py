@@ -17,6 +17,7 @@ from typing import Any
 import xarray as xr
 
 import earthspin
+from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
 from earthspin.engine import labels
 from earthspin.engine.run import SCENE, seconds_of
 
@@ -26,6 +27,7 @@ TARGET = 3.0
 
 CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "precession": earthspin.precession,
+    "precession by elements": lambda: earthspin.precession(perturbers=[MEAN_SUN, MEAN_MOON]),
     "precession, one of many": lambda: earthspin.precession(
         body=earthspin.EARTH.replace(spin_period=82800.0), accuracy=1e-3
     ),
