@@ -3,25 +3,18 @@
 The build of the pages runs the cells too, and refuses one that fails.
 """
 
-import importlib.util
-import json
 import re
-import subprocess
-import sys
 import tomllib
-from pathlib import Path
-from types import ModuleType
 
 import pytest
 
-DOCS = Path(__file__).parents[2] / "docs"
-RUNNER = DOCS / "_ext" / "lessons.py"
+from tests.docs.lessons import DOCS, NUMBER, extension, hold, results_of
+
 INDEX = (DOCS / "course" / "index.md").read_text(encoding="utf-8")
 NAMES = re.search(r"```\{toctree\}\n:maxdepth: 1\n\n(.*?)\n```", INDEX, re.S)[1].split()  # type: ignore[index]
 LESSONS = {
     name: (DOCS / "course" / f"{name}.md").read_text(encoding="utf-8") for name in NAMES
 }  # fmt: skip
-NUMBER = r"([-+]?\d[\d.]*(?:e[-+]?\d+)?)"
 
 #: What a lesson prints of one thing: two numbers, found in two ways, and how near they are to each
 #: other; or one number, their difference, and what it may come to.
@@ -92,36 +85,12 @@ PRINTED = {
 }
 
 
-def extension() -> ModuleType:
-    """The module of the docs that reads lessons."""
-    spec = importlib.util.spec_from_file_location("lessons", RUNNER)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 READER = extension()
 
 
 @pytest.fixture(scope="module")
 def results() -> dict[str, dict[str, str]]:
-    """What came of each lesson, in a process of its own: what else is tested needs no pyplot."""
-    out = subprocess.run(
-        [
-            sys.executable,
-            "-X",
-            "utf8",
-            str(RUNNER),
-            *(f"{DOCS}/course/{name}.md" for name in NAMES),
-        ],
-        capture_output=True,
-        encoding="utf-8",
-    )
-    assert out.returncode == 0, out.stderr
-    found = [json.loads(line) for line in out.stdout.splitlines()]
-    return {line["lesson"]: line for line in found}
+    return results_of(DOCS / "course" / f"{name}.md" for name in NAMES)
 
 
 def test_every_lesson_is_in_the_contents() -> None:
@@ -162,16 +131,8 @@ def test_its_cells_run_and_draw_one_picture(name: str, results: dict[str, dict[s
 
 @pytest.mark.parametrize("name", NAMES)
 def test_what_it_prints_twice_agrees(name: str, results: dict[str, dict[str, str]]) -> None:
-    printed = results[name]["printed"]
     for words, nearness in PRINTED[name]:
-        found = re.findall(words, printed)
-        assert found, f"{words} in\n{printed}"
-        for numbers in found:
-            if isinstance(numbers, str):
-                assert abs(float(numbers)) <= nearness, words
-            else:
-                one, other = map(float, numbers)
-                assert one == pytest.approx(other, rel=nearness, abs=0), words
+        hold(results[name]["printed"], words, nearness)
 
 
 @pytest.mark.parametrize("name", NAMES)

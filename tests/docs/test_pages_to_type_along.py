@@ -18,9 +18,9 @@ def name(page: Path) -> str:
     return f"{page.parent.name}/{page.stem}"
 
 
-def test_there_are_three_tutorials_and_a_dozen_tasks() -> None:
+def test_there_are_four_tutorials_and_a_dozen_tasks() -> None:
     folders = [page.parent.name for page in STORIES]
-    assert folders.count("tutorials") == 3
+    assert folders.count("tutorials") == 4
     assert folders.count("howto") >= 12
 
 
