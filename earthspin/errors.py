@@ -133,19 +133,19 @@ class BodyError(EarthspinError, ValueError):
         )
 
     @classmethod
-    def lacking(cls, body: str, examples: Mapping[str, str]) -> BodyError:
+    def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
         """Say what a body lacks that the question needs, and how one would give it.
 
         Parameters
         ----------
         body : str
             Its name.
-        examples : mapping of str to str
-            By field, as one would write it in a scene.
+        forms : mapping of str to str
+            By field: what one writes for any body, its unit or its definition.
         """
-        *most, last = examples
+        *most, last = forms
         names = f"{', '.join(most)} and {last}" if most else last
-        given = ", ".join(f"{name} = {example}" for name, example in examples.items())
+        given = ", ".join(f"{name} = {form}" for name, form in forms.items())
         error = cls(body, last, None, f"this question needs {names}")
         error.args = (
             f"body '{_brief(body)}' has no {names}, which this question needs; give {given}",

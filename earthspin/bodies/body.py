@@ -119,14 +119,14 @@ class Body(FromMass):
     gm: Annotated[Numeric, Magnitude("m3/s2", "3.986e14 m3/s2")]
     naif: Annotated[tuple[int, ...], Codes()] = ()
     radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
-    j2: Annotated[Numeric | None, Magnitude("", "1.08e-3")] = None
-    dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3")] = None
+    j2: Annotated[Numeric | None, Magnitude("", "1.08e-3", "(C - A)/(M a2)")] = None
+    dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3", "(C - A)/C")] = None
     triaxiality: Annotated[Numeric, Magnitude("", "7.26e-6")] = 0.0
     j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
     j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
     j2_rate: Annotated[Numeric, Magnitude("1/s", "-9.5e-19 1/s")] = 0.0
     meridian: Annotated[float, Magnitude("rad", "10 deg")] = 0.0
-    flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3")] = None
+    flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
     pole: Annotated[Pole | None, Angles()] = None
     orbit_pole: Annotated[Direction | None, Angles()] = None
@@ -375,7 +375,7 @@ class Body(FromMass):
         return getattr(self, name)
 
     def require(self, names: Iterable[str]) -> None:
-        """Refuse at once all that this body lacks, with an example of how to give it.
+        """Refuse at once all that this body lacks, with the form in which to give it.
 
         Parameters
         ----------
@@ -389,7 +389,7 @@ class Body(FromMass):
         """
         missing = [name for name in names if getattr(self, name) is None]
         if missing:
-            raise BodyError.lacking(self.name, {name: self.KINDS[name].example for name in missing})
+            raise BodyError.lacking(self.name, {name: self.KINDS[name].form for name in missing})
 
     def number(self, name: str) -> float:
         """Return a field as one float.

@@ -23,17 +23,20 @@ class Magnitude:
         In which it is kept.
     text : str
         An example: number and unit.
+    ratio : str
+        Of a pure number: what is divided by what.
     """
 
     unit: str
     text: str
+    ratio: str = "..."
 
     words, hint = "a number with its unit", "float | str | Quantity | DataArray"
 
     @property
-    def example(self) -> str:
-        """How one would write it in a scene."""
-        return f'"{self.text}"' if self.unit else self.text
+    def form(self) -> str:
+        """How one would write it in a scene, whatever the body."""
+        return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, given: object, where: Where) -> Any:
         """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""

@@ -14,7 +14,7 @@ class Angles:
     """Kind of a direction in a scene: right ascension and declination, or how they move."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
-    example = '["317.7 deg", "52.9 deg"]'
+    form = '["... deg", "... deg"]'
 
     def read(self, given: object, where: Where) -> object:
         """Read two angles, in radians if they have no unit; a name is left to the body."""
