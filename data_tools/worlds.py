@@ -11,13 +11,15 @@ import earthspin
 from data_tools.stability import with_tables
 from earthspin.bodies import BODIES, PLANETS, proper
 from earthspin.bodies.giants import JUPITER_CONSTANT, SATURN_CONSTANT
-from earthspin.bodies.inner import MERCURY_OBLIQUITY, MERCURY_ORBIT, VENUS_PRECESSION
+from earthspin.bodies.inner import MERCURY_OBLIQUITY, VENUS_PRECESSION
 from earthspin.bodies.mars import PRECESSION as MARS_PRECESSION
-from earthspin.bodies.mean_orbits import MEAN_MOON
 from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
+from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.constants import PSI_A_RATE, Constant
 from earthspin.errors import EarthspinError
 
+#: Signs of units; smaller obliquities stand in minutes of arc, deg.
+UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
 PAGE = Path(__file__).parents[1] / "docs" / "worlds.md"
 
 
@@ -127,6 +129,36 @@ def table(rows: list[World]) -> str:
 
 
 @dataclass(frozen=True)
+class Observed:
+    """Where an axis is observed to stand, and why ours is elsewhere.
+
+    Attributes
+    ----------
+    obliquity : Constant or None
+        To its own orbit, arcmin or deg; None if it is not known here.
+    why : str
+        What parts the two, or what is missing.
+    """
+
+    obliquity: Constant | None
+    why: str
+
+
+OBSERVED = {
+    "mercury": Observed(MERCURY_OBLIQUITY, "the moment was inferred from this obliquity"),
+    "moon": Observed(MOON_OBLIQUITY, "a solid body on a mean ellipse"),
+    "titan": Observed(
+        TITAN_OBLIQUITY,
+        f"a solid body: for one {TITAN_OBLIQUITY_IF_SOLID.value:g}° are published "
+        f"({TITAN_OBLIQUITY_IF_SOLID.source}); a shell on an ocean leans more",
+    ),
+    "phobos": Observed(None, "no observed obliquity to its own orbit is known here"),
+    "iapetus": Observed(None, "J2 and the moments were never measured"),
+    "triton": Observed(None, "J2 and the moments were never measured"),
+}
+
+
+@dataclass(frozen=True)
 class Locked:
     """A spin that is locked: where its axis stands, ours and observed.
 
@@ -134,44 +166,57 @@ class Locked:
     ----------
     name : str
     obliquity, error : float
-        To its own orbit in Cassini state 1, and half-width, in the unit of the observed one.
-    observed : Constant
+        To its own orbit, of the lowest upright Cassini state, and half-width, deg.
+    refused : str
+        Why there is none; empty if there is.
     """
 
     name: str
-    obliquity: float
-    error: float
-    observed: Constant
+    obliquity: float = math.nan
+    error: float = math.nan
+    refused: str = ""
+
+
+def locked_spin(name: str) -> Locked:
+    """Row of a body in the Cassini state that it is in."""
+    try:
+        states = earthspin.cassini_states(name)
+    except EarthspinError as error:
+        return Locked(name, refused=str(error))
+    first = states.isel(state=0)  # for the Moon state 2, the only upright one
+    return Locked(name, float(first.obliquity), float(first.obliquity_error))
 
 
 def locked() -> list[Locked]:
-    """Mercury and the Moon in the Cassini states that they are in."""
-    rows = []
-    for name, orbit, observed, in_a_degree in (
-        ("mercury", MERCURY_ORBIT, MERCURY_OBLIQUITY, 60.0),
-        ("moon", MEAN_MOON.orbit, MOON_OBLIQUITY, 1.0),
-    ):
-        states = earthspin.cassini_states(name, orbit)
-        first = states.isel(state=0)  # for the Moon state 2, the only upright one
-        found = float(first.obliquity) * in_a_degree, float(first.obliquity_error) * in_a_degree
-        rows.append(Locked(name, *found, observed))
-    return rows
+    """Mercury and the moons."""
+    return [locked_spin(name) for name in OBSERVED]
 
 
 def table_of_locked(rows: list[Locked]) -> str:
-    """The locked spins in Markdown."""
-    units = {"arcmin": "′", "deg": "°"}
+    """The locked spins in Markdown: those that have states, then those that are refused."""
     lines = [
         "| locked spin | obliquity to its orbit | ± | observed | ± | source |",
         "|---|---:|---:|---:|---:|---|",
     ]
     for row in rows:
-        of, unit = row.observed, units[row.observed.unit]
-        error = "" if of.uncertainty is None else f"{of.uncertainty:g}{unit}"
+        if row.refused:
+            continue
+        of = OBSERVED[row.name].obliquity
+        small = row.obliquity < SMALL
+        sign, factor = ("′", 60.0) if small else ("°", 1.0)
+        error = f"{factor * row.error:.2g}{sign}" if row.error else ""
+        theirs = ["", "", ""]
+        if of is not None:
+            half = "" if of.uncertainty is None else f"{of.uncertainty:g}{UNITS[of.unit]}"
+            theirs = [f"{of.value:g}{UNITS[of.unit]}", half, of.source]
         lines.append(
-            f"| {proper(row.name)} | {row.obliquity:.2f}{unit} | {row.error:.2g}{unit} "
-            f"| {of.value:g}{unit} | {error} | {of.source} |"
+            f"| {proper(row.name)} | {factor * row.obliquity:.3g}{sign} | {error} "
+            f"| {' | '.join(theirs)} |"
         )
+    lines += ["", "| locked spin | what parts ours from the observed one |", "|---|---|"]
+    lines += [f"| {proper(row.name)} | {OBSERVED[row.name].why} |" for row in rows]
+    lines += ["", "| locked spin | why there is no state |", "|---|---|"]
+    lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
     return "\n".join([*lines, ""])
 
 

@@ -9,9 +9,13 @@ import earthspin
 from data_tools.stability import BEGIN, END
 from data_tools.worlds import PAGE, locked, table, table_of_locked, worlds
 from earthspin import BODIES, MARS, MOON, BodyError, SceneError, UndefinedError
-from earthspin.bodies import JUPITER, SATURN, URANUS
+from earthspin.bodies import JUPITER, SATURN, TRITON, URANUS
 from earthspin.bodies.giants import OF_JUPITER, OF_SATURN, SATURN_MOMENT
+from earthspin.bodies.inner import MERCURY_OBLIQUITY
 from earthspin.bodies.mars import MOVING_POLE
+from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
+from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
+from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.bodies.planets import PLANETS, on_its_orbit, pulled_by
 from earthspin.bodies.satellites import Satellite, added_by
 from earthspin.cli import main
@@ -46,9 +50,38 @@ def test_the_table_of_the_page_is_made_by_the_command(rows: dict) -> None:
 
 def test_locked_spins_stand_where_they_are_observed() -> None:
     """Mercury within its error; the Moon 0.04 deg off, for a solid body on a mean orbit."""
-    mercury, moon = locked()
-    assert mercury.obliquity == pytest.approx(mercury.observed.value, rel=0, abs=0.08)
-    assert moon.obliquity == pytest.approx(moon.observed.value, rel=0, abs=0.05)
+    states = {row.name: row for row in locked()}
+    mercury, moon = states["mercury"], states["moon"]
+    assert 60 * mercury.obliquity == pytest.approx(MERCURY_OBLIQUITY.value, rel=0, abs=0.08)
+    assert moon.obliquity == pytest.approx(MOON_OBLIQUITY.value, rel=0, abs=0.05)
+    # a solid Titan, as published apart; what is observed tells of an ocean
+    titan = states["titan"]
+    assert titan.obliquity == pytest.approx(TITAN_OBLIQUITY_IF_SOLID.value, rel=0.01, abs=0)
+    assert titan.obliquity + 3 * titan.error < TITAN_OBLIQUITY.value / 2
+    assert not states["phobos"].refused
+    for name in ("iapetus", "triton"):
+        assert "has no j2 and dynamical_flattening" in states[name].refused
+
+
+@pytest.mark.parametrize("name", ["titan", "phobos"])
+def test_a_locked_moon_by_linear_theory(name: str) -> None:
+    """Small tilts: eps = i nu/(w - nu) with w = (3/2) (n/c) (J2 + 2 C22), to the order of e^2."""
+    one, orbit = BODIES[name], PRECESSING_ORBITS[name]
+    n, nu = 2 * math.pi / orbit.period, -2 * math.pi / orbit.node_period
+    polar = one.j2 / one.dynamical_flattening
+    w = 1.5 * n / polar * (one.j2 + one.triaxiality / 2)
+    found = earthspin.cassini_states(name).sel(state=1)
+    tilt = math.degrees(orbit.i * nu / (w - nu))
+    assert float(found.obliquity) == pytest.approx(tilt, rel=4e-3, abs=0)
+    assert not bool(found.towards_pole)
+
+
+def test_triton_goes_round_its_own_normal() -> None:
+    """Backwards about Neptune's pole: forwards, and its node back, about the other."""
+    orbit = PRECESSING_ORBITS["triton"]
+    assert math.degrees(orbit.i) == pytest.approx(180 - 156.865, rel=1e-12, abs=0)
+    round_one = earthspin.cassini_states(TRITON.replace(j2=1e-3, dynamical_flattening=2.5e-3))
+    assert round_one.obliquity.attrs["spin"] == "locked, 1 turns in each orbit"
 
 
 def test_what_has_no_rate_says_why(rows: dict) -> None:
@@ -134,7 +167,7 @@ def test_the_pole_of_mars_precesses_as_observed() -> None:
     assert float(z @ axes[0]) == pytest.approx(math.cos(math.radians(25.19)), rel=0, abs=1e-4)
 
 
-@pytest.mark.parametrize("name", [*PLANETS, "moon"])
+@pytest.mark.parametrize("name", [*PLANETS, "moon", "titan", "triton"])
 def test_what_pulls_on_a_world(name: str) -> None:
     names = [one.name for one in pulled_by(BODIES[name])]
     assert "sun" in names

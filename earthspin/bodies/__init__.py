@@ -5,13 +5,14 @@ from earthspin.bodies.earth import EARTH
 from earthspin.bodies.labelled import Numeric, all_of
 from earthspin.bodies.mars import MARS
 from earthspin.bodies.moon import MOON
+from earthspin.bodies.moons import IAPETUS, PHOBOS, TITAN, TRITON
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.planets import JUPITER, MERCURY, NEPTUNE, PLANETS, SATURN, URANUS, VENUS
 from earthspin.bodies.sun import SUN
 
 __all__ = [
-    "BODIES", "EARTH", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS", "PLANETS",
-    "SATURN", "SUN", "URANUS", "VENUS", "Body", "Numeric",
+    "BODIES", "EARTH", "IAPETUS", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS",
+    "PHOBOS", "PLANETS", "SATURN", "SUN", "TITAN", "TRITON", "URANUS", "VENUS", "Body", "Numeric",
     "Orbit", "all_of", "body", "in_a_sentence", "proper",
 ]  # fmt: skip
 

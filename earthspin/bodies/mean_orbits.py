@@ -6,6 +6,7 @@ import math
 
 from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
 from earthspin.bodies.moon import MOON
+from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
 from earthspin.constants import AU, DAY, DAYS_PER_CENTURY, SIDEREAL_MONTH, SIDEREAL_YEAR, Constant
@@ -62,4 +63,4 @@ MEAN_MOON = MOON.replace(
     )
 )
 #: Orbits on the planes that they precess on, by the name of the body.
-PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT}
+PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT} | OF_MOONS

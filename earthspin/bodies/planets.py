@@ -5,6 +5,7 @@ from __future__ import annotations
 from earthspin.bodies.body import BODIES, Body
 from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
 from earthspin.bodies.inner import MERCURY, VENUS
+from earthspin.bodies.moons import ORBITS as OF_MOONS
 
 __all__ = [
     "JUPITER", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
@@ -15,11 +16,15 @@ __all__ = [
 PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
 
 _SUN_AND_MOON = ("sun", "moon")
-_OTHERS = {"moon": ("earth", "sun")} | {name: ("sun",) for name in PLANETS if name != "earth"}
+_OTHERS = (
+    {name: ("sun",) for name in PLANETS if name != "earth"}
+    | {"moon": ("earth", "sun")}
+    | {name: (orbit.about, "sun") for name, orbit in OF_MOONS.items()}
+)
 
 
 def pulled_by(body: Body) -> tuple[Body, ...]:
-    """What pulls on a body unless others are named: the Sun, and on the Earth the Moon."""
+    """What pulls on a body unless others are named: Sun and Moon, or the Sun and its planet."""
     return tuple(BODIES[name] for name in _OTHERS.get(body.name, _SUN_AND_MOON))
 
 

@@ -58,6 +58,21 @@ def h_homogeneous(j2: Numeric) -> Numeric:
     return j2 / 0.4
 
 
+def homogeneous_ellipsoid(a: float, b: float, c: float) -> tuple[float, float, float]:
+    """J2, H and (B - A)/(M a2) of an ellipsoid of one density; J2 refers to its longest axis.
+
+    Its moments are M (b2 + c2)/5, M (a2 + c2)/5 and M (a2 + b2)/5.
+
+    Parameters
+    ----------
+    a, b, c : float
+        Semi-axes, the longest first and that of the spin last, in one unit.
+    """
+    b2, c2 = (b / a) ** 2, (c / a) ** 2
+    j2 = (1 + b2 - 2 * c2) / 10
+    return j2, 5 * j2 / (1 + b2), (1 - b2) / 5
+
+
 def polar_moment_factor(j2: Numeric, h: Numeric) -> Numeric:
     """C/(M a2) from the two numbers that are measured."""
     return j2 / h

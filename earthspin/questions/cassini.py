@@ -54,7 +54,7 @@ class CassiniStates(
     orbit: Annotated[Orbit | None, OrbitTable()] = key(
         None,
         doc="its orbit, with a period of the node; if not given, the body's own, or the mean one "
-        "of the Moon and of Mercury",
+        "of a moon and of Mercury",
     )
 
     def check(self) -> None:

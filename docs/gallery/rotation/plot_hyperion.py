@@ -14,17 +14,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
+from earthspin.mass.inertia import homogeneous_ellipsoid
 
 PERIOD = 21.28 * 86400
 orbit = earthspin.Orbit(period=PERIOD, e=0.1, plane="icrf")
 
 # semi-axes 180, 133 and 102.5 km, the same density throughout
-b2, c2 = (133 / 180) ** 2, (102.5 / 180) ** 2
-j2 = (1 + b2 - 2 * c2) / 10
-figure = {"radius": 1.8e5, "j2": j2, "dynamical_flattening": 5 * j2 / (1 + b2)}
+j2, h, triaxiality = homogeneous_ellipsoid(180, 133, 102.5)
 hyperion = earthspin.Body(
-    name="hyperion", gm=3.7e8, triaxiality=(1 - b2) / 5, orbit=orbit, **figure
-)
+    name="hyperion", gm=3.7e8, radius=1.8e5, orbit=orbit,
+    j2=j2, dynamical_flattening=h, triaxiality=triaxiality,
+)  # fmt: skip
 same = {"body": hyperion, "perturbers": "saturn", "start_attitude": [1, 0, 0, 0]}
 for name, start in {"aslant": [0.5, 0.3, 1.5], "about the long axis": [4, 0.1, 0.8]}.items():
     omega = 2 * np.pi / PERIOD * np.array(start)

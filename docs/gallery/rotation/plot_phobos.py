@@ -14,20 +14,19 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import earthspin
+from earthspin.bodies import PHOBOS
 
-E, PERIOD = 0.0151, 0.31891 * 86400
-orbit = earthspin.Orbit(a="9376 km", period=PERIOD, e=E, plane="icrf")
+E, RATE = 0.0151, 2 * np.pi / PHOBOS.spin_period
+orbit = earthspin.Orbit(a="9376 km", period=PHOBOS.spin_period, e=E, plane="icrf")
 
-# semi-axes 13, 11.4 and 9.1 km, the same density throughout
-b2, c2 = (11.4 / 13) ** 2, (9.1 / 13) ** 2
-j2, sigma = (1 + b2 - 2 * c2) / 10, (1 - b2) / (1 + b2)
-figure = {"j2": j2, "dynamical_flattening": 5 * j2 / (1 + b2), "triaxiality": (1 - b2) / 5}
-phobos = earthspin.Body(name="phobos", gm=7.1e5, radius=1.3e4, orbit=orbit, **figure)
-rate = 2 * np.pi / PERIOD * (1 - 2 * E / (1 / (3 * sigma) - 1))
-start = {"body": phobos, "start_attitude": [1, 0, 0, 0], "start_omega": [0, 0, rate]}
-turned = earthspin.rotation("2000-01-01T12:00", "2000-01-03", "5 min", perturbers="mars", **start)
+a, b, c = PHOBOS.moments  # semi-axes 13, 11.4 and 9.1 km, the same density throughout
+spin = RATE * (1 - 2 * E / (1 / (3 * (b - a) / c) - 1))
+turned = earthspin.rotation(
+    "2000-01-01T12:00", "2000-01-03", "5 min", body=PHOBOS.replace(orbit=orbit),
+    perturbers="mars", start_attitude=[1, 0, 0, 0], start_omega=[0, 0, spin],
+)  # fmt: skip
 hours = (turned.time - turned.time[0]).values / np.timedelta64(1, "h")
-mean = Rotation.from_rotvec(np.outer(2 * np.pi * 3600 / PERIOD * hours, [0, 0, 1]))
+mean = Rotation.from_rotvec(np.outer(3600 * RATE * hours, [0, 0, 1]))
 ahead = mean.inv() * Rotation.from_quat(turned.attitude, scalar_first=True)
 plt.plot(hours, np.degrees(ahead.as_rotvec()[:, 2]))
 plt.hlines([-1.14, 1.14], 0, 36, colors="0.4", ls="--", lw=0.8)

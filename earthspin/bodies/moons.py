@@ -1,0 +1,130 @@
+"""Moons of other planets whose spin is locked to their orbit: Phobos, Titan, Iapetus, Triton.
+
+They stand in Cassini states. Neither J2 nor the moments of Iapetus and Triton were ever measured:
+a question that needs them asks for them.
+"""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.bodies.body import Body
+from earthspin.bodies.figure import flattening_of
+from earthspin.bodies.giants import OF_SATURN
+from earthspin.bodies.inner import IAU_2015
+from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.satellites import JPL
+from earthspin.constants import DAY, DAYS_PER_CENTURY, JULIAN_YEAR, Constant
+from earthspin.mass.inertia import homogeneous_ellipsoid
+from earthspin.sky.moving_pole import MovingPole
+
+_IESS = "Iess et al. 2012, Science 337, 457 (Cassini), as recalled"
+_AXES = f"homogeneous ellipsoid of 13.0 x 11.4 x 9.1 km, {IAU_2015}"
+_IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009), as recalled"
+_TITAN = OF_SATURN[-1]
+
+_TITAN_J2 = Constant(33.599e-6, "", 0.332e-6, _IESS)
+#: C/(M R2) of Titan in hydrostatic equilibrium.
+TITAN_MOMENT = Constant(0.3414, "", 0.0005, "Iess et al. 2010, Science 327, 1367, as recalled")
+#: Obliquity of Titan to its orbit as observed, and as predicted for a solid body.
+TITAN_OBLIQUITY = Constant(0.32, "deg", None, "Stiles et al. 2008, AJ 135, 1669, as recalled")
+TITAN_OBLIQUITY_IF_SOLID = Constant(
+    0.113, "deg", None, "Baland et al. 2011, A&A 530, A141, as recalled"
+)
+
+
+def _days(days: float, source: str) -> Constant:
+    """Sidereal period."""
+    return Constant(days * DAY, "s", None, source)
+
+
+def _locked(gm: Constant, radius: float, period: Constant, source: str) -> dict[str, Constant]:
+    """Numbers of a moon of a radius (km) that turns once in each orbit."""
+    return {
+        "gm": gm,
+        "radius": Constant(radius * 1e3, "m", None, source),
+        "spin_period": period,
+        "orbital_period": period,
+    }
+
+
+def _of_phobos() -> dict[str, Constant]:
+    j2, h, triaxiality = homogeneous_ellipsoid(13.0, 11.4, 9.1)
+    figure = {"j2": j2, "dynamical_flattening": h, "triaxiality": triaxiality}
+    return {name: Constant(value, "", None, _AXES) for name, value in figure.items()}
+
+
+#: Phase at J2000.0 (deg) and rate (deg a century) of M1, the node of Phobos.
+_M1 = (169.51, -0.4357640 * DAYS_PER_CENTURY)
+
+PHOBOS = Body.cited(
+    "phobos",
+    _locked(Constant(7.087e5, "m3 s-2", None, JPL), 13.0, _days(0.31891023, JPL), _AXES)
+    | _of_phobos(),
+    naif=(401,),
+    pole=MovingPole.published((317.68, -0.108), (52.90, -0.061), [(1.79, *_M1)], [(-1.08, *_M1)]),
+    reference=f"{JPL}; {_AXES}; pole: {_IAU_2011}",
+)
+TITAN = Body.cited(
+    "titan",
+    _locked(_TITAN.gm, 2575.0, _TITAN.period, "reference radius of " + _IESS)
+    | {
+        "j2": _TITAN_J2,
+        "dynamical_flattening": flattening_of(_TITAN_J2, TITAN_MOMENT),
+        # (B - A)/(M a2) = 4 C22
+        "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.029e-6, _IESS),
+    },
+    naif=(606,),
+    pole=MovingPole.published((39.4827, 0.0), (83.4279, 0.0)),
+    reference=f"{JPL}; {_IESS}; {TITAN_MOMENT.source}; pole: {_IAU_2011}",
+)
+IAPETUS = Body.cited(
+    "iapetus",
+    _locked(Constant(120.51e9, "m3 s-2", None, JPL), 734.5, _days(79.3215, JPL), JPL),
+    naif=(608,),
+    pole=MovingPole.published((318.16, -3.949), (75.03, -1.143)),
+    reference=f"{JPL}; pole: {_IAU_2011}",
+)
+TRITON = Body.cited(
+    "triton",
+    _locked(Constant(1428.0e9, "m3 s-2", None, JPL), 1352.6, _days(5.876854, JPL), JPL),
+    naif=(801,),
+    reference=JPL,
+)
+
+#: Orbits on the planes that they precess on; longitudes are not needed and not given.
+ORBITS = {
+    PHOBOS.name: Orbit(
+        period=PHOBOS.number("orbital_period"),
+        e=0.0151,
+        # size and rate of the main term of its pole
+        i=math.radians(1.08),
+        node_period=360.0 / _M1[1] * DAYS_PER_CENTURY * DAY,
+        about="mars",
+        reference=f"{JPL}; {_IAU_2011}",
+    ),
+    TITAN.name: Orbit(
+        period=_TITAN.period.value,
+        e=0.0288,
+        i=math.radians(0.3197),
+        node_period=-703.51 * JULIAN_YEAR,
+        about="saturn",
+        reference="Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6), as recalled",
+    ),
+    IAPETUS.name: Orbit(
+        period=IAPETUS.number("orbital_period"),
+        e=0.0286,
+        i=math.radians(7.489),
+        node_period=-3438.0 * JULIAN_YEAR,
+        about="saturn",
+        reference=JPL,
+    ),
+    # it goes round backwards: its angles count from the normal that it turns about
+    TRITON.name: Orbit(
+        period=TRITON.number("orbital_period"),
+        i=math.radians(180.0 - 156.865),
+        node_period=-687.446 * JULIAN_YEAR,
+        about="neptune",
+        reference=JPL,
+    ),
+}
