@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from earthspin.constants import G
 from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
-from earthspin.numerics.collocation import transfer
+from earthspin.numerics.collocation import carry
 
 Numeric = Any
 Array = NDArray[Any]
@@ -50,13 +50,13 @@ class Equilibrium:
 def equilibrium(body: LayeredBody) -> Equilibrium:
     """Clairaut's hydrostatic figure to first order, by the equations of a liquid."""
     profile = Profile(body)
-    pair, r, found = liquid_centre(profile), START, []
+    pair, r, found = liquid_centre(profile)[:, np.newaxis], START, []
     for i, top in enumerate(profile.tops):
-        pair = transfer(liquid(profile, i), r, top) @ pair
-        found.append(pair)
+        pair = carry(liquid(profile, i), r, top, pair)
+        found.append(pair[:, 0])
         r = top
     # The equation of a free liquid surface: the potential of degree two comes from outside.
-    y5, y7 = (5 / pair[1] * np.array(found)).T
+    y5, y7 = (5 / pair[1, 0] * np.array(found)).T
     tops = np.array(profile.tops)
     enclosed = tops**3 * (y5 - tops * y7 / 5)
     at_core = profile.tops.index(body.core_radius / body.radius) if body.core_radius else None

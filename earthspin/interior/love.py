@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -20,9 +21,11 @@ from earthspin.interior.equations import (
     solid_centre,
 )
 from earthspin.interior.layers import LayeredBody
-from earthspin.numerics.collocation import transfer
+from earthspin.numerics.collocation import carry as by_collocation
 
 Array = NDArray[Any]
+#: Carries columns y, shape (..., n, columns), of dy/dr = M(r) y from one radius to another.
+Carry = Callable[[Callable[[Array], Array], float, float, Array], Array]
 
 #: The potentials r2 that are put to a body: in all of it, in its fluid core, in its inner core.
 PARTS = ("whole", "fluid", "inner")
@@ -74,7 +77,7 @@ class Yielding:
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
-def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
+def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation) -> Yielding:
     """Love numbers of degree two, and the answers of the parts to potentials in the parts.
 
     Parameters
@@ -83,6 +86,8 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
     strain : complex or array
         Relative change of the shear modulus at quality factor 1; a layer's modulus is
         multiplied by 1 + strain/shear_q. 0 is the elastic body as seismology has it.
+    carry : callable
+        How the equations are integrated.
 
     Raises
     ------
@@ -98,7 +103,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
         )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
-    found = _solved(Profile(body), body, flat)
+    found = _solved(Profile(body), body, flat, carry)
     return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in found))
 
 
@@ -143,20 +148,20 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 # r2, and y6 by five times the difference times r.
 
 
-def _solved(profile: Profile, body: LayeredBody, strain: Array) -> tuple[Array, ...]:
+def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
     """Meet the conditions at boundaries and surface for all potentials at once."""
     zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
-        y = _across(profile, 0, solid_centre(profile, strain), strain)
+        y = _across(profile, 0, solid_centre(profile, strain), strain, carry)
         bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
         conditions: list[Array] = []
         inner = core = None
     else:
-        first, inner, conditions = _through_inner_core(profile, body, strain)
-        pair, i = _through_liquid(profile, body, first)
+        first, inner, conditions = _through_inner_core(profile, body, strain, carry)
+        pair, i = _through_liquid(profile, body, first, carry)
         bottom = _onto_mantle(profile, body, pair)
         core = bottom
-        y = _across(profile, i, bottom, strain)
+        y = _across(profile, i, bottom, strain, carry)
     given = np.zeros((3, 4))
     given[0, _LOAD] = -5 / 3  # the weight of a load
     given[2] = 5 * _ACTS_IN[2]
@@ -189,26 +194,26 @@ def _inside(state: Array, r: float) -> Array:
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
-def _across(profile: Profile, first: int, y: Array, strain: Array) -> Array:
+def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
     """Carry columns through solid layers, from the first of them to the next liquid."""
     r = START if first == 0 else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
             break
-        y = transfer(solid(profile, i, strain), r, profile.tops[i]) @ y
+        y = carry(solid(profile, i, strain), r, profile.tops[i], y)
         r = profile.tops[i]
     return y
 
 
 def _through_inner_core(
-    profile: Profile, body: LayeredBody, strain: Array
+    profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
     """The pair (y5, y7) at the bottom of the liquid, the inner core's top, and what is to hold."""
     if not body.inner_core_radius:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
         pair[:, :, 0] = liquid_centre(profile)
         return pair, None, []
-    y = _across(profile, 0, solid_centre(profile, strain), strain)
+    y = _across(profile, 0, solid_centre(profile, strain), strain, carry)
     blank = np.zeros((strain.size, 6, 2 + 4))
     y = np.concatenate([y, blank], axis=-1)
     r = body.inner_core_radius / body.radius
@@ -228,12 +233,14 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
     return y5, y6
 
 
-def _through_liquid(profile: Profile, body: LayeredBody, pair: Array) -> tuple[Array, int]:
+def _through_liquid(
+    profile: Profile, body: LayeredBody, pair: Array, carry: Carry
+) -> tuple[Array, int]:
     """The pair at the top of the liquid, and the first layer above it."""
     r = body.inner_core_radius / body.radius or START
     i = next(n for n, layer in enumerate(profile.layers) if not layer.vs)
     while not profile.layers[i].vs:
-        pair = transfer(liquid(profile, i), r, profile.tops[i]) @ pair
+        pair = carry(liquid(profile, i), r, profile.tops[i], pair)
         r, i = profile.tops[i], i + 1
     return pair, i
 

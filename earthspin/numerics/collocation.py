@@ -2,8 +2,9 @@
 
 A stretch is cut into panels. On each the solution is the polynomial that meets the equation at
 the Gauss-Legendre nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations II,
-sect. IV.5): one small linear system a panel, all panels at once. What comes out is the matrix
-that takes y at one end to y at the other.
+sect. IV.5): one small linear system a panel, all panels at once. Solutions then go from panel to
+panel, not their matrices: those hold solutions that fall off from a centre by many powers of the
+radius as well, in whose rounding the others would be lost.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ Array = NDArray[Any]
 NODES = 8
 #: Largest ratio of the ends of a panel at first: M grows as 1/r towards a centre.
 FIRST_RATIO = 1.5
-#: By how much the matrix may change, over its largest element, when panels are halved; and where
+#: By how much a solution may change, over its largest element, when panels are halved; and where
 #: rounding lets it settle no further, as in a layer much softer than its own weight.
 SETTLED, ROUNDED = 1e-13, 1e-8
 MOST_HALVINGS = 6
@@ -40,8 +41,10 @@ def _rule(order: int) -> tuple[Array, Array, Array]:
 _NODES, _WEIGHTS, _INTEGRATE = _rule(NODES)
 
 
-def transfer(matrix: Callable[[Array], Array], start: float, stop: float) -> Array:
-    """Matrix that takes a solution from one radius to another.
+def carry(
+    matrix: Callable[[Array], Array], start: float, stop: float, y: Array, settled: float = SETTLED
+) -> Array:
+    """Carry solutions from one radius to another.
 
     Parameters
     ----------
@@ -49,23 +52,29 @@ def transfer(matrix: Callable[[Array], Array], start: float, stop: float) -> Arr
         Of an array of radii, shape (r,), gives M, shape (..., r, n, n).
     start, stop : float
         Positive, in any unit.
+    y : ndarray, shape (..., n, k)
+        k solutions at the start.
+    settled : float
+        Largest change of a solution, over its largest element, when panels are halved; those of
+        the finer ones come out.
 
     Returns
     -------
-    ndarray, shape (..., n, n)
+    ndarray, shape (..., n, k)
 
     Raises
     ------
     UndefinedError
-        If ever smaller panels still change it: the layer is too soft to be a solid.
+        If ever smaller panels still change them: the layer is too soft to be a solid.
     """
     count = max(1, int(np.ceil(np.log(stop / start) / np.log(FIRST_RATIO))))
-    coarse, last = _through(matrix, start, stop, count), np.inf
+    coarse, last = _through(matrix, start, stop, y, count), np.inf
     for _ in range(MOST_HALVINGS):
         count *= 2
-        fine = _through(matrix, start, stop, count)
-        change = float(np.max(abs(fine - coarse)) / np.max(abs(fine)))
-        if change <= SETTLED or last / 4 < change <= ROUNDED:
+        fine = _through(matrix, start, stop, y, count)
+        size = np.max(abs(fine), axis=-2, keepdims=True)
+        change = float(np.max(abs(fine - coarse) / np.where(size > 0, size, 1.0)))
+        if change <= settled or last / 4 < change <= ROUNDED:
             return fine
         coarse, last = fine, change
     raise UndefinedError(
@@ -74,8 +83,10 @@ def transfer(matrix: Callable[[Array], Array], start: float, stop: float) -> Arr
     )
 
 
-def _through(matrix: Callable[[Array], Array], start: float, stop: float, count: int) -> Array:
-    """The matrix with a number of panels whose ends keep one ratio."""
+def _through(
+    matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
+) -> Array:
+    """Solutions at the end, with a number of panels whose ends keep one ratio."""
     edges = np.geomspace(start, stop, count + 1)
     width = np.diff(edges)
     radii = edges[:-1, None] + width[:, None] * _NODES
@@ -88,7 +99,6 @@ def _through(matrix: Callable[[Array], Array], start: float, stop: float, count:
     ones = np.broadcast_to(np.tile(np.eye(n), (NODES, 1)), (*system.shape[:-2], NODES * n, n))
     at_nodes = np.linalg.solve(system, ones).reshape(*system.shape[:-2], NODES, n, n)
     panels = np.eye(n) + np.einsum("k,...kab,...kbc->...ac", _WEIGHTS, m, at_nodes)
-    product = panels[..., 0, :, :]
-    for panel in range(1, count):
-        product = panels[..., panel, :, :] @ product
-    return np.asarray(product)
+    for panel in range(count):
+        y = panels[..., panel, :, :] @ y
+    return np.asarray(y)

@@ -2,10 +2,14 @@
 
 The solid is integrated from Hooke's law and the balance of forces as they stand, not from the
 matrix that follows from them; the static liquid by Poisson's equation, whose density is that of
-the level surfaces (Dahlen 1974); in the logarithm of the radius; each solution by itself.
+the level surfaces (Dahlen 1974); in the logarithm of the radius; each solution by itself. With
+another way to carry them, and another kind of number, it makes the stored reference as well.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,45 +18,62 @@ from scipy.integrate import solve_ivp
 from earthspin.constants import G
 from earthspin.interior.layers import Layer, LayeredBody
 
-Array = NDArray[np.float64]
-N = 6.0  # n (n + 1) of degree two
+Number = Any
+Array = NDArray[Any]
+Slope = Callable[[Any, Array], Array]
+#: Takes dy/dr, y, and the radii where it starts and stops.
+Carry = Callable[[Slope, Array, Any, Any], Array]
+
+N = 6  # n (n + 1) of degree two
 START = 1e-3
+#: Boole's rule, exact for the mass of a layer whose density is a cubic.
+BOOLE = np.array([7, 32, 12, 32, 7])
 
 
 class Inside:
     """Density, its slope, gravity and moduli by plain quadrature, in units of R, M and G."""
 
-    def __init__(self, body: LayeredBody) -> None:
-        self.body = body
-        self.tops = np.array([layer.top / body.radius for layer in body.layers])
-        self.unit = body.mass / body.radius**3
-        self.pressure = G.value * body.mass**2 / body.radius**4
+    def __init__(self, body: LayeredBody, kind: type[np.floating[Any]] = np.float64) -> None:
+        self.body, self.kind, self.pi = body, kind, 4 * np.arctan(kind(1))
+        radius = kind(body.radius)
+        self.tops = np.array([kind(layer.top) / radius for layer in body.layers])
+        self.unit = kind(1)
+        self.below = [kind(0)]
+        for layer, top, under in zip(body.layers, self.tops, [kind(0), *self.tops], strict=False):
+            self.below.append(self.below[-1] + self.shell(layer, under, top))
+        self.unit, mass = self.below[-1], self.below[-1] * radius**3
+        self.below = [part / self.unit for part in self.below]
+        self.pressure = kind(G.value) * mass**2 / radius**4
 
-    def density(self, layer: Layer, r: float) -> float:
-        return float(np.polyval(layer.density[::-1], r)) / self.unit
+    def _series(self, coefficients: tuple[float, ...], r: Number) -> Number:
+        return np.polyval(np.array(coefficients[::-1], dtype=self.kind), r)
 
-    def slope(self, layer: Layer, r: float) -> float:
-        return float(np.polyval(np.polyder(layer.density[::-1]), r)) / self.unit
+    def shell(self, layer: Layer, below: Number, top: Number) -> Number:
+        """Mass of a layer between two radii."""
+        r = below + (top - below) * np.arange(5) / self.kind(4)
+        values = np.array([self.density(layer, one) * one**2 for one in r])
+        return 4 * self.pi * (top - below) * np.sum(BOOLE * values) / 90
 
-    def gravity(self, r: float) -> float:
-        mass, below = 0.0, 0.0
-        x, w = np.polynomial.legendre.leggauss(8)  # exact for a cubic density
-        for layer, top in zip(self.body.layers, self.tops, strict=True):
-            high = min(top, r)
-            if high > below:
-                s = below + (high - below) * (x + 1) / 2
-                rho = np.array([self.density(layer, one) for one in s])
-                mass += 4 * np.pi * np.sum(w * rho * s**2) * (high - below) / 2
-            below = top
-        return float(mass / r**2)
+    def density(self, layer: Layer, r: Number) -> Number:
+        return self._series(layer.density, r) / self.unit
 
-    def moduli(self, layer: Layer, r: float) -> tuple[float, float]:
-        rho = np.polyval(layer.density[::-1], r)
-        mu = rho * np.polyval(layer.vs[::-1], r) ** 2 / self.pressure
-        return float(rho * np.polyval(layer.vp[::-1], r) ** 2 / self.pressure - 2 * mu), float(mu)
+    def slope(self, layer: Layer, r: Number) -> Number:
+        rising = tuple(n * c for n, c in enumerate(layer.density))[1:] or (0.0,)
+        return self._series(rising, r) / self.unit
+
+    def gravity(self, layer: Layer, r: Number) -> Number:
+        """At a radius in a layer."""
+        i = self.body.layers.index(layer)
+        under = self.tops[i - 1] if i else self.kind(0)
+        return (self.below[i] + self.shell(layer, under, r)) / r**2
+
+    def moduli(self, layer: Layer, r: Number) -> tuple[Number, Number]:
+        rho = self._series(layer.density, r)
+        mu = rho * self._series(layer.vs, r) ** 2 / self.pressure
+        return rho * self._series(layer.vp, r) ** 2 / self.pressure - 2 * mu, mu
 
 
-def carry(slope, y: Array, start: float, stop: float) -> Array:  # type: ignore[no-untyped-def]
+def carry(slope: Slope, y: Array, start: Number, stop: Number) -> Array:
     """Integrate dy/d(ln r), column by column."""
 
     def log_slope(t: float, flat: Array) -> Array:
@@ -63,46 +84,46 @@ def carry(slope, y: Array, start: float, stop: float) -> Array:  # type: ignore[
     return np.asarray(found.y[:, -1].reshape(y.shape))
 
 
-def solid(inside: Inside, layer: Layer):  # type: ignore[no-untyped-def]
+def solid(inside: Inside, layer: Layer) -> Slope:
     """Displacements u, v, tractions p, q, potential f and its flux w."""
 
-    def slope(r: float, y: Array) -> Array:
+    def slope(r: Number, y: Array) -> Array:
         u, p, v, q, f, w = y
-        rho, g = inside.density(layer, r), inside.gravity(r)
+        rho, g = inside.density(layer, r), inside.gravity(layer, r)
         lam, mu = inside.moduli(layer, r)
         around = (2 * u - N * v) / r
         du = (p - lam * around) / (lam + 2 * mu)
         dv = q / mu + (v - u) / r
         dilation = du + around
         hoop = lam * dilation + mu * around
-        df = w + 4 * np.pi * rho * u - 3 * f / r
+        df = w + 4 * inside.pi * rho * u - 3 * f / r
         dp = -2 * (p - hoop) / r + N * q / r - 4 * rho * g * u / r + N * rho * g * v / r
-        dp = dp - rho * (df - 4 * np.pi * rho * u)
+        dp = dp - rho * (df - 4 * inside.pi * rho * u)
         along = lam * dilation + 2 * mu * (u - (N - 1) * v) / r
         dq = -3 * q / r - along / r + rho * (g * u - f) / r
-        dw = 12 * np.pi * rho * u / r - 24 * np.pi * rho * v / r + w / r
+        dw = 12 * inside.pi * rho * u / r - 24 * inside.pi * rho * v / r + w / r
         return np.array([du, dp, dv, dq, df, dw])
 
     return slope
 
 
-def liquid(inside: Inside, layer: Layer):  # type: ignore[no-untyped-def]
+def liquid(inside: Inside, layer: Layer) -> Slope:
     """Potential and its slope: laplace(f) = 4 pi rho' f/g, rho' the slope of the density."""
 
-    def slope(r: float, y: Array) -> Array:
+    def slope(r: Number, y: Array) -> Array:
         f, df = y
-        pull = 4 * np.pi * inside.slope(layer, r) / inside.gravity(r)
+        pull = 4 * inside.pi * inside.slope(layer, r) / inside.gravity(layer, r)
         return np.array([df, 6 * f / r**2 - 2 * df / r + pull * f])
 
     return slope
 
 
-def centre(inside: Inside) -> Array:
+def centre(inside: Inside, r: Number) -> Array:
     """Three regular solutions, by the leading powers of Hooke's law near the centre."""
-    r, layer = START, inside.body.layers[0]
+    layer = inside.body.layers[0]
     rho, (lam, mu) = inside.density(layer, r), inside.moduli(layer, r)
-    y = np.zeros((6, 3))
-    y[:, 0] = 2 * r, 4 * mu, r, 2 * mu, 0, -8 * np.pi * rho * r
+    y = np.zeros((6, 3), dtype=inside.kind)
+    y[:, 0] = 2 * r, 4 * mu, r, 2 * mu, 0, -8 * inside.pi * rho * r
     y[4, 1], y[5, 1] = r**2, 5 * r
     share = (5 * lam + 7 * mu) / (6 * lam)
     y[:4, 2] = (
@@ -114,37 +135,50 @@ def centre(inside: Inside) -> Array:
     return y
 
 
-def other_answers(body: LayeredBody) -> Array:
+def solve(m: Array, b: Array) -> Array:
+    """Solve m x = b to the digits of the numbers, by refining what float64 gives."""
+    rough, x = m.astype(float), np.zeros_like(b)
+    for _ in range(10):
+        x = x + np.linalg.solve(rough, (b - m @ x).astype(float))
+    return x
+
+
+def other_answers(
+    body: LayeredBody,
+    carry: Carry = carry,
+    kind: type[np.floating[Any]] = np.float64,
+    start: float = START,
+) -> Array:
     """Answers [i, j] of whole, fluid and inner core, as `Yielding.answers`."""
-    inside = Inside(body)
+    inside = Inside(body, kind)
     bounds = [
         i
         for i in range(1, len(body.layers))
         if (not body.layers[i].vs) != (not body.layers[i - 1].vs)
     ]
     first, last = bounds
-    y, r = centre(inside), START
+    r = kind(start)
+    y = centre(inside, r)
     for i in range(first):
         y, r = carry(solid(inside, body.layers[i]), y, r, inside.tops[i]), inside.tops[i]
-    icb, fluid_top = float(r), inside.tops[last - 1]
+    icb, cmb = r, inside.tops[last - 1]
     fluid_layers = body.layers[first:last]
-    rho, g = inside.density(fluid_layers[0], icb), inside.gravity(icb)
-    cmb = float(fluid_top)
+    rho, g = inside.density(fluid_layers[0], icb), inside.gravity(fluid_layers[0], icb)
     # The two solutions in the liquid, from the inner core's boundary to the mantle's.
-    two, at = np.eye(2), icb
+    two, at = np.eye(2, dtype=kind), icb
     for i in range(first, last):
         two = carry(liquid(inside, body.layers[i]), two, at, inside.tops[i])
         at = inside.tops[i]
-    rho_top, g_top = inside.density(fluid_layers[-1], cmb), inside.gravity(cmb)
-    six = np.eye(6)
+    rho_top, g_top = inside.density(fluid_layers[-1], cmb), inside.gravity(fluid_layers[-1], cmb)
+    six = np.eye(6, dtype=kind)
     for i in range(last, len(body.layers)):
         six = carry(solid(inside, body.layers[i]), six, at, inside.tops[i])
         at = inside.tops[i]
-    found = np.zeros((3, 3))
+    found = np.zeros((3, 3), dtype=kind)
     acts = np.array([[1.0, 1, 1], [0, 1, 0], [1, 0, 0]])  # in inner core, fluid, mantle
     for j, (in_inner, in_fluid, in_mantle) in enumerate(acts):
         # Unknown: three of the inner core, two of the liquid, two displacements of the mantle.
-        m, b = np.zeros((9, 9)), np.zeros(9)
+        m, b = np.zeros((7, 7), dtype=kind), np.zeros(7, dtype=kind)
         jump = in_fluid - in_inner
         m[0, :3] = y[3]
         m[1, :3] = y[1] - rho * (g * y[0] - y[4])
@@ -153,26 +187,26 @@ def other_answers(body: LayeredBody) -> Array:
         # whose surface in the liquid is the level one.
         m[2, :3], m[2, 3] = y[4], -1
         b[2] = -jump * icb**2
-        m[3, :3] = y[5] + 4 * np.pi * y[1] / g
-        m[3, 3], m[3, 4] = -(3 / icb - 4 * np.pi * rho / g), -1
+        m[3, :3] = y[5] + 4 * inside.pi * y[1] / g
+        m[3, 3], m[3, 4] = -(3 / icb - 4 * inside.pi * rho / g), -1
         b[3] = -5 * jump * icb
         # Bottom of the mantle: u, v free (5, 6), w and f from the liquid.
         f_top, df_top = two
-        flux = df_top + (3 / cmb - 4 * np.pi * rho_top / g_top) * f_top
-        start, push = np.zeros((6, 9)), np.zeros(6)
-        start[0, 5], start[2, 6] = 1, 1
-        start[1, 5], start[1, 3:5] = rho_top * g_top, -rho_top * f_top
-        start[4, 3:5] = f_top
-        start[5, 3:5] = flux - 4 * np.pi / g_top * (-rho_top * f_top)
-        start[5, 5] = -4 * np.pi * rho_top
+        flux = df_top + (3 / cmb - 4 * inside.pi * rho_top / g_top) * f_top
+        begin, push = np.zeros((6, 7), dtype=kind), np.zeros(6, dtype=kind)
+        begin[0, 5], begin[2, 6] = 1, 1
+        begin[1, 5], begin[1, 3:5] = rho_top * g_top, -rho_top * f_top
+        begin[4, 3:5] = f_top
+        begin[5, 3:5] = flux - 4 * inside.pi / g_top * (-rho_top * f_top)
+        begin[5, 5] = -4 * inside.pi * rho_top
         push[4], push[5] = (in_mantle - in_fluid) * cmb**2, 5 * (in_mantle - in_fluid) * cmb
-        top, offset = six @ start, six @ push
+        top, offset = six @ begin, six @ push
         for row, k in enumerate((1, 3, 5)):
             m[4 + row] = top[k]
             b[4 + row] = (5 * in_mantle if k == 5 else 0.0) - offset[k]
-        x = np.linalg.solve(m[:7, :7], b[:7])
-        surface = top[:, :7] @ x + offset
-        bottom = start[:, :7] @ x + push
+        x = solve(m, b)
+        surface = top @ x + offset
+        bottom = begin @ x + push
         inner = y @ x[:3]
         found[0, j] = surface[4] - in_mantle
         found[2, j] = icb**3 * (inner[4] - icb * inner[5] / 5)
