@@ -21,6 +21,7 @@ from data_tools import (
     windows,
     worlds,
 )
+from earthspin.checks.work_precision import QUANTITIES
 from earthspin.errors import EarthspinError
 
 VERBS = {
@@ -47,6 +48,8 @@ VERBS = {
 }
 #: Verbs that compare with a kernel.
 WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
+#: Verbs that do several things, of which some may be named.
+OF_SEVERAL = {"accuracy-pages": tuple(QUANTITIES), "references": tuple(references.MAKERS)}
 
 
 def main(words: list[str] | None = None) -> int:
@@ -57,8 +60,8 @@ def main(words: list[str] | None = None) -> int:
         one = verbs.add_parser(verb, help=words_of)
         if verb in WITH_KERNEL:
             one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
-        if verb == "accuracy-pages":
-            one.add_argument("quantities", nargs="*", metavar="QUANTITY", help="default: all")
+        if verb in OF_SEVERAL:
+            one.add_argument("--only", choices=OF_SEVERAL[verb], help="one of them (default: all)")
     given = parser.parse_args(words)
     try:
         return VERBS[given.verb][0](given)

@@ -1,6 +1,7 @@
 """Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32.
 
-Pole and rotation are made in long double, by `data_tools.pole_reference` and `rotation_reference`.
+Pole, rotation and compliances are made in long double, by `data_tools.pole_reference`,
+`rotation_reference` and `compliances_reference`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 
 from earthspin.checks import stored
 from earthspin.checks.ladders import (
+    of_compliances,
     of_elements,
     of_free_rotor,
     of_mean_orbit,
@@ -133,6 +135,13 @@ def tumbling() -> Made:
     }
 
 
+def compliances() -> Made:
+    """Answers of the parts of PREM to potentials in one another."""
+    from data_tools.compliances_reference import answers
+
+    return of_compliances.INPUTS, {"answers": _pairs([list(row) for row in answers()])}
+
+
 MAKERS: dict[str, Callable[[], Made]] = {
     "free-rotor": free_rotor,
     "top": top,
@@ -141,6 +150,7 @@ MAKERS: dict[str, Callable[[], Made]] = {
     "mean-orbit": mean_orbit,
     "pole": pole,
     "rotation": tumbling,
+    "compliances": compliances,
 }
 
 
@@ -183,8 +193,8 @@ def _pairs(values: Any) -> dict[str, Any]:
 
 def main(given: argparse.Namespace) -> int:
     """Write the files."""
-    for name, make in MAKERS.items():
-        inputs, values = make()
+    for name in [given.only] if given.only else MAKERS:
+        inputs, values = MAKERS[name]()
         text = json.dumps({"inputs": inputs, "values": values}, indent=None)
         path = stored.FOLDER / f"{name}.json"
         path.write_text(text.replace('"values"', '\n"values"') + "\n", encoding="utf-8")

@@ -9,6 +9,7 @@ with `earthspin.motion.march` the equations, and neither method nor code.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -34,39 +35,6 @@ def tumbling() -> tuple[LongArray, LongArray]:
     q = state[:, 9:] / np.sqrt(np.sum(state[:, 9:] ** 2, axis=1))[:, np.newaxis]
     omega = [_spin(row[6:9], turn) for row, turn in zip(state, q, strict=True)]
     return np.stack(omega), q
-
-
-def integrate(steps: int) -> LongArray:
-    """States at the ends of so many steps in each unit of time, shape (n + 1, 13)."""
-    e = LONG(of_rotation.ECCENTRICITY)
-    omega = np.array(of_rotation.OMEGA, dtype=LONG)
-    place = [1 - e, 0, 0, 0, np.sqrt((1 + e) / (1 - e)), 0]
-    state: Any = np.array([*place, *(_moments() * omega), 1, 0, 0, 0], dtype=LONG)
-    carry, states = np.zeros_like(state), [state]
-    for _ in range(round(of_rotation.SPAN * steps)):
-        grown = increment(state, LONG(1) / steps) + carry
-        after = state + grown
-        carry = grown - (after - state)  # what additions round away (Kahan 1965)
-        state = after
-        states.append(state)
-    return np.stack(states)
-
-
-def increment(state: LongArray, length: Any) -> LongArray:
-    """What a step adds, by midpoint rules of 2, 4, 6 ... parts, extrapolated to none."""
-    table: list[LongArray] = []
-    first = _slope(state)
-    for column in range(COLUMNS):
-        h = length / (2 * (column + 1))
-        before, here = np.zeros_like(state), h * first
-        for _ in range(2 * column + 1):
-            before, here = here, before + 2 * h * _slope(state + here)
-        row = [(before + here + h * _slope(state + here)) / 2]
-        for k in range(column):
-            ratio = LONG((column + 1) ** 2) / LONG((column - k) ** 2)
-            row.append(row[-1] + (row[-1] - table[k]) / (ratio - 1))
-        table = row
-    return table[-1]
 
 
 def _moments() -> LongArray:
@@ -102,3 +70,38 @@ def _slope(state: LongArray) -> LongArray:
     return np.concatenate(
         [velocity, -r / (square * np.sqrt(square)), turn @ torque, np.array(turning) / 2]
     )
+
+
+def integrate(steps: int) -> LongArray:
+    """States at the ends of so many steps in each unit of time, shape (n + 1, 13)."""
+    e = LONG(of_rotation.ECCENTRICITY)
+    omega = np.array(of_rotation.OMEGA, dtype=LONG)
+    place = [1 - e, 0, 0, 0, np.sqrt((1 + e) / (1 - e)), 0]
+    state: Any = np.array([*place, *(_moments() * omega), 1, 0, 0, 0], dtype=LONG)
+    carry, states = np.zeros_like(state), [state]
+    for _ in range(round(of_rotation.SPAN * steps)):
+        grown = increment(state, LONG(1) / steps) + carry
+        after = state + grown
+        carry = grown - (after - state)  # what additions round away (Kahan 1965)
+        state = after
+        states.append(state)
+    return np.stack(states)
+
+
+def increment(
+    state: LongArray, length: Any, slope: Callable[[LongArray], LongArray] = _slope
+) -> LongArray:
+    """What a step adds, by midpoint rules of 2, 4, 6 ... parts, extrapolated to none."""
+    table: list[LongArray] = []
+    first = slope(state)
+    for column in range(COLUMNS):
+        h = length / (2 * (column + 1))
+        before, here = np.zeros_like(state), h * first
+        for _ in range(2 * column + 1):
+            before, here = here, before + 2 * h * slope(state + here)
+        row = [(before + here + h * slope(state + here)) / 2]
+        for k in range(column):
+            ratio = LONG((column + 1) ** 2) / LONG((column - k) ** 2)
+            row.append(row[-1] + (row[-1] - table[k]) / (ratio - 1))
+        table = row
+    return table[-1]

@@ -52,6 +52,7 @@ QUANTITIES: dict[str, str] = {
     "spheroid": "of_spheroid",
     "excitation": "of_excitation",
     "chandler": "of_chandler",
+    "compliances": "of_compliances",
 }
 
 #: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
@@ -320,7 +321,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     quantity : str
         ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"elements"``,
         ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
-        ``"excitation"`` or ``"chandler"``.
+        ``"excitation"``, ``"chandler"`` or ``"compliances"``.
     quick : bool
         A short problem with few settings, in a second or two.
 

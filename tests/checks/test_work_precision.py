@@ -18,6 +18,7 @@ from earthspin.checks import stored, work_precision
 from earthspin.checks.ladders import (
     model_sky,
     of_chandler,
+    of_compliances,
     of_excitation,
     of_pole,
     of_spheroid,
@@ -366,7 +367,9 @@ def test_a_peer_is_measured_or_left_out_with_a_line() -> None:
 # --- references ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["free-rotor", "top", "spheroid", "pole", "elements"])
+@pytest.mark.parametrize(
+    "name", ["free-rotor", "top", "spheroid", "pole", "elements", "compliances"]
+)
 def test_stored_references_are_refused_for_other_problems(name: str) -> None:
     with pytest.raises(earthspin.UndefinedError, match="python -m data_tools references"):
         stored.load(name, {"moments": [1, 2, 3]})
@@ -390,6 +393,20 @@ def test_references_are_made_again_as_stored() -> None:
         for key, pair in values.items():
             high = np.array(pair["hi"])
             assert np.max(np.abs(there[key].error_of(high) + np.array(pair["lo"]))) < 1e-28, key
+
+
+@needs_long_double
+def test_compliances_are_made_again_as_stored() -> None:
+    """To the changes that other steps and starts make."""
+    from data_tools import references
+
+    inputs, values = references.MAKERS["compliances"]()
+    again, there = values["answers"], stored.load("compliances", inputs)["answers"]
+    own = np.sqrt(abs(np.diagonal(there.hi)))
+    off = there.error_of(np.array(again["hi"])) + np.array(again["lo"])
+    assert np.max(abs(off) / np.outer(own, own)) < of_compliances.REFERENCE_ERROR
+    # reciprocity, which nothing here asks for: 2.7e-18 measured
+    assert np.max(abs(there.hi - there.hi.T) / np.outer(own, own)) < 1e-16
 
 
 @needs_long_double

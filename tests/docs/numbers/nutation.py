@@ -97,15 +97,20 @@ def retrograde_year() -> float:
     return observed - predicted
 
 
+def retrograde_node() -> tuple[np.ndarray, float, float]:
+    """The term of 18.6 years: frequency in the body, (C - A)/A, and its rigid amplitude, mas."""
+    h = EARTH.dynamical_flattening
+    rigid = coupled()["terms"].predicted_in_phase.sel(rung="rigid", term="+0 +0 +0 +0 +1")
+    return np.array([-1 - 0.99726966 / 6798.38]), h / (1 - h), float(rigid)
+
+
 def one_per_cent_of_gamma() -> float:
     """Change of the retrograde term of 18.6 years, mas."""
-    sigma, e = np.array([-1 - 0.99726966 / 6798.38]), EARTH.dynamical_flattening
-    e = e / (1 - e)
+    sigma, e, rigid = retrograde_node()
     parts = rungs()["core-ellipticity"].parts(sigma)
     answers = parts.answers.copy()
     answers[..., 1, 0] *= 1.01
     change = transfer(replace(parts, answers=answers), sigma, e) - transfer(parts, sigma, e)
-    rigid = coupled()["terms"].predicted_in_phase.sel(rung="rigid", term="+0 +0 +0 +0 +1")
     return float(abs(change[0] * rigid))
 
 

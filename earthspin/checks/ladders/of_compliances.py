@@ -1,0 +1,154 @@
+"""How the parts of a layered Earth answer to one another: collocation against step-by-step solvers.
+
+The equations, the radius where they start and the conditions at boundaries and surface are the
+same for all; only what carries a solution from one radius to another differs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from earthspin.checks.stored import Values, load
+from earthspin.checks.work_precision import Ladder, Method, settings
+from earthspin.constants import G
+from earthspin.interior.love import Carry, yielding
+from earthspin.interior.prem import PREM
+from earthspin.numerics.collocation import carry as by_collocation
+
+Array = NDArray[Any]
+Matrix = Callable[[Array], Array]
+
+#: What the stored reference hangs on.
+INPUTS = {
+    "G": G.value,
+    "layers": [
+        [layer.top, *(list(values) for values in (layer.density, layer.vp, layer.vs))]
+        for layer in PREM.layers
+    ],
+}
+#: By what other steps and another start change the reference.
+REFERENCE_ERROR = 4e-15
+#: Of any method: what a start at a thousandth of the radius leaves of the inner core's answer to
+#: itself, 4.5e-12, twice over.
+BOUND = 1e-11
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    true = load("compliances", INPUTS)["answers"]
+    return Ladder(
+        quantity="compliances",
+        unit="1",
+        problem="what whole body, fluid core and inner core of PREM answer to potentials in one "
+        "another, nine numbers; the error is the largest, over the geometric mean of what the two "
+        "parts answer to themselves",
+        subject="the compliances of a layered Earth",
+        reference="Hooke's law and Poisson's equation in the logarithm of the radius, in long "
+        "double by extrapolation of order 20, from a tenth of the radius at which these start",
+        reference_error=REFERENCE_ERROR,
+        methods=_methods(quick),
+        useful=0.01,
+        error=partial(scaled_error, true),
+    )
+
+
+def scaled_error(true: Values, found: Array) -> float:
+    """Largest error of an answer over the geometric mean of the two on the diagonal."""
+    own = np.sqrt(abs(np.diagonal(true.hi)))
+    return float(np.max(abs(true.error_of(found)) / np.outer(own, own)))
+
+
+def _methods(quick: bool) -> list[Method]:
+    settled = (1e-4, 1e-13)
+    loose = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
+    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+    thin = (0.1, 0.05) if quick else (0.2, 0.1, 0.05, 0.02, 0.01)
+    return [
+        Method(
+            "collocation at Gauss's nodes",
+            True,
+            settings("settled to {}", partial(_run, by_collocation), settled),
+            bound=BOUND,
+        ),
+        *(
+            Method(f"solve_ivp {name}", False, settings("rtol {}", partial(_run, carry), fine))
+            for name, fine in (("DOP853", loose), ("LSODA", loose), ("RK45", coarse))
+            for carry in (partial(_by_scipy, name),)
+        ),
+        Method(
+            "RK4 by hand", False, settings("steps of {} in ln r", partial(_run, _runge_kutta), thin)
+        ),
+        Method(
+            "even layers, matrix exponentials",
+            False,
+            settings("layers of {} in ln r", partial(_run, _even_layers), thin),
+        ),
+    ]
+
+
+def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:
+    """Answers of PREM, and at how many radii the matrix was asked for."""
+    radii = 0
+
+    def counted(matrix: Matrix, start: float, stop: float, y: Array) -> Array:
+        def at(r: Array) -> Array:
+            nonlocal radii
+            radii += r.size
+            return matrix(r)
+
+        return carry(at, start, stop, y, setting)
+
+    carried: Carry = counted
+    return yielding(PREM, 0.0, carried).answers, radii
+
+
+def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
+    """All columns as one system."""
+
+    def slope(r: float, flat: Array) -> Array:
+        return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
+
+    done = solve_ivp(
+        slope, (start, stop), y.ravel(), name, t_eval=[stop], rtol=rtol, atol=rtol * 1e-6
+    )
+    return np.asarray(done.y[:, -1].reshape(y.shape))
+
+
+def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
+    """Runge and Kutta's rule in steps that grow with the radius."""
+    edges = _edges(start, stop, step)
+    for r, after in pairwise(edges):
+        h = after - r
+        first, middle, last = (_at(matrix, at) for at in (r, r + h / 2, after))
+        k1 = first @ y
+        k2 = middle @ (y + h / 2 * k1)
+        k3 = middle @ (y + h / 2 * k2)
+        k4 = last @ (y + h * k3)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return y
+
+
+def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
+    """Propagators of thin layers that are even in ln r: exponentials of r M at their middles."""
+    edges = _edges(start, stop, step)
+    for r, after in pairwise(edges):
+        middle = np.sqrt(r * after)
+        y = expm(np.log(after / r) * middle * _at(matrix, middle)) @ y
+    return y
+
+
+def _edges(start: float, stop: float, step: float) -> Array:
+    return np.geomspace(start, stop, int(np.ceil(np.log(stop / start) / step)) + 1)
+
+
+def _at(matrix: Matrix, r: float) -> Array:
+    """The matrix at one radius."""
+    return np.asarray(matrix(np.array([r]))[..., 0, :, :])
