@@ -324,6 +324,7 @@ def love_numbers(
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
 def compliances(

@@ -38,6 +38,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
             "questions/wobble.py",
             "questions/spheroid.py",
             "questions/compliances.py",
+            "questions/love_numbers.py",
         ),
         *("questions/polar_motion.py", "checks/sky.py"),
         "views/play.py",  # pages to play with start from the Earth

@@ -26,15 +26,18 @@ from earthspin.bodies.kinds import (
     Uncertainties,
 )
 from earthspin.bodies.labelled import Numeric, all_of, is_close, is_same
+from earthspin.bodies.layered import UnderTheSurface
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
+from earthspin.interior.layers import LayeredBody
 from earthspin.sky.pole_tables import Angles
 from earthspin.sky.poles import Direction, Pole, pole_of
 from earthspin.text import Text
 
-#: What a table starts from that names every number of its body.
-NOTHING = "nothing"
+#: What a table starts from that names every number of its body; and one whose figure follows from
+#: its layers.
+NOTHING, LAYERS = "nothing", "layers"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -84,8 +87,9 @@ class Body(FromMass):
     slow_swing : float
         Of a perturber: how far its mean pull swings more slowly than any window, half-width of
         95 % over the pull.
-    interior : str or None
-        Name of what lies under the surface, a word of `earthspin.interior.named`; None is rigid.
+    interior : str, LayeredBody or None
+        What lies under the surface: a word of `earthspin.interior.named`, or layers of its own,
+        which may be given as a table of layers or samples; None is rigid.
     observed_wobble : Constant or None
         Period of the free wobble as observed, d.
     position : vector function, Trajectory or None
@@ -134,7 +138,7 @@ class Body(FromMass):
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # measured: `python -m data_tools windows`
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
-    interior: Annotated[str | None, Text()] = None
+    interior: Annotated[str | LayeredBody | None, UnderTheSurface()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     position: Annotated[Any, OwnPlace()] = None
     orbit: Annotated[Orbit | None, OrbitTable()] = None
@@ -177,11 +181,12 @@ class Body(FromMass):
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def _read_units(self) -> None:
-        """Bring text and Quantities to SI; plain numbers are, and nothing is loaded for them."""
-        for name in (*self.UNITS, "pole", "orbit_pole"):
+        """Bring text, tables and Quantities to what is kept; plain numbers load nothing."""
+        for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
-            if type(value) is str or pair or hasattr(value, "to_value"):
+            table = isinstance(value, Mapping)
+            if type(value) is str or pair or table or hasattr(value, "to_value"):
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 
@@ -285,12 +290,15 @@ class Body(FromMass):
                 raise where.at(key).error(value, nearest(key, ["from", *_READ_AS]))
         changes = {key: _READ_AS[key].read(value, where.at(key)) for key, value in table.items()}
         try:
-            if start == NOTHING:
-                missing = [f"{name} = {e}" for name, e in _LEAST.items() if name not in changes]
+            if start in _LEAST:
+                missing = [
+                    f"{name} = {e}" for name, e in _LEAST[start].items() if name not in changes
+                ]
                 if missing:
-                    raise where.error(
-                        dict(table), f"a body from nothing needs more, like {', '.join(missing)}"
-                    )
+                    allowed = f"a body from {start} needs more, like {', '.join(missing)}"
+                    raise where.error(dict(table), allowed)
+                if start == LAYERS:
+                    return cls.from_layers(changes.pop("interior"), **changes)
                 return cls(**changes)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
@@ -509,8 +517,11 @@ _READ_AS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
 }  # fmt: skip
 
-#: What no body is without, and how one would write it.
-_LEAST = {"name": '"ceres"', "gm": '"62.6 km3/s2"'}
+#: What no body is without, by what its table starts from, and how one would write it.
+_LEAST = {
+    NOTHING: {"name": '"ceres"', "gm": '"62.6 km3/s2"'},
+    LAYERS: {"name": '"ceres"', "spin_period": '"9.07 h"', "interior": "{layers = [...]}"},
+}
 
 #: Fields that a body's short form shows, and those that stand elsewhere in its card.
 _NOT_TOLD = {"name", "relative_uncertainty"}

@@ -149,10 +149,13 @@ class FromMass:
     ) -> Self:
         """Make a body of layers in hydrostatic equilibrium, to first order in its flattening.
 
+        The layers are its `interior` too.
+
         Parameters
         ----------
-        layers : LayeredBody or str
-            Or the name of an interior that has layers, like ``"prem"``.
+        layers : LayeredBody, str or mapping
+            Or the name of an interior that has layers, like ``"prem"``, or a table of layers or
+            samples.
         spin_period : float, str or Quantity
             How fast it turns shapes it.
         name, **fields
@@ -161,7 +164,7 @@ class FromMass:
         Raises
         ------
         SceneError
-            If there is no such interior, or it has no layers.
+            If there is no such interior, it has no layers, or a table is of none.
 
         Examples
         --------

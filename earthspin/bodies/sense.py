@@ -12,6 +12,7 @@ from typing import Any
 from earthspin.bodies.labelled import Numeric, all_of, is_finite
 from earthspin.constants import Constant
 from earthspin.errors import BodyError, nearest
+from earthspin.interior.layers import LayeredBody
 from earthspin.sky.poles import NAMED_POLES
 
 #: Values of a body by field.
@@ -123,10 +124,12 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
 def _check_words(body: Fields) -> None:
     """Names are words, codes are whole numbers, uncertainties a table of numbers."""
     name = body["name"]
-    for field in ("name", "reference", "interior"):
-        value = body[field]
-        if not (isinstance(value, str) or (value is None and field == "interior")):
-            raise BodyError(name, field, value, "give a line of text")
+    for field in ("name", "reference"):
+        if not isinstance(body[field], str):
+            raise BodyError(name, field, body[field], "give a line of text")
+    if not isinstance(body["interior"], str | LayeredBody | None):
+        allowed = "give the name of an interior, a LayeredBody, or a table of layers or samples"
+        raise BodyError(name, "interior", body["interior"], allowed)
     codes, wobble, of = body["naif"], body["observed_wobble"], body["relative_uncertainty"]
     if not isinstance(codes, tuple) or not all(type(code) is int for code in codes):
         raise BodyError(name, "naif", codes, "give a tuple of whole numbers")

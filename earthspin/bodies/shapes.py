@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.bodies.layered import Layers
 from earthspin.constants import G
 from earthspin.errors import (
     BodyError,
@@ -20,10 +22,10 @@ from earthspin.errors import (
     no_plain_file,
     one_line,
 )
+from earthspin.interior.layers import LayeredBody
 from earthspin.units import quantity
 
 if TYPE_CHECKING:
-    from earthspin.interior.layers import LayeredBody
     from earthspin.mass.shape import Shape
 
 FloatArray = NDArray[np.float64]
@@ -131,13 +133,13 @@ def _read(file: Path) -> Any:
         raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
 
 
-def of_layers(layers: LayeredBody | str, spin_period: Any) -> Fields:
+def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
     """Of layers in hydrostatic equilibrium, to first order in the flattening.
 
     Parameters
     ----------
-    layers : LayeredBody or str
-        Or the name of an interior that has layers.
+    layers : LayeredBody, str or mapping
+        Or the name of an interior that has layers, or a table of layers or samples.
     spin_period : float, str or Quantity
         s.
 
@@ -146,18 +148,12 @@ def of_layers(layers: LayeredBody | str, spin_period: Any) -> Fields:
     SceneError
         If there is no such interior, or it has no layers.
     """
-    from earthspin.interior.equilibrium import equilibrium
-    from earthspin.interior.layers import tidal_inertia
-    from earthspin.interior.named import INTERIORS
+    from earthspin.interior.equilibrium import equilibrium, figure
 
-    if isinstance(layers, str):
-        layered = {name: of.layers for name, of in INTERIORS.items() if of.layers is not None}
-        if layers not in layered:
-            raise Where("layers").error(layers, nearest(layers, layered))
-        layers = layered[layers]
+    layers = Layers().read(layers, Where("layers"))
     spin = 2 * math.pi / _si(spin_period, "s", "spin_period", "23.93 h")
     gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
-    ellipticity = tidal_inertia(layers, spin) * k
+    ellipticity = figure(layers, spin).e
     # the surface is level: f = (k + 1) q/2
     pull = spin**2 * mean**3 / gm
     flattening = (k + 1) * pull / 2
@@ -169,5 +165,6 @@ def of_layers(layers: LayeredBody | str, spin_period: Any) -> Fields:
         "dynamical_flattening": ellipticity / (1 + ellipticity),
         "flattening": flattening,
         "spin_period": 2 * math.pi / spin,
+        "interior": layers,
         "reference": f"hydrostatic equilibrium of {layers.reference}",
     }

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from earthspin.constants import G
 
@@ -33,7 +31,7 @@ class Layer:
     density: tuple[float, ...]
     vp: tuple[float, ...]
     vs: tuple[float, ...] = ()
-    shear_q: float = np.inf
+    shear_q: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -54,6 +52,9 @@ class LayeredBody:
     layers: tuple[Layer, ...]
     reference: str
 
+    def __str__(self) -> str:
+        return f"{self.name}, {len(self.layers)} layers to {self.radius / 1000:.6g} km"
+
     @property
     def radius(self) -> float:
         """Radius R, m."""
@@ -73,12 +74,12 @@ class LayeredBody:
     @property
     def mass(self) -> float:
         """Mass, kg."""
-        return float(4 * np.pi * self._radial_moment(2, self.radius))
+        return float(4 * math.pi * self._radial_moment(2, self.radius))
 
     def moment_of_inertia(self, radius: float | None = None) -> float:
         """Moment of inertia of what lies within a radius, kg m2; of all by default."""
         outer = self.radius if radius is None else radius
-        return float(8 * np.pi / 3 * self._radial_moment(4, outer))
+        return float(8 * math.pi / 3 * self._radial_moment(4, outer))
 
     @property
     def moment_factor(self) -> float:
@@ -94,69 +95,21 @@ class LayeredBody:
         """Integral of rho r^power from the centre, by the polynomials' primitives."""
         total, below = 0.0, 0.0
         for layer in self.layers:
-            primitive = np.polynomial.Polynomial((0.0,) * power + layer.density).integ()
             top = min(layer.top, radius) / self.radius
-            total += primitive(top) - primitive(below)
+            total += _primitive(layer.density, power, top) - _primitive(layer.density, power, below)
             below = top
         return float(total * self.radius ** (power + 1))
+
+
+def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
+    """Integral of x^power rho(x) from the centre."""
+    total = 0.0
+    for n in reversed(range(len(density))):
+        total = total * x + density[n] / (n + power + 1)
+    return float(total * x ** (power + 1))
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
     """Omega2 R5/(3 G A): products of inertia over A per radian of wobble and unit of k2."""
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)
-
-
-def from_samples(
-    name: str,
-    radius: Sequence[float],
-    density: Sequence[float],
-    vp: Sequence[float],
-    vs: Sequence[float],
-    shear_q: Sequence[float],
-    reference: str = "",
-) -> LayeredBody:
-    """Make a layered body of samples, straight lines between them.
-
-    Parameters
-    ----------
-    name : str
-    radius : sequence of float
-        m, from the centre outwards; a boundary has the same radius twice.
-    density, vp, vs : sequence of float
-        kg m-3, m/s; `vs` is 0 in a liquid.
-    shear_q : sequence of float
-        Of each sample; that of the upper of two counts between them. Not used in a liquid.
-    reference : str
-
-    Raises
-    ------
-    ValueError
-        If the radii do not begin at 0 or do not grow, or the columns are not of one length.
-    """
-    r, rho, p, s, q = (
-        np.asarray(column, dtype=float) for column in (radius, density, vp, vs, shear_q)
-    )
-    if len({column.shape for column in (r, rho, p, s, q)}) > 1 or r.ndim != 1 or r.size < 2:
-        raise ValueError("samples are columns of one length, two at least")
-    if r[0] != 0 or np.any(np.diff(r) < 0) or not np.all(np.isfinite([r, rho, p, s])):
-        raise ValueError("radii begin at 0 and grow outwards, and all samples are finite")
-    whole, layers = r[-1], []
-    for i in np.flatnonzero(np.diff(r) > 0):
-        x = r[i : i + 2] / whole
-
-        def line(column: Any, x: Any = x, i: int = int(i)) -> tuple[float, ...]:
-            slope = (column[i + 1] - column[i]) / (x[1] - x[0])
-            return float(column[i] - slope * x[0]), float(slope)
-
-        solid = s[i] > 0 or s[i + 1] > 0
-        layers.append(
-            Layer(
-                float(r[i + 1]),
-                line(rho),
-                line(p),
-                line(s) if solid else (),
-                float(q[i + 1]) if solid else np.inf,
-            )
-        )
-    return LayeredBody(name, tuple(layers), reference)

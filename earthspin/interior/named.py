@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from earthspin.constants import (
     MARS_GM,
@@ -89,6 +89,31 @@ class Interior:
         assert self.k2 is not None
         assert self.core_fraction is not None
         return self.k2, self.core_fraction, self.core_ellipticity
+
+
+def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
+    """Interior of given layers.
+
+    Parameters
+    ----------
+    layers : LayeredBody
+    known : Interior, optional
+        Of the same body by another model: its sea, the core as observed and how sure such models
+        are stay as they are; what it says of Love number and core gives way to the layers, and
+        sizes of what it neglects are not known of them.
+    """
+    if known is None:
+        return Interior(layers.name, layers.reference, layers)
+    return replace(
+        known,
+        name=layers.name,
+        reference=layers.reference,
+        layers=layers,
+        k2=None,
+        core_fraction=None,
+        core_ellipticity=None,
+        neglected={},
+    )
 
 
 #: Change of the free wobble by what the ladder leaves out, for the body that PREM is.

@@ -91,10 +91,11 @@ class Parts:
         """The same answers as Mathews et al. (1991) name them, each over the A of its part."""
         rows = (("kappa", "xi", "zeta"), ("gamma", "beta", "delta"), ("theta", "chi", "nu"))
         over = (1.0, self.fluid, self.inner)
+        there = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
         return {
             name: self.answers[..., i, j] / over[i]
-            for i, row in enumerate(rows[: 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))])
-            for j, name in enumerate(row)
+            for i, row in enumerate(rows[:there])
+            for j, name in enumerate(row[:there])
         }
 
 

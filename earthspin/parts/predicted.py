@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
-from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS
+from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.parts.layered import interior_of
 from earthspin.parts.reasons import no_iau_model
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ class Prediction:
 
 def layered(body: Body) -> Interior | None:
     """Interior of a body, if it has one with layers, a core and an inner core."""
-    interior = INTERIORS.get(str(body.interior))
+    interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
     return interior

@@ -10,7 +10,7 @@ from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
-from earthspin.parts.layered import LayeredInterior
+from earthspin.parts.layered import LayeredInterior, layers, layers_of, require_layers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,11 +44,12 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
-    interior: LayeredInterior = key("prem", doc="layers of the body")
-    body: Body = key(EARTH, doc="body whose spin and dynamical flattening it has")
+    interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
+    body: Body = key(EARTH, doc="body whose spin and dynamical flattening they have")
 
     def check(self) -> None:
-        """A body that spins."""
+        """A body that spins, and layers that are known."""
+        require_layers(self, self.interior, self.body)
         self.body.require(("spin_period", "dynamical_flattening"))
 
 
@@ -59,13 +60,13 @@ NUMBERS = without_error(
 
 
 @part(gives=NUMBERS)
-def numbers(interior: LayeredBody, body: Body) -> xr.Dataset:
+def numbers(layers: LayeredBody, body: Body) -> xr.Dataset:
     """Compliances of the elastic body, and its figure of hydrostatic equilibrium."""
     from earthspin.interior.rotation import numbers_of
 
-    found = numbers_of(interior, abs(float(body.spin_rate)))
+    found = numbers_of(layers, abs(float(body.spin_rate)))
     result = build(NUMBERS, {"number_value": list(found.values())}, coords={"number": list(found)})
-    result.number_value.attrs["references"] = interior.reference
+    result.number_value.attrs["references"] = layers.reference
     return result
 
 
@@ -77,9 +78,10 @@ PUBLISHED = {
 }
 
 
-def not_prem(interior: LayeredBody) -> str | None:
+def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
     """Leave published numbers out for another body than they are of."""
-    return None if interior.name == "prem" else f"none are kept of '{interior.name}'"
+    name = (interior or layers_of(body)).name
+    return None if name == "prem" else f"none are kept of '{name}'"
 
 
 @part(gives=PUBLISHED, unless=not_prem)
@@ -111,7 +113,7 @@ MODES = without_error(
 
 
 @part(gives=MODES)
-def modes(interior: LayeredBody, body: Body) -> xr.Dataset:
+def modes(layers: LayeredBody, body: Body) -> xr.Dataset:
     """Free modes of the elastic body without an ocean, its H as observed; those that it has."""
     from earthspin.interior.love import elastic
     from earthspin.interior.rotation import free_modes, mode_period, parts_of
@@ -119,7 +121,7 @@ def modes(interior: LayeredBody, body: Body) -> xr.Dataset:
 
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
-    found = free_modes(parts_of(interior, spin_rate, elastic(interior).answers, e))
+    found = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
     periods = [mode_period(name, s, spin_rate) for name, s in found.items()]
     return build(MODES, {"compliance_mode_period": periods}, coords={"free_mode": list(found)})
 
@@ -134,6 +136,7 @@ made_of(
     Compliances,
     answer=numbers,
     sections={"published": published, "modes": modes, "neglected": neglected},
+    parts=(layers,),
 )
 
 compliances = ask(Compliances)

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
+from earthspin.bodies import EARTH, Body
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.parts.layered import LayeredInterior
+from earthspin.parts.layered import LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
 if TYPE_CHECKING:
@@ -47,7 +48,8 @@ class LoveNumbers(
     0.18
     """
 
-    interior: LayeredInterior = key("prem", doc="layers of the body")
+    interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
+    body: Body = key(EARTH, doc="body whose layers they are")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
         None,
         doc="period of what deforms the body; without one, elastic, at a period of 1 s, as "
@@ -56,6 +58,10 @@ class LoveNumbers(
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.5)] = key(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the quality factor"
     )
+
+    def check(self) -> None:
+        """Layers that are known."""
+        require_layers(self, self.interior, self.body)
 
 
 LOVE = without_error(
@@ -70,13 +76,13 @@ LOVE = without_error(
 
 
 @part(gives=LOVE)
-def love(interior: LayeredBody, period: float | None, anelastic_exponent: float) -> xr.Dataset:
+def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> xr.Dataset:
     """Love numbers of tide and load, by integration from the centre to the surface."""
     from earthspin.interior.anelastic import anelastic_strain
     from earthspin.interior.love import yielding
 
     strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
-    found = yielding(interior, strain)
+    found = yielding(layers, strain)
     names = ("k", "h", "l", "k_load", "h_load", "l_load")
     values = np.array([complex(getattr(found, name)) for name in names])
     labels = [name.replace("_", "2_") if "_" in name else f"{name}2" for name in names]
@@ -85,7 +91,7 @@ def love(interior: LayeredBody, period: float | None, anelastic_exponent: float)
         {"love_number": values.real, "love_number_imaginary": values.imag},
         coords={"love": ("love", labels)},
     )
-    result.love_number.attrs["references"] = interior.reference
+    result.love_number.attrs["references"] = layers.reference
     return result
 
 
@@ -95,6 +101,6 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-made_of(LoveNumbers, answer=love, sections={"neglected": neglected})
+made_of(LoveNumbers, answer=love, sections={"neglected": neglected}, parts=(layers,))
 
 love_numbers = ask(LoveNumbers)

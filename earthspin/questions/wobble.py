@@ -11,15 +11,21 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, Numeric, all_of, in_a_sentence
+from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.constants import DAY
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
-from earthspin.errors import nearest
-from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS
+from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.parts.layered import (
+    interior_of,
+    layers_of,
+    no_interior,
+    not_layered,
+    refuse_unknown,
+)
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.units import FloatArray, Number
 
@@ -75,39 +81,25 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
-        name = self.body.interior
-        if name not in (None, "none", *INTERIORS):
-            raise self.error("body.interior", name, nearest(name, INTERIORS))
-
-
-def interior_of(body: Body) -> Interior:
-    """What lies inside a body that names its interior."""
-    return INTERIORS[str(body.interior)]
+        refuse_unknown(self, self.body)
 
 
 def why_rigid(body: Body) -> str | None:
     """Why the ladder stops at the rigid rungs; None if it goes on."""
-    if body.interior in (None, "none"):
-        return f"no interior of {in_a_sentence(body.name)} is kept; set body.interior"
+    interior = interior_of(body)
+    if interior is None:
+        return f"{no_interior(body)}; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
-    interior = interior_of(body)
     if interior.layers is not None:
+        mean_radius = body.needed("radius") * (1 - body.needed("flattening") / 3)
         for what, own, models in (
             ("mass", body.mass, interior.layers.mass),
-            ("radius", body.needed("radius"), interior.layers.radius),
+            ("radius", mean_radius, interior.layers.radius),
         ):
             if not all_of(abs(own / models - 1) < FIT):
                 return f"interior '{interior.name}' is of another {what}, {models:.4g} in SI"
     return None
-
-
-def not_layered(body: Body) -> str | None:
-    """Leave the Love numbers out of a body without layers."""
-    if body.interior in (None, "none"):
-        return f"no interior of {in_a_sentence(body.name)} is kept"
-    layered = interior_of(body).layers is not None
-    return None if layered else f"interior '{body.interior}' has published numbers, but no layers"
 
 
 # --- what lies inside ------------------------------------------------------------------------
@@ -151,6 +143,7 @@ def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
     from earthspin.wobble import ladder
 
     interior = interior_of(body)
+    assert interior is not None
     numbers = [xr.DataArray(body.needed(name)) for name in (*_FIGURE, *_SPIN)]
     numbers = list(xr.broadcast(*numbers))
     dims = tuple(str(d) for d in numbers[0].dims)
@@ -295,8 +288,7 @@ def interior_response(body: Body) -> xr.Dataset:
     from earthspin.interior.love import elastic
     from earthspin.interior.ocean import global_ocean
 
-    layers = interior_of(body).layers
-    assert layers is not None
+    layers = layers_of(body)
     love = elastic(layers)
     names = ("k", "h", "l", "k_load", "h_load")
     result = build(
@@ -407,8 +399,7 @@ def no_inner_core(body: Body) -> str | None:
         return not_layered(body)
     if body.labelled:
         return "it is computed for one body at a time"
-    layers = interior_of(body).layers
-    return None if layers is not None and layers.inner_core_radius else "it has no inner core"
+    return None if layers_of(body).inner_core_radius else "it has no inner core"
 
 
 @part(gives=INNER_CORE, unless=(why_rigid, no_inner_core))
@@ -417,10 +408,8 @@ def inner_core(body: Body) -> xr.Dataset:
     from earthspin.interior.rotation import chandler_by_core
     from earthspin.mass.inertia import ellipticity_from_h
 
-    layers = interior_of(body).layers
-    assert layers is not None
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
-    found = chandler_by_core(layers, e, abs(float(body.spin_rate)))
+    found = chandler_by_core(layers_of(body), e, abs(float(body.spin_rate)))
     turn = abs(body.number("spin_period"))
     return build(
         INNER_CORE,

@@ -139,7 +139,10 @@ def _sampled(
     sampled = {}
     for name, turns in climb(points, spin, interior, ocean).turns.items():
         total = np.zeros((turns.shape[-1], drawn.exponent.size))
-        for at, share in zip(turns, basis, strict=True):
+        # where no input of a rung is uncertain, nothing told its turns apart
+        for at, share in zip(
+            np.broadcast_to(turns, (len(basis), total.shape[0])), basis, strict=True
+        ):
             total += at[:, None] * share
         sampled[name] = total
     return sampled

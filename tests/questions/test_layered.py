@@ -1,14 +1,17 @@
 """Layered bodies from names, tables of layers and samples, and what is told of them."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import earthspin
-from earthspin import MARS, SceneError, UndefinedError
-from earthspin.interior.layers import from_samples
+from earthspin import EARTH, MARS, SceneError, UndefinedError
+from earthspin.errors import Where
 from earthspin.interior.love import elastic
 from earthspin.interior.mars import MARS as MARS_LAYERS
 from earthspin.interior.prem import PREM
+from earthspin.interior.samples import from_samples
 from tests import shipped
 
 TWO = [
@@ -51,6 +54,94 @@ def test_love_numbers_of_a_table_of_samples() -> None:
     found = earthspin.love_numbers(table).love_number
     ours = shipped.answer("love-numbers").love_number
     assert np.allclose(found, ours, rtol=0.01, atol=1e-3)
+
+
+# --- layers of a body ----------------------------------------------------------------------------
+
+
+def planet() -> earthspin.Body:
+    return earthspin.Body.from_layers({"name": "two", "layers": TWO}, spin_period="20 h", name="p")
+
+
+def test_a_body_made_of_layers_has_them_inside() -> None:
+    body = planet()
+    assert np.isclose(body.mass, body.interior.mass, rtol=1e-14, atol=0)
+    alone = earthspin.love_numbers({"name": "two", "layers": TWO}).love_number
+    assert np.array_equal(earthspin.love_numbers(body=body).love_number, alone)
+    by_body = earthspin.compliances(body=body).number_value
+    given = earthspin.compliances(body.interior, body=body).number_value
+    assert np.array_equal(by_body, given)
+    # what an inner core would do is not among them
+    names = ["kappa", "xi", "gamma", "beta", "e", "e_f", "fluid"]
+    assert by_body.number.values.tolist() == names
+    # the figure is that of its own layers in equilibrium
+    e = body.dynamical_flattening / (1 - body.dynamical_flattening)
+    assert np.isclose(by_body.sel(number="e"), e, rtol=1e-12, atol=0)
+
+
+def test_a_body_of_layers_wobbles_as_its_compliances_say() -> None:
+    """Mantle and fluid core: the ladder's own roots beside those of the system of all parts."""
+    body = planet()
+    rungs = earthspin.wobble_ladder(body=body)
+    assert rungs.rung.attrs["left_out"] == "ocean: interior 'two' has no ocean"
+    tree = earthspin.run_tree(earthspin.Scene(compute="compliances", body=body), "modes")
+    period = tree["modes"].compliance_mode_period.sel(free_mode="chandler_wobble")
+    # the ladder has A/(M R2) of J2 and H, the system that of the layers: 2.6e-5 measured
+    assert np.isclose(rungs.period_solar.sel(rung="fluid-core"), period, rtol=1e-4, atol=0)
+    # nothing is known to be uncertain but the exponent
+    half = rungs.period_solar_error
+    assert np.all(half[:-1] < 1e-12)
+    assert float(half[-1]) > 0
+
+
+def test_a_scene_states_layers_once(tmp_path: Path) -> None:
+    layers = ", ".join(
+        "{" + ", ".join(f"{k} = {v!r}".replace("'", '"') for k, v in one.items()) + "}"
+        for one in TWO
+    )
+    scene = tmp_path / "planet.toml"
+    scene.write_text(
+        'compute = "wobble"\n[body]\nfrom = "layers"\nname = "p"\nspin_period = "20 h"\n'
+        f'[body.interior]\nname = "two"\nlayers = [{layers}]\n'
+    )
+    found = earthspin.run(scene)
+    assert found.equals(earthspin.wobble_ladder(body=planet()))
+    assert earthspin.run(found).identical(found)
+    assert earthspin.Body.read(planet().write(), Where("body")) == planet()
+
+
+def test_an_earth_of_other_layers_keeps_its_sea() -> None:
+    """PREM by nine samples a layer, where PREM was: wobble and nutation are nearly the same."""
+    own = EARTH.replace(interior={"name": "sampled", "samples": samples_of_prem(9)})
+    assert "interior = sampled, 96 layers to 6371 km" in own.changes
+    found, ours = earthspin.wobble_ladder(body=own), shipped.answer("wobble")
+    off = abs(found.period_solar - ours.period_solar)
+    assert np.all(off < 0.1)  # days; 0.03 measured
+    assert not np.array_equal(found.period_solar, ours.period_solar)
+    ladder = earthspin.nutation_ladder(body=own).rms_deps - shipped.answer("nutation").rms_deps
+    assert float(abs(ladder).max()) < 0.02  # mas; 0.0176 measured
+    other = own.replace(spin_period="20 h")
+    assert earthspin.wobble_ladder(body=other).rung.values.tolist()[-1] == "anelastic"
+    assert "ocean" not in earthspin.wobble_ladder(body=other).rung
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: EARTH.replace(interior=3), "give a name"),
+        (lambda: earthspin.Body(name="x", gm=1.0, interior=3), "a table of layers or samples"),
+        (lambda: EARTH.replace(interior={"layers": []}), "grow from the centre"),
+        (lambda: earthspin.love_numbers(body=EARTH.replace(interior="permm")), "'prem'"),
+        (lambda: earthspin.love_numbers(body="mars"), "published numbers, but no layers"),
+        (lambda: earthspin.compliances(body="venus"), "no interior of Venus is kept; give layers"),
+        (lambda: earthspin.wobble_ladder(body={"from": "layers", "name": "x"}), "needs more"),
+    ],
+)
+def test_what_has_no_layers_is_told_in_one_line(make: object, message: str) -> None:
+    assert callable(make)
+    with pytest.raises(earthspin.EarthspinError, match=message) as caught:
+        make()
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

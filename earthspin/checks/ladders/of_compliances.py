@@ -50,7 +50,7 @@ def ladder(quick: bool) -> Ladder:
         problem="what whole body, fluid core and inner core of PREM answer to potentials in one "
         "another, nine numbers; the error is the largest, over the geometric mean of what the two "
         "parts answer to themselves",
-        subject="the compliances of a layered Earth",
+        subject="the compliances of PREM",
         reference="Hooke's law and Poisson's equation in the logarithm of the radius, in long "
         "double by extrapolation of order 20, from a tenth of the radius at which these start",
         reference_error=REFERENCE_ERROR,

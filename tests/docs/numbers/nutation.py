@@ -229,6 +229,7 @@ MEASURED = [
     ),
 ]
 
+TESTED_LAYERED = "tests/questions/test_layered.py"
 PUBLISHED = "published: Mathews, Buffett, Herring & Shapiro 1991, in tests/reference/nutation.json"
 MHB = "published: Mathews, Herring & Buffett 2002"
 TESTED = "tests/interior/test_love.py and test_rotation.py"
@@ -250,5 +251,6 @@ TOLD = [
     Told(PAGE, r"agrees to ${}$. In the notation", TESTED),
     Told(PAGE, r"give the forced wobble to ${}$;", TESTED),
     Told(PAGE, r"give $T$ again to ${}$.", TESTED),
+    Told(PAGE, "between them, changes no rung by more than {} mas", TESTED_LAYERED),
     Told(PAGE, "in equilibrium and adds {} to $k_2$", "docs/wobble.md"),
 ]

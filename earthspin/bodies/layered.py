@@ -1,0 +1,137 @@
+"""How what lies under the surface is given: by name, as a table of layers or samples, as itself."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
+
+from earthspin.errors import Where, nearest
+from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.text import Text
+
+#: Columns of samples with their units.
+COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q": ""}
+
+
+class Layers:
+    """Kind of a layered body."""
+
+    words = (
+        'the name of an interior with layers, like "prem", or a table: name, and either layers '
+        "(top, density, vp, vs, shear_q; polynomials of the radius over that of the surface) or "
+        "samples (radius, density, vp, vs, shear_q)"
+    )
+    hint = "str | LayeredBody | Mapping[str, Any]"
+
+    def read(self, given: object, where: Where) -> LayeredBody:
+        """Read a name, a layered body, or a table."""
+        if isinstance(given, LayeredBody):
+            return given
+        if isinstance(given, str):
+            from earthspin.interior.named import INTERIORS
+
+            named = {name: i.layers for name, i in INTERIORS.items() if i.layers is not None}
+            if given not in named:
+                raise where.error(given, nearest(given, named))
+            return named[given]
+        if not isinstance(given, Mapping):
+            raise where.error(given, f"give {self.words}")
+        if ("layers" in given) == ("samples" in given):
+            raise where.error("a table", "give either layers or samples")
+        name, reference = str(given.get("name", "layers")), str(given.get("reference", ""))
+        if "samples" in given:
+            return _sampled(given["samples"], name, reference, where.at("samples"))
+        layers = tuple(
+            _layer(one, where.at(f"layers[{number}]")) for number, one in enumerate(given["layers"])
+        )
+        tops = [layer.top for layer in layers]
+        if not tops or any(top <= below for below, top in pairwise([0.0, *tops])):
+            raise where.error(tops, "the tops of layers grow from the centre outwards")
+        return LayeredBody(name, layers, reference)
+
+    def write(self, value: LayeredBody) -> dict[str, Any]:
+        """Give the table of layers."""
+        return {
+            "name": value.name,
+            "reference": value.reference,
+            "layers": [
+                {
+                    "top": f"{layer.top!r} m",
+                    "density": list(layer.density),
+                    "vp": list(layer.vp),
+                    **({"vs": list(layer.vs)} if layer.vs else {}),
+                    **({"shear_q": layer.shear_q} if math.isfinite(layer.shear_q) else {}),
+                }
+                for layer in value.layers
+            ],
+        }
+
+
+def _layer(given: Any, where: Where) -> Layer:
+    """One layer of a table; a number stands for an even layer."""
+    if not isinstance(given, Mapping) or not {"top", "density", "vp"} <= set(given):
+        raise where.error(given, "give top, density, vp, and vs and shear_q if it is solid")
+    if unknown := set(given) - {"top", "density", "vp", "vs", "shear_q"}:
+        raise where.error(min(unknown), "a layer has top, density, vp, vs and shear_q")
+
+    from earthspin.units import quantity
+
+    def series(name: str, unit: str) -> tuple[float, ...]:
+        values = given.get(name, ())
+        several = values if isinstance(values, (list, tuple)) else (values,)
+        return tuple(float(quantity(v, unit, where.at(name), "1 " + unit)) for v in several)
+
+    vs = series("vs", "m/s")
+    vs = vs if any(vs) else ()
+    return Layer(
+        top=float(quantity(given["top"], "m", where.at("top"), "3480 km")),
+        density=series("density", "kg/m3"),
+        vp=series("vp", "m/s"),
+        vs=vs,
+        shear_q=series("shear_q", "")[0] if vs and "shear_q" in given else math.inf,
+    )
+
+
+def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody:
+    """Samples as a table of columns, or anything with columns of these names."""
+    import numpy as np
+
+    from earthspin.interior.samples import from_samples
+
+    try:
+        columns = {
+            column: [float(v) for v in np.asarray(given[column], dtype=float)]
+            for column in COLUMNS
+            if column != "shear_q" or column in given
+        }
+        columns.setdefault("shear_q", [math.inf] * len(columns["radius"]))
+        return from_samples(name, **columns, reference=reference)
+    except (KeyError, TypeError, ValueError) as error:
+        units = ", ".join(f"{column} ({unit or 'a number'})" for column, unit in COLUMNS.items())
+        raise where.error(
+            "a table", f"give columns of one length, outwards: {units}; {error}"
+        ) from None
+
+
+class UnderTheSurface:
+    """Kind of the interior of a body: a name stays one, all else becomes a layered body."""
+
+    words = (
+        'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '
+        "shear_q) or samples (radius, density, vp, vs, shear_q)"
+    )
+    hint = Layers.hint
+
+    def read(self, given: object, where: Where) -> str | LayeredBody:
+        """Read a name, a layered body, or a table."""
+        if isinstance(given, (LayeredBody, Mapping)):
+            return Layers().read(given, where)
+        if not isinstance(given, str):
+            raise where.error(given, f"give {self.words}")
+        return Text().read(given, where)
+
+    def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
+        """Give the name, or the table of layers."""
+        return value if isinstance(value, str) else Layers().write(value)
