@@ -1,4 +1,4 @@
-"""Compliances, ellipticities and coupling numbers as published: of PREM, and from the nutations."""
+"""Compliances, coupling and Love numbers as published: of PREM, of the Earth, from nutations."""
 
 from __future__ import annotations
 
@@ -29,6 +29,18 @@ PREM_PUBLISHED: dict[str, Constant] = {
         ("fluid", 0.113066, _RECALLED),
         ("inner", 7.3059e-4, _RECALLED),
     )
+}
+
+_IERS = "IERS Conventions (2010), IERS Technical Note 36"
+_GROSS = "Gross 2007, Treatise on Geophysics 3.09, table 1, as recalled"
+
+#: Love numbers of the Earth: of a tide with rotation and ellipticity, of a load for PREM.
+LOVE_PUBLISHED: dict[str, Constant] = {
+    "k2": Constant(0.29525, "", None, _IERS + ", table 6.3, elastic, zonal, as recalled"),
+    "h2": Constant(0.6078, "", None, _IERS + ", sect. 7.1.1, nominal, as recalled"),
+    "l2": Constant(0.0847, "", None, _IERS + ", sect. 7.1.1, nominal, as recalled"),
+    "k2_load": Constant(-0.305, "", None, _GROSS),
+    "h2_load": Constant(-0.990, "", None, _GROSS),
 }
 
 _MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"

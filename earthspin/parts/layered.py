@@ -80,3 +80,9 @@ def layers_of(body: Body) -> LayeredBody:
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
     """Layers that the question gives, or else those of the body."""
     return layers_of(body) if interior is None else interior
+
+
+def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
+    """Leave published numbers out for other layers than they are of."""
+    name = (interior or layers_of(body)).name
+    return None if name == "prem" else f"none are kept of '{name}'"

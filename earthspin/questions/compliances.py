@@ -10,7 +10,7 @@ from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
-from earthspin.parts.layered import LayeredInterior, layers, layers_of, require_layers
+from earthspin.parts.layered import LayeredInterior, layers, not_prem, require_layers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,12 +76,6 @@ PUBLISHED = {
     ),
     "published_source": Variable(("published_number",), "", "where it is published"),
 }
-
-
-def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """Leave published numbers out for another body than they are of."""
-    name = (interior or layers_of(body)).name
-    return None if name == "prem" else f"none are kept of '{name}'"
 
 
 @part(gives=PUBLISHED, unless=not_prem)

@@ -5,21 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body
+from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.parts.layered import LayeredInterior, layers, require_layers
+from earthspin.parts.layered import LayeredInterior, layers, not_prem, require_layers
 from earthspin.units import Number
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from earthspin.interior.layers import LayeredBody
+    from earthspin.interior.love import Yielding
 
 
 class LoveNumbers(
@@ -31,7 +34,8 @@ class LoveNumbers(
     -------
     Dataset
         Along `love` (k2, h2, l2 of a tide, k2_load, h2_load, l2_load): `love_number`, and
-        `love_number_imaginary`, negative where the body lags.
+        `love_number_imaginary`, negative where the body lags. `earthspin.run_tree` adds the
+        published ones of the Earth, and all of them by period.
 
     Raises
     ------
@@ -64,6 +68,17 @@ class LoveNumbers(
         require_layers(self, self.interior, self.body)
 
 
+#: Where `Yielding` keeps each number.
+_FIELDS = {
+    "k2": "k", "h2": "h", "l2": "l", "k2_load": "k_load", "h2_load": "h_load", "l2_load": "l_load",
+}  # fmt: skip
+
+
+def _numbers(found: Yielding) -> NDArray[np.complex128]:
+    """Love numbers along a first axis."""
+    return np.array([getattr(found, field) for field in _FIELDS.values()], dtype=complex)
+
+
 LOVE = without_error(
     "they follow from the layers, whose own errors are not known",
     {
@@ -82,17 +97,70 @@ def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -
     from earthspin.interior.love import yielding
 
     strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
-    found = yielding(layers, strain)
-    names = ("k", "h", "l", "k_load", "h_load", "l_load")
-    values = np.array([complex(getattr(found, name)) for name in names])
-    labels = [name.replace("_", "2_") if "_" in name else f"{name}2" for name in names]
+    values = _numbers(yielding(layers, strain))
     result = build(
         LOVE,
         {"love_number": values.real, "love_number_imaginary": values.imag},
-        coords={"love": ("love", labels)},
+        coords={"love": ("love", list(_FIELDS))},
     )
     result.love_number.attrs["references"] = layers.reference
     return result
+
+
+PUBLISHED = {
+    "published_love_number": Variable(
+        ("published_love",), "1", "published Love number", no_error="the source gives none"
+    ),
+    "published_love_source": Variable(("published_love",), "", "where it is published"),
+}
+
+
+@part(gives=PUBLISHED, unless=not_prem)
+def published() -> xr.Dataset:
+    """Love numbers of the Earth as published, each with its source."""
+    from earthspin.interior.published import LOVE_PUBLISHED
+
+    return build(
+        PUBLISHED,
+        {
+            "published_love_number": [of.value for of in LOVE_PUBLISHED.values()],
+            "published_love_source": [of.source for of in LOVE_PUBLISHED.values()],
+        },
+        coords={"published_love": list(LOVE_PUBLISHED)},
+    )
+
+
+#: Periods from which the loss grows to thirty years, s.
+PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
+BY_PERIOD = without_error(
+    "they follow from the layers, whose own errors are not known",
+    {
+        "elastic_love_number": Variable(("love",), "1", "Love number of the elastic body"),
+        "love_number_by_period": Variable(("love", "love_period"), "1", "Love number"),
+        "love_number_by_period_imaginary": Variable(
+            ("love", "love_period"), "1", "imaginary part, negative where the body lags"
+        ),
+    },
+)
+
+
+@part(gives=BY_PERIOD)
+def by_period(layers: LayeredBody, anelastic_exponent: float) -> xr.Dataset:
+    """How the Love numbers soften and lag from minutes to decades."""
+    from earthspin.interior.anelastic import anelastic_strain
+    from earthspin.interior.love import elastic, yielding
+
+    values = _numbers(yielding(layers, anelastic_strain(PERIODS, anelastic_exponent)))
+    days = {"units": "d", "long_name": "period of what deforms the body"}
+    return build(
+        BY_PERIOD,
+        {
+            "elastic_love_number": _numbers(elastic(layers)).real,
+            "love_number_by_period": values.real,
+            "love_number_by_period_imaginary": values.imag,
+        },
+        coords={"love": list(_FIELDS), "love_period": ("love_period", PERIODS / DAY, days)},
+    )
 
 
 @part
@@ -101,6 +169,11 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-made_of(LoveNumbers, answer=love, sections={"neglected": neglected}, parts=(layers,))
+made_of(
+    LoveNumbers,
+    answer=love,
+    sections={"published": published, "by_period": by_period, "neglected": neglected},
+    parts=(layers,),
+)
 
 love_numbers = ask(LoveNumbers)

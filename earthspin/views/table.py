@@ -90,6 +90,14 @@ def two_digits(value: SupportsFloat) -> str:
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
 
 
+def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:
+    """Write a published number and by how many per cent a value is larger; nothing for none."""
+    if published is None:
+        return "", ""
+    known = float(published)
+    return short_exponents(f"{known:g}"), f"{100 * (float(value) / known - 1):+.2f}"
+
+
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
     """Write a variable and its error."""
     return with_error(data[name], data[f"{name}_error"], unit)

@@ -29,7 +29,7 @@ FIGURES = {
     "precession": 2, "torque": 1, "pole": 1, "iau": 3, "nutation": 3, "long-term": 4,
     "rotation": 3, "wobble": 1,
     "polar-motion": 3,    "free-rotor": 2, "top-loop": 1, "spheroid": 0,
-    "cassini-states": 1, "love-numbers": 0, "compliances": 0,
+    "cassini-states": 1, "love-numbers": 1, "compliances": 1,
 }  # fmt: skip
 
 
@@ -111,6 +111,24 @@ def test_an_answer_draws_itself_and_a_slice_its_slice() -> None:
     motion, herpolhode = answer.earthspin.plot()
     assert motion.axes[0].lines[0].get_xdata()[-1] == 10
     assert len(herpolhode.axes[0].lines[-1].get_xdata()) == answer.time.size
+
+
+def test_numbers_of_layers_stand_beside_published_ones_of_the_same_layers() -> None:
+    for scene, number in (("love-numbers", "k2"), ("compliances", "gamma")):
+        tree = shipped.tree(scene)
+        rows = {row[0]: row for row in tables_for(tree)[0].rows}
+        name = {"k2": "love_number", "gamma": "number_value"}[number]
+        ours = float(tree[name].sel({tree[name].dims[0]: number}))
+        published, off = map(float, rows[number][-2:])
+        assert off == pytest.approx(100 * (ours / published - 1), abs=0.006)
+    other = earthspin.run_tree(earthspin.Scene(compute="compliances", interior="mars-layers"))
+    assert all(row[-1] == "" for row in tables_for(other)[0].rows)
+    assert drawings_for(other) == []
+    (lag,) = figures_of(earthspin.run("love-numbers"))
+    above, below = lag.axes
+    assert len(above.lines) == len(below.lines) == 5 + 3  # numbers, and marked periods
+    day = np.searchsorted(above.lines[0].get_xdata(), 1.0)
+    assert 0 < below.lines[0].get_ydata()[day] < 1
 
 
 def test_several_starts_are_drawn_without_the_herpolhode() -> None:

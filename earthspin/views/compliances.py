@@ -1,0 +1,120 @@
+"""Compliances and coupling numbers beside published ones, and the free modes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin.views.drawing import BLUE, GREY, RED, Drawing, axes, drawn, style
+from earthspin.views.reading import Result, answer_of, needed, of_sections, section
+from earthspin.views.table import Table, along, beside, short_exponents
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Sections that the figure stands on.
+DRAWN = ("published",)
+
+#: How a number is written in a figure; others as they are named.
+SYMBOLS = {
+    **{
+        name: rf"$\{name}$"
+        for name in ("kappa", "xi", "zeta", "gamma", "beta", "delta", "theta", "chi", "nu")
+    },
+    "e": "$e$", "e_f": "$e_f$", "e_s": "$e_s$",
+    "a1": r"$\alpha_1$", "a2": r"$\alpha_2$", "a3": r"$\alpha_3$",
+    "fluid": "$A_f/A$", "inner": "$A_s/A$",
+}  # fmt: skip
+#: Up to here, in size, the axis of the figure is a straight one.
+LINEAR = 1e-10
+
+
+def tables(tree: Result) -> list[Table]:
+    """The numbers, with published ones where there are, and the free modes."""
+    return [numbers(tree), *of_sections(tree, {"modes": modes})]
+
+
+def numbers(tree: Result) -> Table:
+    """Each number, with the published one where there is one."""
+    answer, known = answer_of(tree), section(tree, "published")
+    there = {} if known is None else dict(along(known, "published_number"))
+    rows = [
+        (
+            name,
+            short_exponents(f"{float(of.number_value):.6g}"),
+            *beside(of.number_value, there[name].published_value if name in there else None),
+        )
+        for name, of in along(answer, "number")
+    ]
+    note = (
+        "Products of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
+        "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of mantle, fluid "
+        "core and inner core; ellipticities, coupling numbers and moments. Layers: "
+        f"{answer.number_value.attrs['references']}."
+    )
+    if there:
+        sources = dict.fromkeys(str(of.published_source.values) for of in there.values())
+        note += f" Published: {'; '.join(sources)}."
+    return Table("Compliances", ("number", "value", "published", "difference, %"), rows, note)
+
+
+def modes(tree: Result) -> Table:
+    """Free modes of the elastic body."""
+    return Table(
+        "Free modes of the elastic body",
+        ("mode", "period, d"),
+        [
+            (name.replace("_", " "), f"{float(of.compliance_mode_period):.1f}")
+            for name, of in along(needed(tree, "modes"), "free_mode")
+        ],
+        "Nutations have their periods in space, negative if retrograde; wobbles in the body.",
+    )
+
+
+@style()
+def drawings(tree: Result) -> list[Drawing]:
+    """The numbers beside the published ones."""
+    if section(tree, "published") is None:
+        return []
+    caption = (
+        "Compliances, ellipticities, coupling numbers and moments, on an axis that is logarithmic "
+        "to either side of zero. Rings: as published. At the right what ours are over them."
+    )
+    return [drawn("Beside the published ones", caption, plot_compliances(tree))]
+
+
+def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Each number as a dot, and the published one as a ring, on a symmetric logarithmic axis.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``compliances``, of a body of which numbers are published.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    answer, known = answer_of(result), needed(result, "published")
+    ax = axes(ax, 7.5, 5.2)
+    names = [str(name) for name in known.published_number.values]
+    place = np.arange(len(names))
+    ours = answer.number_value.sel(number=names).values
+    theirs = known.published_value.values
+    ax.axvline(0, color=GREY, lw=0.8)
+    ax.plot(theirs, place, "o", mfc="none", mec=RED, ms=9, label="published")
+    ax.plot(ours, place, "o", color=BLUE, ms=4, label="from the layers")
+    for at, off in zip(place, 100 * (ours / theirs - 1), strict=True):
+        ax.annotate(
+            f"{off:+.2f} %".replace("-", "\N{MINUS SIGN}"), (1.0, at),
+            xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
+            va="center", fontsize=8, color=RED if abs(off) > 1 else GREY,
+        )  # fmt: skip
+    ax.set_xscale("symlog", linthresh=LINEAR)
+    ends = [-1e-4, -1e-7, 0.0, 1e-7, 1e-4, 1e-1]
+    ax.set_xticks(ends)
+    ax.set_xlim(-1e-3, 3.0)
+    ax.set_yticks(place, [SYMBOLS.get(name, name) for name in names])
+    ax.invert_yaxis()
+    ax.set_xlabel("value (ratio of moments of inertia)")
+    ax.legend(loc="lower left")
+    return ax
