@@ -54,7 +54,7 @@ NAMES = {
     "free-rotor": {"poinsot", "neglected"},
     "top": {"turning", "potential", "neglected"},
     "spheroid": {"neglected"},
-    "love-numbers": {"neglected"},
+    "love-numbers": {"published", "by_period", "neglected"},
     "compliances": {"published", "modes", "neglected"},
     "cassini-states": {"neglected"},
 }
