@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -75,6 +76,7 @@ def test_every_number_of_a_page_is_accounted_for(page: str) -> None:
         ("10^{-13}", 1e-13, 5e-14),
         ("−1.32·10⁵", -1.32e5, 500.0),
         ("3·10⁻¹²", 3e-12, 5e-13),
+        ("10⁸", 1e8, 5e7),
         ("5,040,431.0", 5040431.0, 0.05),
     ],
 )
@@ -82,6 +84,25 @@ def test_numbers_as_pages_write_them(told: str, value: float, half: float) -> No
     assert re.fullmatch(NUMBER, told)
     assert read(told) == pytest.approx(value, rel=1e-15, abs=0)
     assert half_a_unit(told) == pytest.approx(half, rel=1e-12, abs=0)
+
+
+def test_what_a_page_and_a_script_say_in_their_own_words(tmp_path: Path) -> None:
+    page, script = tmp_path / "page.md", tmp_path / "plot_script.py"
+    page.write_text(
+        "---\nformat: 1.5\n---\n\nIt is $p = 16$ arcsec, $10^{-9}$ of it, 10⁻⁶ or 3·10⁻⁷, in 81 "
+        "thousand years (I.8.7, of 2026-01-01).\n\n$$ a = 2.5 $$\n\n"
+        "```{code-cell} ipython3\nx = 3.5  # of 4.5 km\ny = '# 5.5', \"it's # 6.5\"\n```\n\n"
+        "```toml\nz = 7.5  # of 8.5\n```\n",
+        encoding="utf-8",
+    )
+    script.write_text(
+        'r"""\nTitle\n=====\n\nA turn takes 7 days, ``8.5`` of them (I.8.7).\n"""\n\n'
+        'x, words = 1.5, """2.5"""  # 9.5 kg\n',
+        encoding="utf-8",
+    )
+    told = ["16$ arcsec", "10^{-9}", "10⁻⁶", "3·10⁻⁷", "81 thousand years", "4.5 km"]
+    assert unaccounted(str(page), []) == told
+    assert unaccounted(str(script), []) == ["7 days", "9.5 kg"]
 
 
 @pytest.mark.parametrize("name", ["time", "family"])

@@ -361,10 +361,17 @@ MEASURED = [
             rounding.CLOSED_FORM_ERROR,
         ],
     ),
+    Sentence(
+        PAGE,
+        "is that of $H$, ${}$ (one standard deviation)",
+        lambda: EARTH.dynamical_flattening * EARTH.relative_uncertainty["dynamical_flattening"],
+    ),
 ]
 TOLD: list[Told | Column | Part] = [
     Told(PAGE, "is the half-width of a {} %\ninterval", ERROR),
     Told(PAGE, "mas/cy at {} %.", ERROR),
+    Told(PAGE, "wrong by more than ${}$ of the largest", "held by tests/sky/test_kernel_checks.py"),
+    Told(PAGE, "bodies with $H$ from ${}$ to\n${}$", GIVEN),
     Told(PAGE, "longer than {} years begin to see", "the first length at which they do"),
     Told(PAGE, "with the published one before the first position is read: {} ms", BENCH),
     Told(PAGE, "DE421, {} s for DE440, once for each process", BENCH),

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 import earthspin
 from earthspin.constants import ARCSEC, DAY, J2000_JD, JULIAN_YEAR
 from tests import shipped
+from tests.docs.numbers.answers import value
 from tests.docs.numbers.sentence import Part, Sentence, Told
 
 FRAMES, TESTING = "docs/frames.md", "docs/testing.md"
@@ -33,6 +34,12 @@ def apart_of_tt() -> float:
     return float(1e3 * np.abs(erfa.dtdb(J2000_JD, np.arange(0.0, 9000.0, 5.0), 0, 0, 0, 0)).max())
 
 
+def precession_of_tt() -> float:
+    """What the axis precesses in the largest TDB - TT, arcsec."""
+    rate = value("precession", "/", "precession_rate", perturber="total") / JULIAN_YEAR
+    return rate * apart_of_tt() / 1e3
+
+
 def zero_hours_utc() -> float:
     """Length from 0h TDB to 0h UTC, s, to the millisecond of TT."""
     midnight = Time("2026-01-01", scale="utc")
@@ -51,6 +58,11 @@ MEASURED = [
     ),
     Sentence(FRAMES, "is 0h TDB, {} s before 0h UTC", zero_hours_utc),
     Sentence(FRAMES, "they differ by {} ms at most", apart_of_tt, bound=True),
+    Sentence(
+        FRAMES,
+        "which is ${}$ arcsec of precession",
+        precession_of_tt,
+    ),
     Sentence(FRAMES, "by the frame\nbias, {} arcsec", frame_bias, 0.005),
     Sentence(FRAMES, "a Julian year of {} d,", lambda: JULIAN_YEAR / DAY),
     Sentence(FRAMES, "a day {} s.", lambda: DAY),

@@ -13,7 +13,7 @@ from astropy.coordinates import SkyCoord
 
 import earthspin
 from data_tools import long_term
-from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR
+from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, SOLAR_CONSTANT
 from earthspin.secular.budget import ELLIPTICITY_DRIFT
 from earthspin.secular.strength import FADES_FROM, FADES_TO
 from earthspin.sky import orbit_table
@@ -248,6 +248,7 @@ MEASURED += [
         "a drift of {} % in ten million years, an assumption",
         lambda: 100 * ELLIPTICITY_DRIFT * 1e7 * JULIAN_YEAR,
     ),
+    Sentence(PAGE, "the solar constant is {} W/m² unless", lambda: SOLAR_CONSTANT.value),
     Sentence(
         PAGE,
         "obliquity of IAU 1976, {}″ more than that of IAU 2006",
@@ -280,6 +281,16 @@ BY_DEFINITION = (
 TOLD = [
     *(Told(PAGE, text, "by definition") for text in BY_DEFINITION),
     Told(PAGE, "is a {} % half-width", "what an error is, by definition"),
+    *(
+        Told(PAGE, text, "given: the epoch")
+        for text in (
+            "$p_A$, deg | pole at {} kyr, ″ | source |",
+            "half-width of it | {} kyr | {} kyr | {} kyr | {} Myr back |",
+            "\n| {} kyr | 1.08",
+            "\n| {} kyr | 1.83",
+            "\n| {} Myr | 29.2",
+        )
+    ),
     Told(PAGE, "## Sunlight in summer at {}° north", "given"),
     Told(PAGE, "$H$ larger by {} %", "given"),
     Told(PAGE, "the\npole at {} years (`python -m data_tools long-term`)", "given: the epoch"),

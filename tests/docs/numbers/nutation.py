@@ -236,6 +236,16 @@ TESTED = "tests/interior/test_love.py and test_rotation.py"
 TOLD = [
     Told(PAGE, "moves the term of {} years", "the Moon's node"),
     *(
+        Told(PAGE, row, "the unit of a row")
+        for row in (
+            "$e_f$, $e_s$ (${}$)",
+            "$\\beta$ (${}$)",
+            "$\\xi$ (${}$)",
+            "$\\theta$ (${}$), $\\chi$, $\\nu$ (${}$)",
+            "$\\zeta$ (${}$), $\\delta$ (${}$)",
+        )
+    ),
+    *(
         Told(PAGE, f"\n| {{}} | {rest}", "periods of the adopted arguments")
         for rest in ("−8024.895", "−1180.348", "−548.627", "−94.094", "−33.360")
     ),

@@ -43,5 +43,6 @@ MEASURED = [
 ]
 
 TOLD = [
+    Told(PAGE, "# {} kg, C = {} kg m2", "given: what the cell begins with"),
     Told(PAGE, "(360 × 266 × {} km", "Tarnopolski 2015, Astrophys. Space Sci. 357, 160"),
 ]

@@ -9,7 +9,7 @@ import numpy as np
 import earthspin
 from earthspin import EARTH
 from earthspin.bodies import MOON, SUN
-from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.torque.average import Window, window_mean_and_error
@@ -61,9 +61,9 @@ def on_the_mean_orbit() -> float:
 
 
 def off_the_ephemeris() -> float:
-    """That rate beside the ephemeris, parts in a million."""
+    """That rate beside the ephemeris, relative."""
     ours = value("precession", "/", "precession_rate", perturber="sun")
-    return abs(1e6 * (on_the_mean_orbit() / ours - 1))
+    return abs(on_the_mean_orbit() / ours - 1)
 
 
 def rate_about(year: float, taper: str, turns: float, cycle: float = MOON.cycle) -> float:
@@ -191,7 +191,8 @@ MEASURED = [
         lambda: [MOON.cycle / DAY, 18.6, 365.25, MOON.cycle / DAY - 18.6 * 365.25],
     ),
     Sentence(THEORY, "Sun's mean orbit it gives {} arcsec/yr", on_the_mean_orbit),
-    Sentence(THEORY, "arcsec/yr, within {} parts in $10^6$ of the ephemeris", off_the_ephemeris),
+    Sentence(THEORY, "arcsec/yr, within ${}$ of the ephemeris", off_the_ephemeris),
+    Sentence(THEORY, "which is known to\n${}$ only", lambda: G.uncertainty / G.value),
     Sentence(
         THEORY,
         "With the rounded length, Hann and sin$^4$ tapers over four turns give {} and {}",

@@ -11,8 +11,9 @@ from pathlib import Path
 ROOT = Path(__file__).parents[3]
 
 #: A number as the pages write it: a sign of either kind, commas, a power of ten in any form.
-POWER = r"(?:e[-+]?\d+|(?:\\(?:times|cdot)|·)10(?:\^\{?-?\d+\}?|[⁰¹²³⁴-⁹⁻]+))"
-NUMBER = rf"[-+−]?(?:\d[\d,]*(?:\.\d+)?{POWER}?|10\^\{{?-?\d+\}}?)"
+TENS = r"10(?:\^\{?-?\d+\}?|[⁰¹²³⁴-⁹⁻]+)"
+POWER = rf"(?:e[-+]?\d+|(?:\\(?:times|cdot)|·){TENS})"
+NUMBER = rf"[-+−]?(?:{TENS}|\d[\d,]*(?:\.\d+)?{POWER}?)"
 _UNICODE = str.maketrans("−⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "-0123456789-")
 
 
@@ -208,15 +209,56 @@ def standing(page: str, text: str) -> re.Match[str]:
 #: What is no text of the page's own: its head, code, formulas that stand apart, where links lead,
 #: what the source text numbers, and the list of sources.
 _APART = re.compile(
-    r"\A---.*?^---$|^(`{3,}|~{3,}).*?^\1|^\$\$.*?\$\$$|\]\([^)]*\)|^## Sources.*|`[^`\n]*`"
-    r"|\bI\.\d+(?:\.\d+)*|\d{4}-\d{2}-\d{2}|<!-- measured: begin.*?measured: end -->",
+    r"\A---.*?^---$|^(?P<fence>`{3,}|~{3,})(?P<code>.*?)^(?P=fence)|^\$\$.*?\$\$$|\]\([^)]*\)"
+    r"|^## Sources.*|`[^`\n]*`|\bI\.\d+(?:\.\d+)*|\d{4}-\d{2}-\d{2}"
+    r"|<!-- measured: begin.*?measured: end -->",
     flags=re.DOTALL | re.MULTILINE,
+)
+#: In the text of a script of the gallery: literals and what the source text numbers.
+_APART_IN_SCRIPT = re.compile(r"``.*?``|\bI\.\d+(?:\.\d+)*")
+#: Words of code, and its strings, among which a hash begins no comment.
+_WORDS_OF_CODE = re.compile(
+    r"(?P<docstring>\Ar?\"{3}.*?\"{3})|(?P<quote>\"{3}|[\"'])(?:\\.|(?!(?P=quote)).)*(?P=quote)"
+    r"|(?P<comment>#[^\n]*)|.",
+    flags=re.DOTALL,
 )
 #: A number that was measured somewhere: it has decimals, a power of ten, or a unit.
 _WITH_UNIT = re.compile(
-    rf"(?<![\w.^]){NUMBER}(?![\w.]*\d)(?P<unit>\s?(?:%|[mµunk]as\b|d\b|days?\b|years?\b|°|degrees\b"
-    r"|[nµm]?s\b|[kM]B\b|[kcm]?m\b|arcsec|rad\b|times\b|seconds?\b|minutes?\b|hours?\b|″|′))?"
+    rf"(?<![\w.^]){NUMBER}(?![\w.]*\d)(?P<unit>\$?(?:\s|\\[,;])?(?:%|[mµunk]as\b|d\b|days?\b"
+    r"|(?:(?:thousand|million)\s)?years?\b|[kM]?yr\b|°|\^\\circ|degrees\b|[nµm]?s\b|[kM]B\b"
+    r"|[kcm]?m\b|k?g\b|N m\b|W\b|arcsec|rad\b|turns?\b|times\b|seconds?\b|minutes?\b|hours?\b"
+    r"|″|′))?"
 )
+
+
+def _blank(apart: re.Match[str]) -> str:
+    """As many blanks as what is no text has characters, so that the rest keeps its place."""
+    code = apart.groupdict().get("code") or ""
+    if not code.startswith("{code-cell}"):
+        return " " * len(apart[0])
+    before, after = apart.start("code") - apart.start(), apart.end() - apart.end("code")
+    return " " * before + _words_of_code(code) + " " * after
+
+
+def _words_of_code(code: str) -> str:
+    """What is told in code: its docstring, if it begins with one, and its comments."""
+    return _WORDS_OF_CODE.sub(
+        lambda word: word["docstring"] or word["comment"] or " " * len(word[0]), code
+    )
+
+
+def prose(page: str) -> str:
+    """Text of a page or of a script, blanks in the place of all that is not in its own words.
+
+    Parameters
+    ----------
+    page : str
+        Path from the folder of the project.
+    """
+    text = (ROOT / page).read_text(encoding="utf-8")
+    if page.endswith(".py"):
+        return _APART_IN_SCRIPT.sub(_blank, _words_of_code(text))
+    return _APART.sub(_blank, text)
 
 
 def unaccounted(page: str, sentences: Sequence[Sentence | Told | Column | Part]) -> list[str]:
@@ -228,8 +270,6 @@ def unaccounted(page: str, sentences: Sequence[Sentence | Told | Column | Part])
     sentences : sequence of Sentence, Told, Column or Part
         Of any pages.
     """
-    text = (ROOT / page).read_text(encoding="utf-8")
-    text = _APART.sub(lambda apart: " " * len(apart[0]), text)
     covered = [
         one.found().span(group)
         for one in sentences
@@ -237,10 +277,10 @@ def unaccounted(page: str, sentences: Sequence[Sentence | Told | Column | Part])
         for group in range(1, len(one.found().groups()) + 1)
     ]
     found = []
-    for number in _WITH_UNIT.finditer(text):
+    for number in _WITH_UNIT.finditer(prose(page)):
         told = re.match(NUMBER, number[0])
         assert told
-        if not (number["unit"] or re.search(r"\.\d|e[-+]?\d|10[\^⁻]", told[0])):
+        if not (number["unit"] or re.search(r"\.\d|e[-+]?\d|10[\^⁰¹²³⁴-⁹⁻]", told[0])):
             continue
         if not any(first <= number.start() < last for first, last in covered):
             found.append(number[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import tomllib
 from collections.abc import Sequence
@@ -9,11 +10,13 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
+import pytest
 import xarray as xr
 
 import earthspin
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
+from earthspin.sky import orbit_table
 from tests.docs.numbers.answers import value
 from tests.docs.numbers.sentence import ROOT, Part, Sentence, Told
 
@@ -88,6 +91,22 @@ def epochs_of_the_example() -> float:
     return float(span / np.timedelta64(1, "m") / 1e6)
 
 
+def reach_of_the_orbit() -> float:
+    """How far the shipped orbit of the Earth goes, million years."""
+    table = orbit_table.shipped("earth")
+    assert table is not None
+    return table.coverage[1] / JULIAN_YEAR / 1e6
+
+
+def tolerances_not_named() -> list[float]:
+    """What assert_allclose, isclose and approx allow if nothing is said."""
+    of_numpy = [
+        float(inspect.signature(compare).parameters[name].default)
+        for compare, name in ((np.testing.assert_allclose, "rtol"), (np.isclose, "atol"))
+    ]
+    return [*of_numpy, float(pytest.approx(0.0, rel=1e-15).tolerance)]
+
+
 def tally() -> Sequence[float]:
     """Of all cases: how many, which must hold, hold, are refused, fail."""
     verdict = cases().verdict.values
@@ -144,7 +163,18 @@ MEASURED = [
         lambda: [1e6 * DAY * np.spacing(days) / 2 for days in (36525.0, 2 * J2000_JD)],
         (0, 1),
     ),
+    Sentence(
+        "README.md",
+        "eccentricity over ±{} million years",
+        reach_of_the_orbit,
+    ),
     Sentence(TESTING, "`tests/fuzz` makes {} malformed scenes", malformed),
+    Sentence(
+        TESTING,
+        "allows a difference of ${}$ as well, `isclose(a, b, rtol=1e-15)`\none of ${}$, and "
+        "`approx(a, rel=1e-15)` one of ${}$.",
+        tolerances_not_named,
+    ),
     Sentence(FIRST, "once round in {} years", period, 0.5),
     Sentence(QUICK, '"torque.zarr")  # {} million epochs', epochs_of_the_example),
     Sentence(
@@ -169,7 +199,13 @@ TOLD: list[Told | Part] = [
     ),
     Told(
         STABILITY,
-        "made block by block, which took six\nminutes and {} MB more memory",
-        "memory: earthspin stability --long",
+        "`--long` adds {} epochs made block by block, which took six\nminutes and {} MB more memory"
+        " than {}.",
+        "given: the epochs; memory: earthspin stability --long",
+    ),
+    Told(
+        "docs/architecture.md",
+        "Skyfield reads them, to the same ${}$",
+        "docs/skyfield.md, with what is measured",
     ),
 ]

@@ -12,10 +12,16 @@ import mpmath as mp
 import numpy as np
 
 from earthspin.bodies import MOON
-from earthspin.checks.ladders import model_sky, of_free_rotor, of_spheroid, of_top
+from earthspin.checks.ladders import (
+    model_sky,
+    of_free_rotor,
+    of_spheroid,
+    of_top,
+    of_torque,
+)
 from earthspin.checks.ladders.of_precession import TORUS
 from earthspin.checks.work_precision import SHORTEST_SAMPLE
-from earthspin.constants import JULIAN_YEAR
+from earthspin.constants import JULIAN_YEAR, MAS
 from earthspin.interior.rotation import transfer
 from earthspin.sky import iau
 from tests.docs.numbers.nutation import retrograde_node, rungs
@@ -198,6 +204,17 @@ MEASURED = [
         "they keep ten digits at {} radii, four at the Moon's",
         lambda: of_spheroid.DISTANCES[0],
     ),
+    Sentence(PAGE, "none at ${}$ radii; long double", lambda: of_spheroid.DISTANCES[4]),
+    Sentence(
+        PAGE,
+        "Its rounding is ${}$ mas, a\nthousand times below that of ERFA in double precision, "
+        "whose sum it thereby checks (${}$ mas)",
+        lambda: [
+            of_torque.ladder(quick=True).reference_error / MAS,
+            row("torque", "IAU 2000A at each epoch").error,
+        ],
+        slow=True,
+    ),
     Sentence(
         PAGE,
         "for no method can it be smaller than\n$T\\sqrt{T/4\\pi QL}$, {} days for {} years",
@@ -218,8 +235,13 @@ MEASURED = [
         slow=True,
     ),
 ]
+#: Measured once, where the ladder was made.
+IN_LADDERS = "earthspin/checks/ladders: what steps or points in between change"
 TOLD: list[Told | Column | Part] = [
+    Told(PAGE, "points finds it to\n${}$ without a window", IN_LADDERS),
+    Told(PAGE, "Steps of six hours change it by ${}$ rad", IN_LADDERS),
+    Told(PAGE, "halving those changes it by ${}$ rad", IN_LADDERS),
     Told(
         PAGE, "halving its steps changes it by\n${}$.", "printed by python -m data_tools references"
-    )
+    ),
 ]
