@@ -21,4 +21,7 @@ PAGES = (
     "worlds",
     "rotation",
     "ensembles",
+    "course",
+    "howto",
+    "gallery",
 )

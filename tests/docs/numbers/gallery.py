@@ -1,0 +1,28 @@
+"""Numbers in the words of the scripts of docs/gallery; what they find they draw."""
+
+from __future__ import annotations
+
+from tests.docs.numbers.sentence import Sentence, Told
+
+
+def script(name: str) -> str:
+    """Path of a script."""
+    section, picture = name.split("/")
+    return f"docs/gallery/{section}/plot_{picture}.py"
+
+
+MEASURED: list[Sentence] = []
+TOLD = [
+    Told(script("bodies/rings"), "masses of {} kg", "given: what the script begins with"),
+    Told(script("precession/worlds"), "The {} % errors", "what an error is, by definition"),
+    Told(
+        script("rotation/hyperion"),
+        "# semi-axes {}, {} and {} km",
+        "published: 360 × 266 × 205 km, Tarnopolski 2015, Astrophys. Space Sci. 357, 160",
+    ),
+    Told(
+        script("rotation/phobos"),
+        "# semi-axes {}, {} and {} km",
+        "published: IAU, as recalled, as on docs/rotation.md",
+    ),
+]
