@@ -4,8 +4,8 @@ The path of the pole does not close
 
 Today's rate and obliquity would carry the pole round a circle (I.8, "Precession of the
 equinoxes"). The real pole goes round a pole of the ecliptic that moves, at a rate that changes:
-half a turn ahead it lies some degrees from where it was half a turn ago. Thuban was the pole star
-of the Old Kingdom of Egypt, a third of the Moon's width from the pole.
+half a turn ahead it lies some degrees from where it was half a turn ago. About 2800 BC, a
+century before the Old Kingdom of Egypt, Thuban was within a third of the Moon's width of the pole.
 
 *Next:* print ``tree["matrices"]`` of ``run_tree`` and turn a star with its proper motion.
 """

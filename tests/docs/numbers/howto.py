@@ -13,7 +13,10 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.sky.ephemeris import find_kernel
 from tests.docs.numbers.sentence import Sentence, Told
 
-LECTURE, MANY = "docs/tutorials/lecture.md", "docs/tutorials/many_earths.md"
+LECTURE, PAPER, MANY = (
+    f"docs/tutorials/{name}.md" for name in ("lecture", "iau_paper", "many_earths")
+)
+RESIDUALS = ("dpsi_sineps_by_model", "deps_by_model")
 
 
 def light_of_the_sun() -> float:
@@ -37,12 +40,25 @@ def mars() -> float:
     return float(found.precession_period.sel(perturber="sun"))
 
 
+def panels() -> float:
+    """How much wider the upper panel of the comparison is than the lower one."""
+    scene = earthspin.load_scene("iau", {"span": ["1990-01-01", "2020-01-01"], "step": "5 d"})
+    tree = earthspin.run_tree(scene, sections=["residuals_by_model"])
+    drawn = tree["residuals_by_model"].to_dataset(inherit=False)
+    rigid, nonrigid = (
+        max(float(np.ptp(drawn[name].sel(model=model).values)) for name in RESIDUALS)
+        for model in ("rigid", "nonrigid")
+    )
+    return rigid / nonrigid
+
+
 MEASURED = [
     Sentence("docs/howto/astropy.md", "it shows the Sun some {}″ elsewhere", light_of_the_sun, 1.0),
     *(
         Sentence("docs/howto/pint.md", "A year is {} days in both", year)
         for year in (year_of_pint, lambda: JULIAN_YEAR / DAY)
     ),
+    Sentence(PAPER, "The lower panel is some {} times finer", panels, 50.0, slow=True),
     Sentence(LECTURE, "for a Mars that does it in\n{} years", mars, 500.0),
 ]
 TOLD = [
@@ -58,7 +74,7 @@ TOLD = [
         "given: in the cell below; the other by definition",
     ),
     Told(
-        "docs/tutorials/iau_paper.md",
+        PAPER,
         "the half-width of its {} % interval",
         "what an error is, by definition",
     ),
