@@ -30,13 +30,15 @@ MODULES = [import_module(f"tests.docs.numbers.{name}") for name in PAGES]
 MEASURED: list[Sentence] = [one for module in MODULES for one in module.MEASURED]
 TOLD: list[Told | Column | Part] = [one for module in MODULES for one in module.TOLD]
 
-#: Pages, and scripts of the gallery with the heads of its sections; listings that commands write
-#: stand in docs/measured.
+#: Pages, examples, and scripts of the gallery with the heads of its sections; listings that
+#: commands write stand in docs/measured.
 WRITTEN = (
     "*.md",
     "course/*.md",
     "howto/*.md",
+    "reference/*.md",
     "tutorials/*.md",
+    "examples/*.py",
     "gallery/**/*.py",
     "gallery/**/*.rst",
 )

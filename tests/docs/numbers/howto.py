@@ -1,4 +1,4 @@
-"""Numbers in the prose of docs/howto and docs/tutorials."""
+"""Numbers in the prose of docs/howto, docs/tutorials and docs/examples."""
 
 from __future__ import annotations
 
@@ -62,6 +62,11 @@ MEASURED = [
     Sentence(LECTURE, "for a Mars that does it in\n{} years", mars, 500.0),
 ]
 TOLD = [
+    Told(
+        "docs/examples/tidal_tilt.py",
+        "#: Obliquity grows by {} mas a century",
+        "published: Williams 1994, as the comment says",
+    ),
     Told("docs/howto/from_shape.md", "A brick, {} by {} by {} m", "given: in the cell below"),
     Told(
         "docs/howto/offline.md",
