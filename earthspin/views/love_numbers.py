@@ -44,7 +44,7 @@ def tables(tree: Result) -> list[Table]:
     if there:
         sources = dict.fromkeys(str(of.published_love_source.values) for of in there.values())
         note += (
-            f" Published: {'; '.join(sources)}. The tidal ones are of an Earth that turns and is "
+            f" Published: {'; '.join(sources)}. The tidal ones are of a body that turns and is "
             "flattened, which this sphere is not."
         )
     heads = ("Love number", "real part", "imaginary part", "published", "difference, %")

@@ -13,9 +13,8 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.sky.ephemeris import find_kernel
 from tests.docs.numbers.sentence import Sentence, Told
 
-LECTURE, PAPER, MANY = (
-    f"docs/tutorials/{name}.md" for name in ("lecture", "iau_paper", "many_earths")
-)
+LECTURE, PAPER, BRICK = "docs/tutorials/brick_to_saturn.md"
+MANY = (f"docs/tutorials/{name}.md" for name in ("lecture", "iau_paper", "many_earths"))
 RESIDUALS = ("dpsi_sineps_by_model", "deps_by_model")
 
 
@@ -85,4 +84,11 @@ TOLD = [
     ),
     Told(MANY, "(a half-width of {} %, hence the {})", "by definition: of a normal distribution"),
     Told(MANY, "a real Earth with a day of {} hours", "given: in the cell above"),
+    Told(
+        "docs/howto/own_trajectory.md",
+        "# {} km, {} degrees north",
+        "given: in the line that it stands in",
+    ),
+    Told(BRICK, "# cells of {} by {} by {} m", "given: in the cell itself"),
+    Told(BRICK, "an axis that leans by {} degrees", "given: in the cell below"),
 ]
