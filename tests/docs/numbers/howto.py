@@ -13,8 +13,10 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.sky.ephemeris import find_kernel
 from tests.docs.numbers.sentence import Sentence, Told
 
-LECTURE, PAPER, BRICK = "docs/tutorials/brick_to_saturn.md"
-MANY = (f"docs/tutorials/{name}.md" for name in ("lecture", "iau_paper", "many_earths"))
+LECTURE, PAPER, MANY, BRICK = (
+    f"docs/tutorials/{name}.md"
+    for name in ("lecture", "iau_paper", "many_earths", "brick_to_saturn")
+)
 RESIDUALS = ("dpsi_sineps_by_model", "deps_by_model")
 
 
