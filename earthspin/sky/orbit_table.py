@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import os
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -28,6 +28,9 @@ FloatArray = NDArray[np.float64]
 WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16
 #: Samples a window must hold for each term to be fitted; with fewer, samples are joined by splines.
 DENSE = 3
+#: Times whose orbit is kept, and how many such sets: whoever follows an axis with each cause of its
+#: error changed asks for the same ones every time.
+LONGEST_REMEMBERED, SETS_REMEMBERED = 2048, 32
 #: Smallest unit in which coefficients are stored.
 UNIT = 1e-9
 
@@ -100,6 +103,11 @@ class OrbitTable:
         CoverageError
             If a time lies outside the table.
         """
+        if times.size > LONGEST_REMEMBERED:
+            return self._evaluated(times)
+        return _remembered(self, np.asarray(times, dtype=float).tobytes())
+
+    def _evaluated(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         self.check_times(times)
         window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(self.edges) - 2)
         middle, half = (self.edges[:-1] + self.edges[1:]) / 2, np.diff(self.edges) / 2
@@ -139,6 +147,15 @@ class OrbitTable:
             write(file, self)
         except OSError as error:
             raise OutputError(file, f"it cannot be written: {one_line(error)}") from None
+
+
+@lru_cache(maxsize=SETS_REMEMBERED)
+def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The orbit at times, as arrays that cannot be written to."""
+    found = table._evaluated(np.frombuffer(times))
+    for values in found:
+        values.flags.writeable = False
+    return found
 
 
 def _words(time: float) -> str:
