@@ -16,7 +16,7 @@ from earthspin.constants import (
     Constant,
 )
 from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import Direction, FixedPole
+from earthspin.sky.poles import Direction
 
 # Normalised coefficients of degree and order 2.
 _C22, _S22 = -8.4636e-5, 4.8935e-5
@@ -52,33 +52,28 @@ NUMBERS = {
     ),
 }
 
-#: The IAU's pole of 2015, which moves: ``MARS.replace(pole=MOVING_POLE)``. `MARS` keeps the one of
-#: J2000.0, with which the errors of its averages were measured.
-MOVING_POLE = MovingPole.published(  # Archinal et al. 2018, Celest. Mech. 130:22, as recalled
-    (317.269202, -0.10927547),
-    (54.432516, -0.05827105),
-    [
-        (0.000068, 198.991226, 19139.4819985),
-        (0.000238, 226.292679, 38280.8511281),
-        (0.000052, 249.663391, 57420.7251593),
-        (0.000009, 266.183510, 76560.6367950),
-        (0.419057, 79.398932, 0.5042615),
-    ],
-    [
-        (0.000051, 122.433576, 19139.9407476),
-        (0.000141, 43.058401, 38280.8753272),
-        (0.000031, 57.663379, 57420.7517205),
-        (0.000005, 79.476401, 76560.6495004),
-        (1.591274, 166.325722, 0.5042615),
-    ],
-)
-
 MARS = Body.cited(
     "mars",
     NUMBERS,
     naif=(499, 4),
-    # Archinal et al. 2011, Celest. Mech. 109, 101, at J2000.0
-    pole=FixedPole(math.radians(317.68143), math.radians(52.88650)),
+    pole=MovingPole.published(  # Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015), as recalled
+        (317.269202, -0.10927547),
+        (54.432516, -0.05827105),
+        [
+            (0.000068, 198.991226, 19139.4819985),
+            (0.000238, 226.292679, 38280.8511281),
+            (0.000052, 249.663391, 57420.7251593),
+            (0.000009, 266.183510, 76560.6367950),
+            (0.419057, 79.398932, 0.5042615),
+        ],
+        [
+            (0.000051, 122.433576, 19139.9407476),
+            (0.000141, 43.058401, 38280.8753272),
+            (0.000031, 57.663379, 57420.7517205),
+            (0.000005, 79.476401, 76560.6495004),
+            (1.591274, 166.325722, 0.5042615),
+        ],
+    ),
     # Standish & Williams, approximate elements
     orbit_pole=Direction.across(math.radians(1.84969142), math.radians(49.55953891)),
     interior="mars-insight",
