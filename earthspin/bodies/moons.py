@@ -19,7 +19,9 @@ from earthspin.mass.inertia import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
 _IESS = "Iess et al. 2012, Science 337, 457 (Cassini), as recalled"
-_AXES = f"homogeneous ellipsoid of 13.0 x 11.4 x 9.1 km, {IAU_2015}"
+#: Semi-axes of Phobos, km.
+_PHOBOS = (13.0, 11.4, 9.1)
+_AXES = f"homogeneous ellipsoid of {' x '.join(map(str, _PHOBOS))} km, {IAU_2015}"
 _IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009), as recalled"
 _TITAN = OF_SATURN[-1]
 
@@ -49,7 +51,7 @@ def _locked(gm: Constant, radius: float, period: Constant, source: str) -> dict[
 
 
 def _of_phobos() -> dict[str, Constant]:
-    j2, h, triaxiality = homogeneous_ellipsoid(13.0, 11.4, 9.1)
+    j2, h, triaxiality = homogeneous_ellipsoid(*_PHOBOS)
     figure = {"j2": j2, "dynamical_flattening": h, "triaxiality": triaxiality}
     return {name: Constant(value, "", None, _AXES) for name, value in figure.items()}
 
@@ -59,7 +61,7 @@ _M1 = (169.51, -0.4357640 * DAYS_PER_CENTURY)
 
 PHOBOS = Body.cited(
     "phobos",
-    _locked(Constant(7.087e5, "m3 s-2", None, JPL), 13.0, _days(0.31891023, JPL), _AXES)
+    _locked(Constant(7.087e5, "m3 s-2", None, JPL), _PHOBOS[0], _days(0.31891023, JPL), _AXES)
     | _of_phobos(),
     naif=(401,),
     pole=MovingPole.published((317.68, -0.108), (52.90, -0.061), [(1.79, *_M1)], [(-1.08, *_M1)]),
