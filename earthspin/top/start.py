@@ -102,12 +102,12 @@ class HeavyTop:
         _require(i1 > 0, "transverse_moment", i1, "give a positive number of kg m2")
         _require(i3 > 0, "axial_moment", i3, "give a positive number of kg m2")
         most = "no body has more than twice its transverse moment about the pivot"
-        _require(i3 <= 2 * i1 * (1 + 1e-14), "axial_moment", i3, most)
+        _require(i3 / 2 * (1 - 1e-14) <= i1, "axial_moment", i3, most)
         for name in ("theta_rate", "phi_rate", "spin"):
             rate = getattr(self, name)
             _require(np.abs(rate) <= _FASTEST, name, rate, f"give at most {_FASTEST:g} rad/s")
         weight = self.weight_moment
-        slow = np.abs(weight) / _FASTEST <= i1 * _FASTEST
+        slow = np.abs(weight) / _FASTEST / _FASTEST <= i1  # in this order nothing overflows
         _require(slow, "weight_moment", weight, "its transverse moment is too small for it")
         upright_to_hanging = (self.theta >= 0) & (self.theta <= np.pi)
         _require(upright_to_hanging, "theta", self.theta, "give an angle from 0 to pi rad")

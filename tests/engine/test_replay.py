@@ -305,11 +305,35 @@ def test_rotors_are_written_exactly(
     assert_same_bits(FreeRotor(moments=named if differences else moments, omega=omega, **when))
 
 
-@given(numbers=st.lists(FINITE, min_size=9, max_size=9), accuracy=st.none() | POSITIVE)
-def test_tops_are_written_exactly(numbers: list[float], accuracy: float | None) -> None:
-    names = ("transverse_moment", "axial_moment", "weight_moment", "theta", "spin", "phi_rate")
-    keys = dict(zip((*names, "theta_rate", "phi", "psi"), numbers, strict=True))
-    assert_same_bits(Top(**keys, accuracy=accuracy))
+@given(
+    transverse=st.floats(1e-150, 1e150),
+    axial_share=st.floats(1e-9, 2.0),
+    weight=st.floats(-1e40, 1e40),
+    theta=st.floats(0.0, math.pi),
+    rates=st.lists(st.floats(-1e100, 1e100), min_size=3, max_size=3),
+    angles=st.lists(FINITE, min_size=2, max_size=2),
+    accuracy=st.none() | POSITIVE,
+)
+def test_tops_are_written_exactly(
+    transverse: float,
+    axial_share: float,
+    weight: float,
+    theta: float,
+    rates: list[float],
+    angles: list[float],
+    accuracy: float | None,
+) -> None:
+    assert_same_bits(
+        Top(
+            transverse_moment=transverse,
+            axial_moment=axial_share * transverse,
+            weight_moment=weight,
+            theta=theta,
+            **dict(zip(("spin", "phi_rate", "theta_rate"), rates, strict=True)),
+            **dict(zip(("phi", "psi"), angles, strict=True)),
+            accuracy=accuracy,
+        )
+    )
 
 
 @given(points=st.lists(st.lists(FINITE, min_size=3, max_size=3), min_size=1, max_size=30))
