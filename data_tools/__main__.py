@@ -8,6 +8,7 @@ import sys
 from data_tools import (
     accuracy_pages,
     cf,
+    core_resonance,
     error_models,
     free_wobble,
     hashes,
@@ -38,6 +39,10 @@ VERBS = {
     "free-wobble": (
         free_wobble.main,
         "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
+    ),
+    "core-resonance": (
+        core_resonance.main,
+        "measure on what the resonance of the core rests, for docs/pole.md and docs/nutation.md",
     ),
     "long-term": (long_term.main, "measure what docs/long_term.md says in its tables"),
     "orbits": (secular_orbits.main, "make the tables of orbits over ten million years again"),

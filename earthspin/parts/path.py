@@ -366,14 +366,17 @@ class Apart:
         Fitted to all circles but those of `added`.
     used : ndarray, shape (k,), bool
         The circles that it is fitted to.
+    rigid : ndarray, shape (k,), complex
+        What torques make of each circle, without geodesic nutation, rad.
     left : ndarray, shape (k,), complex
-        What it leaves of each circle of IAU 2000A, rad.
+        What the response leaves of each circle of IAU 2000A, rad.
     added : dict of str to int
         Place of the circles to which IAU 2000A adds something, by name.
     """
 
     response: Response
     used: NDArray[np.bool_]
+    rigid: NDArray[np.complex128]
     left: NDArray[np.complex128]
     added: dict[str, int]
 
@@ -411,7 +414,7 @@ def response_apart(
         float(body.spin_rate),
     )
     left = theirs - response.transfer(ours.frequency) * torques
-    return Apart(response, used, left, places)
+    return Apart(response, used, torques, left, places)
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,12 @@ from functools import cache, partial
 import numpy as np
 
 import earthspin
+from data_tools import core_resonance as resonance
 from earthspin import EARTH
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.motion.effects import RIGID
+from earthspin.nutation.ladder import quality
+from earthspin.nutation.response import ADDED_TO
 from earthspin.parts.path import HALF_SPAN
 from tests.docs.numbers.answers import (
     MAS_A_CENTURY,
@@ -44,6 +47,24 @@ def angle(name: str, of: str, degrees: Sequence[int] = (0, 1, 2)) -> list[float]
 
 def core(name: str) -> float:
     return float(iau()["core"][name])
+
+
+def without_half_year() -> float:
+    """Quality factor of the fit without the half year, retrograde."""
+    return resonance.fitted(resonance.terms().iau, [resonance.HALF_YEAR]).quality
+
+
+def ladder_fitted() -> list[float]:
+    """Quality factor of the last rung: of its mode, and as the fit finds it."""
+    found = resonance.fitted(resonance.predicted("coupling"))
+    return [quality(resonance.core_mode("coupling")), found.quality]
+
+
+def with_mode_held() -> list[float]:
+    """Left of year (in and out of phase) and half year (out), both retrograde, uas."""
+    held = resonance.held(resonance.BUILT_IN)
+    year = resonance.left_by(held, ADDED_TO["retrograde year"])
+    return [year.real, year.imag, resonance.left_by(held, resonance.HALF_YEAR).imag]
 
 
 def total(name: str) -> float:
@@ -244,6 +265,24 @@ MEASURED = [
             ("year, retrograde", "retrograde year"),
             ("turn of the node, prograde", "prograde 18.6 years"),
         )
+    ),
+    Sentence(
+        PAGE,
+        "held where it was built in are {} uas apart, and without that term the fit has Q of {}.",
+        lambda: [resonance.half_year_tells(), without_half_year()],
+        (0.0, 50.0),
+    ),
+    Sentence(
+        PAGE,
+        "has Q of {} and whose\nsea changes with the frequency, it finds {}.",
+        ladder_fitted,
+        5.0,
+    ),
+    Sentence(
+        PAGE,
+        "With the mode held, IAU 2000A has {} uas in phase and {} out of phase\nin the year, "
+        "retrograde, and {} out of phase",
+        with_mode_held,
     ),
     Sentence(
         PAGE,

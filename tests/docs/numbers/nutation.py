@@ -9,12 +9,15 @@ import numpy as np
 import xarray as xr
 
 import earthspin
+from data_tools.core_resonance import core_mode, quality_without_the_sea, strength
 from earthspin import EARTH
 from earthspin.interior.diurnal_ocean import WAVES, wave_response
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.prem import PREM
+from earthspin.interior.published import CORE_NUTATION_QUALITY
 from earthspin.interior.rotation import mode_period, system, transfer
 from earthspin.nutation import ladder
+from earthspin.nutation.ladder import quality as quality_of
 from tests import shipped
 from tests.docs.numbers.sentence import Sentence, Told
 
@@ -227,6 +230,23 @@ MEASURED = [
         r"| $\alpha_1$, $\alpha_2$, $\alpha_3$ | {}, {}, {} |",
         lambda: [prem().a1, prem().a2, prem().a3],
     ),
+    Sentence(
+        PAGE,
+        "Were that {} % larger, and shifted by {} % out\nof phase",
+        lambda: [100 * strength().change.real, -100 * strength().change.imag],
+    ),
+    Sentence(
+        PAGE,
+        "would leave {} mas in each angle for {}, and {} for {} without those three",
+        lambda: [getattr(strength(), of) for of in ("all_after", "all_before", "after", "before")],
+    ),
+    Sentence(
+        PAGE,
+        "The core nutation has $Q$ of {} for the {} of that paper",
+        lambda: [quality_of(core_mode("coupling")), CORE_NUTATION_QUALITY.value],
+        50.0,
+    ),
+    Sentence(PAGE, "`ocean`, it would be {}.", quality_without_the_sea, 50.0),
 ]
 
 TESTED_LAYERED = "tests/questions/test_layered.py"
