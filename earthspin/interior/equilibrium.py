@@ -50,11 +50,12 @@ class Equilibrium:
 def equilibrium(body: LayeredBody) -> Equilibrium:
     """Clairaut's hydrostatic figure to first order, by the equations of a liquid."""
     profile = Profile(body)
-    pair, r, found = liquid_centre(profile)[:, np.newaxis], START, []
-    for i, top in enumerate(profile.tops):
-        pair = carry(liquid(profile, i), r, top, pair)
+    found = [liquid_centre(profile, i, top) for i, top in enumerate(profile.tops[: profile.first])]
+    pair, r = liquid_centre(profile, profile.first)[:, np.newaxis], START
+    for i in range(profile.first, len(profile.tops)):
+        pair = carry(liquid(profile, i), r, profile.tops[i], pair)
         found.append(pair[:, 0])
-        r = top
+        r = profile.tops[i]
     # The equation of a free liquid surface: the potential of degree two comes from outside.
     y5, y7 = (5 / pair[1, 0] * np.array(found)).T
     tops = np.array(profile.tops)

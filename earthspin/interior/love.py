@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from earthspin.errors import UndefinedError
 from earthspin.interior.equations import (
     FOUR_PI_G,
+    SMALLEST_CORE,
     START,
     Profile,
     liquid,
@@ -92,8 +93,8 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
     Raises
     ------
     UndefinedError
-        If the surface is liquid, or liquid and solid layers alternate further than inner core,
-        fluid core, mantle.
+        If the surface is liquid, liquid and solid layers alternate further than inner core, fluid
+        core, mantle, or a core is smaller than a hundredth of the radius.
     """
     fluid = [not layer.vs for layer in body.layers]
     if fluid[-1] or sum(a != b for a, b in zip(fluid[1:], fluid[:-1], strict=True)) > 2:
@@ -101,6 +102,12 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
             f"interior '{body.name}': Love numbers need a solid surface, and no more under it "
             "than one liquid core with one solid inner core"
         )
+    for what, radius in (("an inner core", body.inner_core_radius), ("a core", body.core_radius)):
+        if 0 < radius < SMALLEST_CORE * body.radius:
+            raise UndefinedError(
+                f"interior '{body.name}': {what} of {radius / 1000:.4g} km is less than a "
+                "hundredth of the radius, too small to be told from none; leave it out"
+            )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
     found = _solved(Profile(body), body, flat, carry)
@@ -152,7 +159,7 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
     """Meet the conditions at boundaries and surface for all potentials at once."""
     zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
-        y = _across(profile, 0, solid_centre(profile, strain), strain, carry)
+        y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
         bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
         conditions: list[Array] = []
         inner = core = None
@@ -196,7 +203,7 @@ def _inside(state: Array, r: float) -> Array:
 
 def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
     """Carry columns through solid layers, from the first of them to the next liquid."""
-    r = START if first == 0 else profile.tops[first - 1]
+    r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
             break
@@ -211,9 +218,9 @@ def _through_inner_core(
     """The pair (y5, y7) at the bottom of the liquid, the inner core's top, and what is to hold."""
     if not body.inner_core_radius:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
-        pair[:, :, 0] = liquid_centre(profile)
+        pair[:, :, 0] = liquid_centre(profile, profile.first)
         return pair, None, []
-    y = _across(profile, 0, solid_centre(profile, strain), strain, carry)
+    y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
     blank = np.zeros((strain.size, 6, 2 + 4))
     y = np.concatenate([y, blank], axis=-1)
     r = body.inner_core_radius / body.radius
@@ -238,7 +245,8 @@ def _through_liquid(
 ) -> tuple[Array, int]:
     """The pair at the top of the liquid, and the first layer above it."""
     r = body.inner_core_radius / body.radius or START
-    i = next(n for n, layer in enumerate(profile.layers) if not layer.vs)
+    liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
+    i = max(next(liquids), profile.first)
     while not profile.layers[i].vs:
         pair = carry(liquid(profile, i), r, profile.tops[i], pair)
         r, i = profile.tops[i], i + 1

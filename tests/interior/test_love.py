@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from earthspin import UndefinedError
 from earthspin.constants import G
+from earthspin.interior.equilibrium import equilibrium
+from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic, softening, yielding
 from earthspin.interior.prem import PREM, PREM_WITH_OCEAN
 from tests.conftest import load_pins
@@ -103,6 +105,43 @@ def test_a_load_answers_as_a_tide_lifts() -> None:
     """Reciprocity of tide and load in degree two: k' = k - h (Molodenskiy 1977)."""
     found = elastic(PREM)
     assert np.isclose(found.k_load, found.k - found.h, rtol=2e-11, atol=0)
+
+
+def test_shells_within_the_start_of_the_integration_change_nothing() -> None:
+    """Tables of samples have them: the first shell of 1 km, with the density that is there."""
+    inner, *rest = PREM.layers
+    cut = tuple(replace(inner, top=top) for top in (1.0, 1e3, 6e3, 1.2e4))
+    found = elastic(replace(PREM, layers=(*cut, inner, *rest)))
+    sizes = np.sqrt(abs(np.diagonal(elastic(PREM).answers)))
+    off = (found.answers - elastic(PREM).answers) / np.outer(sizes, sizes)
+    assert np.max(abs(off)) < 1e-12  # measured: 3.1e-14
+    liquid = replace(inner, vs=(), shear_q=np.inf)
+    whole, *parts = (
+        equilibrium(LayeredBody("l", (*layers, liquid, *rest), ""))
+        for layers in ((), tuple(replace(liquid, top=top) for top in (1e3, 6e3)))
+    )
+    assert np.isclose(parts[0].k, whole.k, rtol=1e-13, atol=0)
+
+
+@pytest.mark.parametrize("size", [0.1, 0.02, 0.01])
+def test_a_small_inner_core_by_another_integration(size: float) -> None:
+    """One that starts at a three hundredth of it; only what it answers to itself is as small."""
+    inner, outer, *rest = PREM.layers
+    layers = (replace(inner, top=size * PREM.radius, density=outer.density), outer, *rest)
+    body = replace(PREM, layers=layers)
+    other = other_answers(body, start=size / 300)
+    # measured: 7e-11, 5e-7, 1.6e-5
+    assert abs(elastic(body).answers[2, 2] / other[2, 2] - 1) < 3e-5 * (0.01 / size) ** 5
+
+
+def test_a_core_that_cannot_be_told_from_none_is_refused() -> None:
+    inner, *rest = PREM.layers
+    small = replace(inner, top=6e4)
+    liquid = replace(inner, vs=(), shear_q=np.inf)
+    with pytest.raises(UndefinedError, match="an inner core of 60 km is less than a hundredth"):
+        yielding(replace(PREM, layers=(small, liquid, *rest)))
+    with pytest.raises(UndefinedError, match="a core of 6 km is less than a hundredth"):
+        yielding(replace(PREM, layers=(replace(liquid, top=6e3), PREM.layers[-1])))
 
 
 def test_prem_by_another_integration() -> None:
