@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin.views.drawing import CYCLE, GREY, Drawing, empty, style
-from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.reading import Result, answer_of, needed, of_sections, section
 from earthspin.views.table import Table, along, beside
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.figure import Figure
 
 #: Sections that the figure stands on.
@@ -23,11 +24,18 @@ SYMBOLS = {
 }  # fmt: skip
 #: Left out of the figure: small as it is, its changes would hide all others.
 SMALL = "l2_load"
+#: Of the periods, as many to a row of the table.
+EVERY = 4
 #: Vertical lines, by their periods in days.
 MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
 def tables(tree: Result) -> list[Table]:
+    """The numbers, and some of them by period."""
+    return [numbers(tree), *of_sections(tree, {"by_period": by_period})]
+
+
+def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
     answer, known = answer_of(tree), section(tree, "published")
     there = {} if known is None else dict(along(known, "published_love"))
@@ -48,7 +56,28 @@ def tables(tree: Result) -> list[Table]:
             "flattened, which this sphere is not."
         )
     heads = ("Love number", "real part", "imaginary part", "published", "difference, %")
-    return [Table("Love numbers of degree two", heads, rows, note)]
+    return Table("Love numbers of degree two", heads, rows, note)
+
+
+def by_period(tree: Result) -> Table:
+    """Real parts by period, and how late the body is."""
+    data = needed(tree, "by_period")
+    names = [name for name in map(str, data.love.values) if name != SMALL]
+    rows = [
+        (
+            f"{float(of.love_period):.3g}",
+            *(f"{float(of.love_number_by_period.sel(love=name)):.4f}" for name in names),
+            f"{_lag(of.sel(love='k2')):.2f}",
+        )
+        for _, of in along(data.isel(love_period=slice(None, None, EVERY)), "love_period")
+    ]
+    heads = ("period, d", *names, "lag of k2, deg")
+    return Table("Love numbers by period, real parts", heads, rows, words=())
+
+
+def _lag(of: xr.Dataset) -> float:
+    late = of.love_number_by_period_imaginary, of.love_number_by_period
+    return -float(np.degrees(np.arctan2(*late)))
 
 
 @style()
