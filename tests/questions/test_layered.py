@@ -4,10 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError, UndefinedError
+from earthspin.bodies.layered import Layers
 from earthspin.errors import Where
+from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.interior.love import elastic
 from earthspin.interior.mars import MARS as MARS_LAYERS
 from earthspin.interior.prem import PREM
@@ -54,6 +58,21 @@ def test_love_numbers_of_a_table_of_samples() -> None:
     found = earthspin.love_numbers(table).love_number
     ours = shipped.answer("love-numbers").love_number
     assert np.allclose(found, ours, rtol=0.01, atol=1e-3)
+
+
+SIZE = st.floats(0.1, 1e4)
+SERIES = st.lists(SIZE, min_size=1, max_size=4).map(tuple)
+
+
+@given(st.lists(st.tuples(SIZE, SERIES, SERIES, SERIES | st.just(()), SIZE), min_size=1))
+def test_what_layers_write_they_read_to_the_bit(given: list) -> None:
+    tops = np.cumsum([1e3 * thick for thick, *_ in given]).tolist()
+    layers = tuple(
+        Layer(top, density, vp, vs, q if vs else np.inf)
+        for top, (_, density, vp, vs, q) in zip(tops, given, strict=True)
+    )
+    body = LayeredBody("any", layers, "made up")
+    assert Layers().read(Layers().write(body), Where("interior")) == body
 
 
 # --- layers of a body ----------------------------------------------------------------------------
