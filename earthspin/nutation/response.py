@@ -49,7 +49,8 @@ CORE_NUTATION_START = (-1.0023181, 0.000025)
 
 #: By what the fit may miss the core nutation that made a series, s, and its quality factor,
 #: relative. Measured by what is built into IAU 2000A (`interior.published`): 0.06 d, 21 per cent,
-#: with what it adds to a response taken away (`ADDED_TO`).
+#: with what it adds to a response taken away (`ADDED_TO`). The quality factor rests on the half
+#: year, retrograde, alone: there it is 7 uas (`python -m data_tools core-resonance`).
 PERIOD_ERROR, QUALITY_ERROR = 0.3 * DAY, 0.3
 
 

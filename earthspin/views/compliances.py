@@ -103,11 +103,12 @@ def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axvline(0, color=GREY, lw=0.8)
     ax.plot(theirs, place, "o", mfc="none", mec=RED, ms=9, label="published")
     ax.plot(ours, place, "o", color=BLUE, ms=4, label="from the layers")
-    for at, off in zip(place, 100 * (ours / theirs - 1), strict=True):
+    for at, pair in zip(place, zip(ours, theirs, strict=True), strict=True):
+        _, over = beside(*pair)
         ax.annotate(
-            f"{off:+.2f} %".replace("-", "\N{MINUS SIGN}"), (1.0, at),
+            f"{over} %".replace("-", "\N{MINUS SIGN}"), (1.0, at),
             xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
-            va="center", fontsize=8, color=RED if abs(off) > 1 else GREY,
+            va="center", fontsize=8, color=RED if abs(float(over)) > 1 else GREY,
         )  # fmt: skip
     ax.set_xscale("symlog", linthresh=LINEAR)
     ends = [-1e-4, -1e-7, 0.0, 1e-7, 1e-4, 1e-1]

@@ -95,7 +95,8 @@ def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, 
     if published is None:
         return "", ""
     known = float(published)
-    return short_exponents(f"{known:g}"), f"{100 * (float(value) / known - 1):+.2f}"
+    over = round(100 * (float(value) / known - 1), 2)
+    return short_exponents(f"{known:g}"), f"{over + 0.0:+.2f}"  # no minus before zero
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
