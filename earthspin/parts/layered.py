@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from earthspin.bodies import BODIES, Body, in_a_sentence
+from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
 from earthspin.bodies.layered import Layers
 from earthspin.engine.part import part
 from earthspin.engine.question import Question
 from earthspin.errors import nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.named import INTERIORS, Interior, with_layers
+
+#: Layers stand for bodies whose mass and mean radius are within this of their own.
+FIT = 0.01
 
 #: A layered body, however given.
 LayeredInterior = Annotated[LayeredBody, Layers()]
@@ -26,6 +29,19 @@ def interior_of(body: Body) -> Interior | None:
         usual = BODIES[body.name].interior if body.is_as_named else None
         return with_layers(own, INTERIORS.get(str(usual)))
     return INTERIORS.get(str(own))
+
+
+def of_another_body(layers: LayeredBody, body: Body) -> str | None:
+    """Leave out what layers tell where mass or mean radius are not those of the body."""
+    flattening = 0.0 if body.flattening is None else body.flattening
+    mean_radius = body.needed("radius") * (1 - flattening / 3)
+    for what, own, models in (
+        ("mass", body.mass, layers.mass),
+        ("radius", mean_radius, layers.radius),
+    ):
+        if not all_of(abs(own / models - 1) < FIT):
+            return f"interior '{layers.name}' is of another {what}, {models:.4g} in SI"
+    return None
 
 
 def refuse_unknown(question: Question, body: Body) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.parts.layered import interior_of
+from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
 
 if TYPE_CHECKING:
@@ -73,9 +73,11 @@ def no_layers(body: Body) -> str | None:
     """Leave a prediction out where the layers of the body are not known."""
     if no_iau_model(body):
         return no_iau_model(body)
-    if layered(body) is not None:
-        return None
-    return f"no layers with an inner core are known of {in_a_sentence(body.name)}"
+    interior = layered(body)
+    if interior is None:
+        return f"no layers with an inner core are known of {in_a_sentence(body.name)}"
+    assert interior.layers is not None
+    return of_another_body(interior.layers, body)
 
 
 def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body, in_a_sentence
+from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -19,9 +19,8 @@ from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of, setting
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.parts.path import Analysed, path_over, pole_analysis, rigid
-from earthspin.parts.predicted import Prediction, layered, predict
+from earthspin.parts.predicted import Prediction, no_layers, predict
 from earthspin.parts.pulls import Moved, Pulls, pulls
-from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.units import Number
@@ -84,10 +83,7 @@ class NutationLadder(
     def check(self) -> None:
         """A body that the IAU has a nutation of, and whose layers are known."""
         super().check()
-        why = no_iau_model(self.body)
-        if why is None and layered(self.body) is None:
-            why = f"no layers with an inner core are known of {in_a_sentence(self.body.name)}"
-        if why:
+        if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 
 

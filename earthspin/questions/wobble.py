@@ -24,6 +24,7 @@ from earthspin.parts.layered import (
     layers_of,
     no_interior,
     not_layered,
+    of_another_body,
     refuse_unknown,
 )
 from earthspin.parts.observed_wobble import observed_wobble
@@ -34,9 +35,6 @@ if TYPE_CHECKING:
 
     from earthspin.interior.named import Interior
     from earthspin.wobble.ladder import Inputs, Spin
-
-#: A layered model stands for bodies whose mass and radius are within this of its own.
-FIT = 0.01
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
@@ -91,15 +89,7 @@ def why_rigid(body: Body) -> str | None:
         return f"{no_interior(body)}; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
-    if interior.layers is not None:
-        mean_radius = body.needed("radius") * (1 - body.needed("flattening") / 3)
-        for what, own, models in (
-            ("mass", body.mass, interior.layers.mass),
-            ("radius", mean_radius, interior.layers.radius),
-        ):
-            if not all_of(abs(own / models - 1) < FIT):
-                return f"interior '{interior.name}' is of another {what}, {models:.4g} in SI"
-    return None
+    return None if interior.layers is None else of_another_body(interior.layers, body)
 
 
 # --- what lies inside ------------------------------------------------------------------------

@@ -78,6 +78,9 @@ def test_what_layers_write_they_read_to_the_bit(given: list) -> None:
 # --- layers of a body ----------------------------------------------------------------------------
 
 
+CORES = {"layers": [{"top": "1000 km", "density": 9000, "vp": 9e3, "vs": 3e3}, *TWO]}
+
+
 def planet() -> earthspin.Body:
     return earthspin.Body.from_layers({"name": "two", "layers": TWO}, spin_period="20 h", name="p")
 
@@ -151,6 +154,7 @@ def test_an_earth_of_other_layers_keeps_its_sea() -> None:
         (lambda: earthspin.Body(name="x", gm=1.0, interior=3), "a table of layers or samples"),
         (lambda: EARTH.replace(interior={"layers": []}), "grow from the centre"),
         (lambda: earthspin.love_numbers(body=EARTH.replace(interior="permm")), "'prem'"),
+        (lambda: earthspin.nutation_ladder(body=EARTH.replace(interior=CORES)), "another mass"),
         (lambda: earthspin.love_numbers(body="mars"), "published numbers, but no layers"),
         (lambda: earthspin.compliances(body="venus"), "no interior of Venus is kept; give layers"),
         (lambda: earthspin.wobble_ladder(body={"from": "layers", "name": "x"}), "needs more"),
