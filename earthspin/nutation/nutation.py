@@ -124,7 +124,9 @@ class FrequencyAnalysis:
     """
 
     def __init__(self, centuries: FloatArray, arguments: FloatArray, rates: FloatArray) -> None:
-        circles = np.exp(1j * (MULTIPLES @ arguments))
+        # Plain sums here and below: a BLAS rounds otherwise with another number of threads, and the
+        # same question has the same bits.
+        circles = np.exp(1j * np.einsum("kj,jt->kt", MULTIPLES, arguments))
         growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
         drift = centuries * circles[growing]
         slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
@@ -132,8 +134,6 @@ class FrequencyAnalysis:
         self._scale = np.linalg.norm(rows, axis=1)
         self._rows = rows / self._scale[:, np.newaxis]
         self._adjoint = self._rows.conj()
-        # Plain sums: a BLAS rounds otherwise with another number of threads, and the same question
-        # has the same bits.
         normal = np.einsum("it,jt->ij", self._adjoint, self._rows)
         self._normal = LinearOperator(
             normal.shape, matvec=lambda x: np.einsum("ij,j->i", normal, x), dtype=complex
