@@ -40,6 +40,8 @@ class Sentence:
         Only in the run of all numbers.
     de440 : bool
         Needs that kernel.
+    newest : bool
+        Stands on the newest tables of polar motion: another digit with older ones.
     """
 
     page: str
@@ -50,6 +52,7 @@ class Sentence:
     bound: bool = False
     slow: bool = False
     de440: bool = False
+    newest: bool = False
 
     def __str__(self) -> str:
         return f"{self.page}: {' '.join(self.text.split())[:60]}"

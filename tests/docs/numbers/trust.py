@@ -190,6 +190,7 @@ TOLD: list[Told | Part] = [
     Told(FILES, "h5py (HDF5 {})", "the version of a library"),
     Told(TESTING, "calls and answers from fixed seeds ({} s;", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
+    Told(TESTING, "runs all of it with Python {} and", "the version of a program"),
     Told("README.md", "# {} % half-widths", ERROR),
     Told(QUICK, "are half-widths of {} % intervals", ERROR),
     Told(
