@@ -9,7 +9,7 @@ PYTHON_NEWEST ?= python3.13
 # Every test but those that want hours of their own.
 WHOLE := not every_number and not every_kill
 
-.PHONY: report test slow test-lowest test-newest check docs numbers bench fuzz mutants clean
+.PHONY: report test slow test-lowest test-newest check docs numbers bench fuzz kills mutants clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -45,6 +45,10 @@ docs: $(VENV)/.check
 # Every measured number of the pages, made again: an hour; those by DE440 if it is installed.
 numbers: $(VENV)/.test
 	$(BIN)/python -m pytest -q -m every_number --numprocesses=auto tests/docs/test_numbers.py
+
+# Runs, their workers and their schedulers, each killed after every so many blocks.
+kills: $(VENV)/.test
+	$(BIN)/python -m pytest -q -m every_kill tests/engine
 
 fuzz: $(VENV)/.test
 	$(BIN)/python -m tests.fuzz $(or $(SEED),1) $(or $(COUNT),20000)

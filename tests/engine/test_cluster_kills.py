@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import psutil
@@ -30,6 +32,21 @@ if __name__ == "__main__":
 """
 
 
+#: After how many of its fifty blocks a run is killed, the first of which is made before there is a
+#: worker. The three tests together kill 102 times beside what the slow tests do.
+AFTER = pytest.mark.parametrize(
+    "blocks",
+    [
+        pytest.param(5, marks=pytest.mark.slow),
+        *(pytest.param(n, marks=pytest.mark.every_kill) for n in range(2, 37) if n != 5),
+    ],
+)
+
+
+#: Store, cluster and blocks to the process that makes it.
+Start = Callable[[Path, str, int], subprocess.Popen[bytes]]
+
+
 def slow() -> Squares:
     return Squares(size=150)
 
@@ -48,20 +65,30 @@ def program(tmp_path: Path) -> Path:
     return file
 
 
-def started(program: Path, path: Path, client: str) -> subprocess.Popen[bytes]:
-    """The program on its way, with a few blocks done."""
-    process = subprocess.Popen(
-        [sys.executable, str(program), str(path), client],
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
-    )  # fmt: skip
-    ledger = path.with_name(path.name + ".partial") / "ledger"
-    until(lambda: ledger.exists() and len(ledger.read_bytes().splitlines()) > 5)
-    return process
+@pytest.fixture
+def started(program: Path) -> Iterator[Start]:
+    """Start the program by a cluster, and wait until some blocks are done."""
+    processes = []
+
+    def start(path: Path, client: str, blocks: int) -> subprocess.Popen[bytes]:
+        process = subprocess.Popen(
+            [sys.executable, str(program), str(path), client],
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
+        )  # fmt: skip
+        processes.append(process)
+        ledger = path.with_name(path.name + ".partial") / "ledger"
+        until(lambda: ledger.exists() and len(ledger.read_bytes().splitlines()) >= blocks)
+        return process
+
+    yield start
+    for process in processes:
+        process.kill()
+        process.wait()
+        assert process.stderr
+        process.stderr.close()
 
 
 def environment() -> dict[str, str]:
-    import os
-
     return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
@@ -90,10 +117,12 @@ def finished(path: Path, undisturbed: dict[str, str]) -> None:
     assert not partial.exists()
 
 
-@pytest.mark.slow
-def test_everything_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
+@AFTER
+def test_everything_killed(
+    tmp_path: Path, started: Start, undisturbed: dict[str, str], blocks: int
+) -> None:
     path = tmp_path / "r.zarr"
-    process = started(program, path, "2")
+    process = started(path, "2", blocks)
     children = psutil.Process(process.pid).children(recursive=True)
     assert len(children) >= 2
     process.send_signal(signal.SIGKILL)
@@ -102,10 +131,12 @@ def test_everything_killed(tmp_path: Path, program: Path, undisturbed: dict[str,
     finished(path, undisturbed)
 
 
-@pytest.mark.slow
-def test_a_worker_killed(tmp_path: Path, program: Path, undisturbed: dict[str, str]) -> None:
+@AFTER
+def test_a_worker_killed(
+    tmp_path: Path, started: Start, undisturbed: dict[str, str], blocks: int
+) -> None:
     path = tmp_path / "r.zarr"
-    process = started(program, path, "2")
+    process = started(path, "2", blocks)
     children = psutil.Process(process.pid).children()
     workers = [c for c in children if "spawn_main" in " ".join(c.cmdline())]
     workers[0].kill()
@@ -133,29 +164,28 @@ def scheduler(tmp_path: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
             subprocess.Popen(
                 [
                     *dask, "worker", "--scheduler-file", str(file), "--nthreads", "1",
-                    "--no-nanny", "--no-dashboard", "--death-timeout", "5",
+                    "--no-nanny", "--no-dashboard", "--death-timeout", str(MINUTE),
                 ],
                 **quiet,  # type: ignore[call-overload]
             )
         )  # fmt: skip
-    import json
-
     yield made[0], json.loads(file.read_text())["address"]
     for process in made:
         process.kill()
         process.wait()
 
 
-@pytest.mark.slow
+@AFTER
 def test_a_scheduler_killed(
     tmp_path: Path,
-    program: Path,
+    started: Start,
     undisturbed: dict[str, str],
     scheduler: tuple[subprocess.Popen[bytes], str],
+    blocks: int,
 ) -> None:
     path = tmp_path / "r.zarr"
     its_process, address = scheduler
-    process = started(program, path, address)
+    process = started(path, address, blocks)
     its_process.kill()
     _, said = process.communicate(timeout=MINUTE)
     assert process.returncode != 0
