@@ -6,19 +6,21 @@ import pytest
 
 from earthspin.top.rounding import CLOSED_FORM_ERROR, effect_of_rounding, error_bound
 from earthspin.top.start import HeavyTop
-from tests.top.accuracy import FRACTIONS, errors
+from tests.top.accuracy import FRACTIONS, LATE, errors
 from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
-def test_the_bound_holds(family: str) -> None:
+@pytest.mark.parametrize("fractions", [FRACTIONS, (LATE,)], ids=["early", "late"])
+def test_the_bound_holds(family: str, fractions: tuple[float, ...]) -> None:
     for start in cases(family, 6):
         with mp.workdps(DIGITS):
-            times = np.array(FRACTIONS) * float(Textbook(start).period)
-        # measured on 12 starts a family: at most 0.5 of the bound
-        assert errors(start, FRACTIONS).error <= error_bound(HeavyTop(**start), times)
+            times = np.array(fractions) * float(Textbook(start).period)
+        # measured at most 0.5 of the bound on 12 starts a family; on 500 of generic, cusp,
+        # near-separatrix and sleeping, below, at most 0.44 early and 0.64 late
+        assert errors(start, fractions).error <= error_bound(HeavyTop(**start), times)
 
 
 def test_the_bound_tells_a_sensitive_top_from_a_plain_one() -> None:
