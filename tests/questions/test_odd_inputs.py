@@ -13,7 +13,6 @@ from astropy.time import Time, TimeDelta
 import earthspin
 from earthspin import (
     EARTH,
-    BodyError,
     EarthspinError,
     OutputError,
     SceneError,
@@ -54,10 +53,15 @@ def test_several_starts_of_an_answer_start_again() -> None:
     assert np.allclose(again.energy[:, 0], there.energy[:, 0], rtol=4e-15, atol=0)
 
 
-def test_a_field_is_of_one_body() -> None:
-    many = {"radius": xr.DataArray([6e6, 6.4e6], dims="b")}
-    with pytest.raises(BodyError, match="one body at a time"):
-        earthspin.spheroid_field([[7e6, 0, 0], [8e6, 0, 0]], body=many)
+def test_fields_of_several_bodies_are_those_of_each() -> None:
+    radii, points = [6e6, 6.4e6], [[7e6, 0.0, 0.0], [8e6, 0.0, 0.0]]
+    many = {"radius": xr.DataArray(radii, dims="b")}
+    together = earthspin.spheroid_field(points, body=many)
+    assert together.sizes["b"] == len(radii)
+    for i, radius in enumerate(radii):
+        alone = earthspin.spheroid_field(points, body={"radius": radius})
+        for name in ("potential", "attraction", "torque", "relative_error"):
+            assert np.array_equal(together[name].isel(b=i), alone[name])
 
 
 @pytest.fixture(scope="module")
