@@ -39,7 +39,8 @@ class Constant:
 
 SPEED_OF_LIGHT = Constant(299792458.0, "m s-1", 0.0, "SI Brochure, 9th edition: exact")
 
-IERS_2010 = "IERS Conventions (2010), IERS Technical Note 36, table 1.1"
+IERS = "IERS Conventions (2010), IERS Technical Note 36"
+IERS_2010 = IERS + ", table 1.1"
 DE440 = "Park et al. 2021, AJ 161:105; header of DE440"
 P03 = "Capitaine, Wallace & Chapront 2003, A&A 412, 567 (adopted as IAU 2006)"
 _P03_TABLE3 = P03 + ", table 3, after Williams 1994 and Mathews et al. 2002"

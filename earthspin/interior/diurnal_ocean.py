@@ -13,18 +13,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import Constant
+from earthspin.constants import IERS, Constant
 
 Array = NDArray[Any]
 
-_IERS = "IERS Conventions (2010), IERS Technical Note 36"
 FES2004_SOURCE = (
-    _IERS + ", sect. 6.3: FES2004 (Lyard et al. 2006, Ocean Dyn. 56, 394), coefficients of degree "
+    IERS + ", sect. 6.3: FES2004 (Lyard et al. 2006, Ocean Dyn. 56, 394), coefficients of degree "
     "2 and order 1 as read in a public copy; heights of the equilibrium tide from table 6.5a, that "
     "of K1 read, those of O1 and Q1 recalled"
 )
 #: Normalised coefficient of the potential per metre of equilibrium tide, A_1.
-PER_METRE = Constant(-3.1274e-8, "m-1", None, _IERS + ", eq. 6.8d")
+PER_METRE = Constant(-3.1274e-8, "m-1", None, IERS + ", eq. 6.8d")
 #: Of the coefficients below: as the Conventions have it. The copy that was read says 1e-12; then
 #: the sea would do a tenth of what any tide model has it do.
 _UNIT = 1e-11

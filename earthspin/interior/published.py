@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from earthspin.constants import Constant
+from earthspin.constants import IERS, Constant
 
 _MBHS = "Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219"
 _READ, _RECALLED = _MBHS + ", as copied in public code", _MBHS + ", as recalled"
@@ -31,14 +31,13 @@ PREM_PUBLISHED: dict[str, Constant] = {
     )
 }
 
-_IERS = "IERS Conventions (2010), IERS Technical Note 36"
 _GROSS = "Gross 2007, Treatise on Geophysics 3.09, table 1, as recalled"
 
 #: Love numbers of the Earth: of a tide with rotation and ellipticity, of a load for PREM.
 LOVE_PUBLISHED: dict[str, Constant] = {
-    "k2": Constant(0.29525, "", None, _IERS + ", table 6.3, elastic, zonal, as recalled"),
-    "h2": Constant(0.6078, "", None, _IERS + ", sect. 7.1.1, nominal, as recalled"),
-    "l2": Constant(0.0847, "", None, _IERS + ", sect. 7.1.1, nominal, as recalled"),
+    "k2": Constant(0.29525, "", None, IERS + ", table 6.3, elastic, zonal, as recalled"),
+    "h2": Constant(0.6078, "", None, IERS + ", sect. 7.1.1, nominal, as recalled"),
+    "l2": Constant(0.0847, "", None, IERS + ", sect. 7.1.1, nominal, as recalled"),
     "k2_load": Constant(-0.305, "", None, _GROSS),
     "h2_load": Constant(-0.990, "", None, _GROSS),
 }

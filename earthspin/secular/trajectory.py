@@ -8,7 +8,7 @@ linear in where the window starts, so a product of two-by-two matrices carries i
 next.
 
 phi turns once in 26,000 years and Z hardly moves, so plain iteration (Picard) diverges over a
-million years, while Newton's method, started from uniform precession, settles in four to seven.
+million years, while Newton's method, started from uniform precession, settles in a few steps.
 """
 
 from __future__ import annotations
