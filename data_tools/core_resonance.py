@@ -1,9 +1,10 @@
 """On what the resonance of the core rests, in IAU 2000A and in the ladder of nutation.
 
-The response that is fitted to IAU 2000A is changed in one way at a time: its mode held where it was
-built in, one more term left out, the predicted response of the ladder in the place of IAU 2000A.
-And the last rung of the ladder is compared with IAU 2000A: by how much the strength of the core's
-resonance would have to differ, what is left then, and what its parts do.
+The response that is fitted to IAU 2000A is changed in one way at a time: what its authors add to a
+response left in, its mode held where it was built in, the predicted response of the ladder in the
+place of IAU 2000A. And the last rung of the ladder is compared with IAU 2000A: without the coupling
+of the inner core, without what is added; by how much the strength of the core's resonance would
+have to differ, and what its parts do.
 """
 
 from __future__ import annotations
@@ -18,21 +19,29 @@ from numpy.typing import NDArray
 
 import earthspin
 from earthspin import EARTH
-from earthspin.constants import ARCSEC
+from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS, UAS
 from earthspin.engine.plan import plan
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.nutation.ladder import quality
-from earthspin.nutation.response import ADDED_TO, CORE_NUTATION_START, Response, fit_response
+from earthspin.interior.published import K_CMB
+from earthspin.nutation.ladder import at_observed_period, quality
+from earthspin.nutation.nutation import without_line
+from earthspin.nutation.response import CORE_NUTATION_START, Response, fit_response
 from earthspin.parts.predicted import Prediction, predict
+from earthspin.sky import iau
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-UAS = ARCSEC / 1e6
 #: The mode that is built into IAU 2000A, as IERS Conventions (2010), table 6.4, have it.
 BUILT_IN = complex(*CORE_NUTATION_START)
 #: The half year, retrograde.
 HALF_YEAR = (0, 0, -2, 2, -2)
+#: The terms to which most is added.
+ADDED_TO = {
+    "prograde year": (0, 1, 0, 0, 0),
+    "retrograde year": (0, -1, 0, 0, 0),
+    "prograde 18.6 years": (0, 0, 0, 0, -1),
+}
 
 
 @dataclass(frozen=True)
@@ -46,19 +55,25 @@ class Terms:
         In space, rad/s.
     rigid, iau : ndarray, shape (k,), complex
         Of torques on a rigid Earth, and of IAU 2000A, rad.
-    used : ndarray, shape (k,), bool
-        Those to which IAU 2000A adds nothing.
+    added : ndarray, shape (k,), complex
+        What the authors of IAU 2000A add to a response, rad.
     """
 
     multiples: NDArray[np.int64]
     frequency: FloatArray
     rigid: ComplexArray
     iau: ComplexArray
-    used: NDArray[np.bool_]
+    added: ComplexArray
 
     def place(self, multiple: Sequence[int]) -> int:
         """Where a term stands."""
         return int(np.flatnonzero(np.all(self.multiples == multiple, axis=1))[0])
+
+    def all_but(self, without: Sequence[Sequence[int]]) -> NDArray[np.bool_]:
+        """Which terms are left if some are left out."""
+        there = np.ones(len(self.frequency), dtype=bool)
+        there[[self.place(multiple) for multiple in without]] = False
+        return there
 
 
 @cache
@@ -71,31 +86,36 @@ def terms() -> Terms:
             there = (*one.needs, *(name for name in one.uses if name in values))
             values[one.name] = one(**{name: values[name] for name in there})
     apart, circles = values["response_apart"], values["pole_analysis"].our_circles
-    iau = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
-    return Terms(circles.multiples, circles.frequency, apart.rigid, iau, apart.used)
+    theirs = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
+    return Terms(circles.multiples, circles.frequency, apart.rigid, theirs, apart.added)
 
 
 def fitted(real: ComplexArray, without: Sequence[Sequence[int]] = ()) -> Response:
-    """Response fitted to amplitudes of all terms that are used, but for some."""
+    """Response fitted to amplitudes of all terms but some."""
     of = terms()
-    used = of.used.copy()
-    used[[of.place(multiple) for multiple in without]] = False
+    used = of.all_but(without)
     h, spin = EARTH.number("dynamical_flattening"), float(EARTH.spin_rate)
     return fit_response(of.frequency[used], of.rigid[used], real[used], h, spin)
 
 
+def blind() -> Response:
+    """Response fitted to IAU 2000A where most is added left out, and nothing taken away."""
+    return fitted(terms().iau, list(ADDED_TO.values()))
+
+
 def held(mode: complex) -> Response:
-    """Strengths fitted to IAU 2000A with the mode of the core held."""
-    of, free = terms(), fitted(terms().iau)
+    """The same with the mode of the core held."""
+    of = terms()
     columns = []
     for strength in np.eye(4, dtype=complex):
-        one = replace(free, core_nutation=mode, strengths=strength)
+        one = replace(blind(), core_nutation=mode, strengths=strength)
         columns.append(one.transfer(of.frequency))
-    base = replace(free, core_nutation=mode, strengths=np.zeros(4, dtype=complex))
+    base = replace(blind(), core_nutation=mode, strengths=np.zeros(4, dtype=complex))
     none = base.transfer(of.frequency)
     design = (np.array(columns).T - none[:, np.newaxis]) * of.rigid[:, np.newaxis]
     left = of.iau - none * of.rigid
-    strengths = np.linalg.lstsq(design[of.used], left[of.used], rcond=None)[0]
+    used = of.all_but(list(ADDED_TO.values()))
+    strengths = np.linalg.lstsq(design[used], left[used], rcond=None)[0]
     return replace(base, strengths=np.asarray(strengths, dtype=np.complex128))
 
 
@@ -104,14 +124,6 @@ def left_by(response: Response, multiple: Sequence[int]) -> complex:
     of = terms()
     left = of.iau - response.transfer(of.frequency) * of.rigid
     return complex(1j * left[of.place(multiple)] / UAS)
-
-
-def half_year_tells() -> float:
-    """How far the response that is fitted and that with the mode built in are apart there, uas."""
-    of = terms()
-    here = of.place(HALF_YEAR)
-    free, built = (one.transfer(of.frequency)[here] for one in (fitted(of.iau), held(BUILT_IN)))
-    return float(abs((free - built) * of.rigid[here]) / UAS)
 
 
 # --- the last rung -------------------------------------------------------------------------------
@@ -125,6 +137,23 @@ def _models() -> Prediction:
 def predicted(rung: str) -> ComplexArray:
     """Terms of a rung of the ladder, rad."""
     return np.asarray(_models().transfer(rung, terms().frequency) * terms().rigid)
+
+
+def in_time(amplitude: ComplexArray) -> tuple[float, float]:
+    """Sizes of dpsi sin(eps) and deps from 1980 to 2020 less a line, of circles, rms, mas."""
+    days = np.arange(-20 * 365.25, 20 * 365.25, 5.0)
+    eta = amplitude @ np.exp(1j * (terms().multiples @ iau.delaunay_arguments(days)))
+    angles = without_line(days / DAYS_PER_CENTURY, np.stack([eta.real, eta.imag], axis=1))
+    first, second = np.sqrt(np.mean(angles**2, axis=0)) / MAS
+    return float(first), float(second)
+
+
+def coupled_to_mantle_alone() -> ComplexArray:
+    """Terms of the last rung without what couples core and inner core, rad."""
+    of, models = terms(), _models()
+    alone = models.rungs["anelastic"].coupled(complex(*(k.value for k in K_CMB)), 0.0)
+    rung = at_observed_period(alone, models.spin_rate)
+    return np.asarray(rung.transfer(of.frequency / models.spin_rate - 1, models.e) * of.rigid)
 
 
 def core_mode(rung: str) -> complex:
@@ -146,30 +175,25 @@ class Strength:
     change : complex
         Over the strength.
     before, after : float
-        What the rung leaves of the terms that are used, in each angle, root sum of squares, mas;
-        as it is, and with that change.
-    all_before, all_after : float
-        The same of all terms.
+        What the rung leaves of IAU 2000A less what is added to it, in each angle, root sum of
+        squares of the terms, mas; as it is, and with that change.
     """
 
     change: complex
     before: float
     after: float
-    all_before: float
-    all_after: float
 
 
 def strength(rung: str = "coupling") -> Strength:
     """Least squares for one complex number."""
     of, model = terms(), _models().rungs[rung]
     unit = replace(
-        fitted(of.iau), core_nutation=core_mode(rung), strengths=np.array([0, 0, 1.0, 0], complex)
+        blind(), core_nutation=core_mode(rung), strengths=np.array([0, 0, 1.0, 0], complex)
     )
     none = replace(unit, strengths=np.zeros(4, complex))
     column = (unit.transfer(of.frequency) - none.transfer(of.frequency)) * of.rigid
-    left = of.iau - predicted(rung)
-    used = of.used
-    wanted = np.vdot(column[used], left[used]) / np.vdot(column[used], column[used])
+    left = of.iau - of.added - predicted(rung)
+    wanted = np.vdot(column, left) / np.vdot(column, column)
     # The strength is the residue: from the response around the mode.
     mode = core_mode(rung)
     near = mode.real + 1e-5 * np.array([-2.0, -1.0, 1.0, 2.0])
@@ -177,27 +201,40 @@ def strength(rung: str = "coupling") -> Strength:
     none_near = np.array([none.transfer((n + 1) * unit.spin_rate) for n in near])
     resonance = np.stack([unit_near - none_near, none_near * (1 + near)], axis=-1)
     residue = np.linalg.lstsq(resonance, model.transfer(near, _models().e), rcond=None)[0][0]
-    after = left - wanted * column
 
     def size(values: ComplexArray) -> float:
-        return float(np.sqrt(np.sum(abs(values) ** 2) / 2) / UAS / 1e3)
+        return float(np.sqrt(np.sum(abs(values) ** 2) / 2) / MAS)
 
-    return Strength(
-        complex(wanted / residue), size(left[used]), size(after[used]), size(left), size(after)
-    )
+    return Strength(complex(wanted / residue), size(left), size(left - wanted * column))
 
 
 def main(given: argparse.Namespace) -> int:
     """Print all of it."""
-    known = fitted(predicted("coupling"))
+    of, known = terms(), fitted(predicted("coupling"))
+    for name, one in {
+        "as it is": fitted(of.iau),
+        "where most is added left out": blind(),
+        "what is added taken away": fitted(of.iau - of.added),
+        "the last rung in its place": known,
+    }.items():
+        print(f"{name}: {one.period / DAY:.2f} d, Q {one.quality:.0f}")
+    for name, multiple in {**ADDED_TO, "retrograde half year": HALF_YEAR}.items():
+        published = 1j * of.added[of.place(multiple)] / UAS
+        print(f"{name}: {left_by(held(BUILT_IN), multiple):.1f} uas with the mode held; "
+              f"published {published:.1f}")  # fmt: skip
     print(
-        f"Q as fitted {fitted(terms().iau).quality:.0f}, "
-        f"without the half year {fitted(terms().iau, [HALF_YEAR]).quality:.0f}; "
-        f"of the last rung {quality(core_mode('coupling')):.0f}, fitted {known.quality:.0f}, "
+        f"Q of the last rung {quality(core_mode('coupling')):.0f}, "
         f"without the sea {quality_without_the_sea():.0f}"
     )
-    print(f"the half year tells them apart by {half_year_tells():.1f} uas")
-    for name, multiple in {**ADDED_TO, "retrograde half year": HALF_YEAR}.items():
-        print(f"{name}: {left_by(held(BUILT_IN), multiple):.1f} uas with the mode held")
+    for name, terms_of in {
+        "core-ellipticity": predicted("core-ellipticity"),
+        "coupling": predicted("coupling"),
+        "coupling to the mantle alone": coupled_to_mantle_alone(),
+    }.items():
+        as_it_is, less = in_time(terms_of - of.iau), in_time(terms_of - of.iau + of.added)
+        print(
+            f"{name}: leaves {as_it_is[0]:.2f} / {as_it_is[1]:.2f} mas, "
+            f"{less[0]:.2f} / {less[1]:.2f} with what is added taken away"
+        )
     print(strength())
     return 0

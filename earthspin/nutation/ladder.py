@@ -80,6 +80,12 @@ class Rung:
         parts = self.parts(np.array(-1.0))
         return float(parts.e_f) if parts.count > 1 else 0.0
 
+    def coupled(self, k_cmb: complex, k_icb: complex) -> Rung:
+        """The model with its fluid core coupled to mantle and inner core beside their figures."""
+        return replace(
+            self, parts=lambda sigma: replace(self.parts(sigma), k_cmb=k_cmb, k_icb=k_icb)
+        )
+
     def transfer(self, sigma: Array, rigid_e: float) -> Array:
         """Nutation over that of a rigid body at frequencies in the body."""
         sigma = np.asarray(sigma, dtype=float)
@@ -244,10 +250,11 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
     f, love = setting.figure, elastic(setting.layers)
     firm = parts_of(setting, love)
 
-    def wet(sigma: Array, soft: bool, **changes: Any) -> Parts:
+    def wet(sigma: Array, soft: bool) -> Parts:
         yields = setting.softened(sigma) if soft else love
-        parts = with_ocean(parts_of(setting, yields), setting, yields, sigma)
-        return replace(parts, **changes)
+        return with_ocean(parts_of(setting, yields), setting, yields, sigma)
+
+    anelastic = Rung(lambda sigma: wet(sigma, soft=True))
 
     stiff = replace(firm, answers=np.zeros((3, 3)))
     found = {
@@ -256,30 +263,38 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
         "fluid-core": Rung(lambda sigma: all_fluid(firm, f.e_core)),
         "inner-core": Rung(lambda sigma: firm),
         "ocean": Rung(lambda sigma: wet(sigma, soft=False)),
-        "anelastic": Rung(lambda sigma: wet(sigma, soft=True)),
-        "core-ellipticity": _at_observed_period(setting, wet),
+        "anelastic": anelastic,
+        "core-ellipticity": at_observed_period(anelastic, setting.spin_rate),
         "core-in-rigid-mantle": Rung(lambda sigma: all_fluid(stiff, f.e_core)),
         "hydrostatic": Rung(lambda sigma: parts_of(setting, love, f.e)),
     }
     if coupling:
-        k_cmb, k_icb = (complex(k[0].value, k[1].value) for k in (K_CMB, K_ICB))
-        found["coupling"] = _at_observed_period(setting, wet, k_cmb=k_cmb, k_icb=k_icb)
+        coupled = anelastic.coupled(*(complex(k[0].value, k[1].value) for k in (K_CMB, K_ICB)))
+        found["coupling"] = at_observed_period(coupled, setting.spin_rate)
     return {name: found[name] for name in (*RUNGS, *BESIDE) if name in found}
 
 
-def _at_observed_period(setting: Setting, parts: Callable[..., Parts], **coupling: Any) -> Rung:
-    """The anelastic rung with the core as flat as its observed nutation asks for."""
-    wanted = 1 / (CORE_NUTATION.value * DAY * setting.spin_rate / (2 * np.pi)) - 1
+def at_observed_period(rung: Rung, spin_rate: float) -> Rung:
+    """A rung with the core as flat as its observed nutation asks for.
 
-    def rung(e_f: float) -> Rung:
-        return Rung(lambda sigma: parts(sigma, soft=True, e_f=e_f, **coupling), observed_core=True)
+    Parameters
+    ----------
+    rung : Rung
+        Its own flattening of the core is where the search begins.
+    spin_rate : float
+        rad/s.
+    """
+    wanted = 1 / (CORE_NUTATION.value * DAY * spin_rate / (2 * np.pi)) - 1
 
-    e_f = setting.figure.e_f
+    def with_core(e_f: float) -> Rung:
+        return Rung(lambda sigma: replace(rung.parts(sigma), e_f=e_f), observed_core=True)
+
+    e_f = rung.core_ellipticity
     for _ in range(8):  # each step leaves a seventh: the mode moves a little more than e_f does
-        found = rung(e_f)
+        found = with_core(e_f)
         mode = free_modes(found.parts(np.array(-1.0)))["free_core_nutation"].real
         e_f += mode - wanted
-    return rung(e_f)
+    return with_core(e_f)
 
 
 def quality(mode: complex) -> float:

@@ -34,24 +34,15 @@ INNER_CORE_NUTATION = -0.999026 + 0.000780j
 #: of an atmospheric tide in step with the Sun (Mathews, Herring & Buffett 2002), which no
 #: response of the body makes.
 SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
-#: Terms to which IAU 2000A adds what no response of the body makes: of the atmosphere at a year,
-#: to either side, and of the second order at 18.6 years. A response that may not absorb them is
-#: fitted to the others; what is left of these three then measures what was added.
-ADDED_TO = {
-    "prograde year": SUN_SYNCHRONOUS,
-    "retrograde year": (0, -1, 0, 0, 0),
-    "prograde 18.6 years": (0, 0, 0, 0, -1),
-}
 
 #: Where the search for the free core nutation begins (same table).
 CORE_NUTATION_START = (-1.0023181, 0.000025)
 
-
 #: By what the fit may miss the core nutation that made a series, s, and its quality factor,
-#: relative. Measured by what is built into IAU 2000A (`interior.published`): 0.06 d, 21 per cent,
-#: with what it adds to a response taken away (`ADDED_TO`). The quality factor rests on the half
-#: year, retrograde, alone: there it is 7 uas (`python -m data_tools core-resonance`).
-PERIOD_ERROR, QUALITY_ERROR = 0.3 * DAY, 0.3
+#: relative. Measured by what is built into IAU 2000A (`interior.published`), with geodesic nutation
+#: and what is added to a response taken away (`additions`): 0.02 d, 0.4 per cent; with the
+#: amplitudes of REN-2000 in the place of ours 0.03 d, 0.3 per cent.
+PERIOD_ERROR, QUALITY_ERROR = 0.1 * DAY, 0.02
 
 
 @dataclass(frozen=True)
@@ -102,7 +93,7 @@ class Response:
 
 
 def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexArray) -> FloatArray:
-    """95 % half-width of what is left of a term that a response was not fitted to, rad.
+    """95 % half-width of what a response leaves of a term, rad.
 
     What the period of its core nutation may be off makes of the term.
 

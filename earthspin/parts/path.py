@@ -363,22 +363,23 @@ class Apart:
     Attributes
     ----------
     response : Response
-        Fitted to all circles but those of `added`.
+        Fitted to IAU 2000A less `added` and geodesic nutation.
     used : ndarray, shape (k,), bool
-        The circles that it is fitted to.
+        The circles that it is fitted to: all but the prograde year, to which IAU 2000A adds not
+        quite what was published.
     rigid : ndarray, shape (k,), complex
         What torques make of each circle, without geodesic nutation, rad.
     left : ndarray, shape (k,), complex
-        What the response leaves of each circle of IAU 2000A, rad.
-    added : dict of str to int
-        Place of the circles to which IAU 2000A adds something, by name.
+        What the response leaves of each circle of IAU 2000A, geodesic nutation apart, rad.
+    added : ndarray, shape (k,), complex
+        What its authors say is added to each, rad; 0 to most.
     """
 
     response: Response
     used: NDArray[np.bool_]
     rigid: NDArray[np.complex128]
     left: NDArray[np.complex128]
-    added: dict[str, int]
+    added: NDArray[np.complex128]
 
 
 @part
@@ -386,8 +387,9 @@ def response_apart(
     pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Apart:
     """Resonance form fitted with geodesic nutation and additive terms taken away."""
+    from earthspin.nutation.additions import added_to
     from earthspin.nutation.nutation import complex_nutation
-    from earthspin.nutation.response import ADDED_TO, fit_response
+    from earthspin.nutation.response import SUN_SYNCHRONOUS, fit_response
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -400,21 +402,17 @@ def response_apart(
         eta = complex_nutation(iau.nutation_of(done.pole(path, done.days), done.days))
         torques = done.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
-    places = {
-        name: int(np.flatnonzero(np.all(ours.multiples == multiple, axis=1))[0])
-        for name, multiple in ADDED_TO.items()
-    }
-    used = np.ones(len(torques), dtype=bool)
-    used[list(places.values())] = False
+    added = added_to(ours.multiples)
+    used = np.any(ours.multiples != SUN_SYNCHRONOUS, axis=1)
     response = fit_response(
         ours.frequency[used],
         torques[used],
-        theirs[used],
+        (theirs - added)[used],
         body.number("dynamical_flattening"),
         float(body.spin_rate),
     )
     left = theirs - response.transfer(ours.frequency) * torques
-    return Apart(response, used, torques, left, places)
+    return Apart(response, used, torques, left, added)
 
 
 @dataclass(frozen=True)

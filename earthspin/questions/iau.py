@@ -472,8 +472,12 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     }
     for name, amplitude in amplitudes.items():
         values[f"{name}_in_phase"], values[f"{name}_out_of_phase"] = phases(amplitude)
-    labels = [" ".join(f"{m:+d}" for m in multiple) for multiple in ours.multiples[order]]
-    return build(NUTATION, values, coords={"term": labels})
+    return build(NUTATION, values, coords={"term": _labels(ours.multiples[order])})
+
+
+def _labels(multiples: NDArray[np.int64]) -> list[str]:
+    """Multiples of the Delaunay arguments as text."""
+    return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
 
 
 _LEFT = "part of a fit; its residuals measure it"
@@ -508,17 +512,29 @@ CORE = {
         (),
         "uas",
         "root mean square of the residuals of the response that may not absorb additive terms, "
-        "these left out",
+        "these taken away, the prograde year left out",
         no_error=_LEFT,
     ),
+    "added_period": Variable(
+        _ADDED,
+        "d",
+        "period of the circle in space, negative if retrograde",
+        no_error="it follows from the adopted arguments of IERS 2003",
+    ),
     "added_in_phase": Variable(
-        _ADDED, "uas", "what IAU 2000A adds to a response, in phase", error="added_error"
+        _ADDED, "uas", "IAU 2000A less that response, in phase", error="added_error"
     ),
     "added_out_of_phase": Variable(
-        _ADDED, "uas", "what IAU 2000A adds to a response, out of phase", error="added_error"
+        _ADDED, "uas", "IAU 2000A less that response, out of phase", error="added_error"
     ),
     "added_error": Variable(
         _ADDED, "uas", "95 % half-width of what is added, from the period of the core nutation"
+    ),
+    "added_published_in_phase": Variable(
+        _ADDED, "uas", "what its authors add to a response, in phase", no_error=_PUBLISHED
+    ),
+    "added_published_out_of_phase": Variable(
+        _ADDED, "uas", "what its authors add to a response, out of phase", no_error=_PUBLISHED
     ),
 }
 
@@ -530,9 +546,11 @@ def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
-    rows = list(apart.added.values())
+    rows = np.argsort(-np.abs(apart.added))[: np.count_nonzero(apart.added)]
     added_in, added_out = phases(apart.left[rows])
+    published_in, published_out = phases(apart.added[rows])
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
+    beside = (apart.left - apart.added)[apart.used]
     left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
     return build(
         CORE,
@@ -546,14 +564,17 @@ def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart
             "core_nutation_period_absorbing": core_response.period,
             "response_rms": float(np.sqrt(np.mean(left**2))),
             "response_maximum": float(np.max(left)),
-            "apart_rms": float(np.sqrt(np.mean(np.abs(apart.left[apart.used]) ** 2))),
+            "apart_rms": float(np.sqrt(np.mean(np.abs(beside) ** 2))),
+            "added_period": 2 * np.pi / ours.frequency[rows],
             "added_in_phase": added_in,
             "added_out_of_phase": added_out,
             "added_error": added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
+            "added_published_in_phase": published_in,
+            "added_published_out_of_phase": published_out,
         },
         coords={
             "mode": ["constant", "chandler", "core", "inner-core"],
-            "added_to": list(apart.added),
+            "added_to": _labels(ours.multiples[rows]),
         },
     )
 

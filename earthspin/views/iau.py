@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Sections that the figures stand on.
 DRAWN = ("residuals_by_model", "residual_sizes", "nutation", "core")
+#: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
+ADDITIONS_SHOWN = 6
 
 #: Up to here the axis of the budget is linear, mas per century.
 LINEAR = 1.0
@@ -176,19 +178,20 @@ def core(tree: Result) -> Table:
             ),
             *(
                 (
-                    f"added to a response, {name}, uas",
+                    f"added to a response at {float(one.added_period):.2f} d, uas",
                     f"{float(one.added_in_phase):+.0f}, out of phase "
                     f"{float(one.added_out_of_phase):+.0f}",
-                    "",
+                    f"{float(one.added_published_in_phase):+.0f}, out of phase "
+                    f"{float(one.added_published_out_of_phase):+.0f}",
                 )
-                for name, one in along(of, "added_to")
+                for _, one in list(along(of, "added_to"))[:ADDITIONS_SHOWN]
             ),
         ],
         "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
         "was built into it; it is no new measurement. Geodesic nutation, which no torque makes, "
-        "and three terms to which IAU 2000A adds something else are left out of the fit, whose "
-        f"residuals are {float(of.apart_rms):.1f} uas rms. The response that is applied to the "
-        "pole absorbs of these terms what it can: its core nutation comes out at "
+        "and what the authors of IAU 2000A add to a response at single terms are taken away before "
+        f"the fit, whose residuals are {float(of.apart_rms):.1f} uas rms. The response that is "
+        "applied to the pole absorbs of these terms what it can: its core nutation comes out at "
         f"{float(of.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
         f"{float(of.response_rms):.1f} uas rms, and {float(of.response_maximum):.0f} uas at most.",
     )

@@ -98,10 +98,11 @@ def test_residuals_of_three_models(tree: xr.DataTree) -> None:
 
 
 def test_free_core_nutation_is_recovered(tree: xr.DataTree) -> None:
+    """What its authors add to a response is taken away, else Q comes out at 15,700 or 17,100."""
     core = tree["core"]
     PINS["free core nutation"].check(core.core_nutation_period)
-    assert 1.5e4 < float(core.core_nutation_quality) < 2.5e4
-    assert float(core.apart_rms) < 1.5  # 0.9 uas measured
+    PINS["quality of the core nutation"].check(core.core_nutation_quality)
+    assert float(core.apart_rms) < 1.5  # 1.0 uas measured
     assert float(core.response_rms) < 30  # 10 uas measured, the Sun-synchronous term 116 of it
 
 
@@ -109,12 +110,15 @@ def test_what_a_response_absorbs(tree: xr.DataTree) -> None:
     """The fit to all terms but one is 0.8 d short: it takes up what IAU 2000A adds to a year."""
     core = tree["core"].to_dataset()
     assert float(core.core_nutation_period_absorbing) == pytest.approx(-429.35, abs=0.1)
-    added = np.hypot(core.added_in_phase, core.added_out_of_phase)
-    # 108 uas of the atmosphere's tide (Mathews, Herring & Buffett 2002, recalled)
-    assert float(added.sel(added_to="prograde year")) == pytest.approx(116, abs=10)
-    node = core.sel(added_to="prograde 18.6 years")
-    assert float(node.added_in_phase) == pytest.approx(-34, abs=4)
-    assert abs(float(node.added_out_of_phase)) < 3  # in phase, not out of it
+    off = np.hypot(
+        core.added_in_phase - core.added_published_in_phase,
+        core.added_out_of_phase - core.added_published_out_of_phase,
+    ).values
+    # 17 uas measured at the prograde year, to which the fit is blind; 5.7 at most elsewhere
+    blind = core.added_to.values == "+0 +1 +0 +0 +0"
+    assert float(off[blind][0]) < 25
+    assert np.all(off[~blind] < 8)
+    assert np.all(core.added_error > 0)
 
 
 def test_leading_terms_of_the_table(tree: xr.DataTree) -> None:

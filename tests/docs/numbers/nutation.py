@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
 
@@ -9,7 +10,16 @@ import numpy as np
 import xarray as xr
 
 import earthspin
-from data_tools.core_resonance import core_mode, quality_without_the_sea, strength
+from data_tools.core_resonance import (
+    ComplexArray,
+    core_mode,
+    coupled_to_mantle_alone,
+    in_time,
+    predicted,
+    quality_without_the_sea,
+    strength,
+    terms,
+)
 from earthspin import EARTH
 from earthspin.interior.diurnal_ocean import WAVES, wave_response
 from earthspin.interior.equilibrium import Figure, figure
@@ -44,6 +54,12 @@ def term(name: str) -> list[float]:
     of = coupled()["terms"].to_dataset().sel(rung="core-ellipticity", term=name)
     phases = ("in_phase", "out_of_phase")
     return [float(of[f"{whose}_{phase}"]) for phase in phases for whose in ("predicted", "iau")]
+
+
+def left_in_time(ours: Callable[[], ComplexArray], additions: bool) -> tuple[float, float]:
+    """Terms of ours less those of IAU 2000A, with what is added to it or without, rms, mas."""
+    theirs = terms().iau - (0.0 if additions else terms().added)
+    return in_time(ours() - theirs)
 
 
 def mode(name: str, rung: str = "core-ellipticity") -> float:
@@ -232,13 +248,26 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
+        "coupled to the mantle alone, the core leaves {} / {} mas",
+        partial(left_in_time, ours=coupled_to_mantle_alone, additions=True),
+    ),
+    *(
+        Sentence(PAGE, text, partial(left_in_time, ours=ours, additions=False))
+        for text, ours in (
+            ("this rung leaves {} / {} mas", partial(predicted, "coupling")),
+            ("with coupling to the mantle alone {} / {}", coupled_to_mantle_alone),
+            ("and the rung before {} / {}.", partial(predicted, "core-ellipticity")),
+        )
+    ),
+    Sentence(
+        PAGE,
         "Were that {} % larger, and shifted by {} % out\nof phase",
         lambda: [100 * strength().change.real, -100 * strength().change.imag],
     ),
     Sentence(
         PAGE,
-        "would leave {} mas in each angle for {}, and {} for {} without those three",
-        lambda: [getattr(strength(), of) for of in ("all_after", "all_before", "after", "before")],
+        "would leave {} mas in each angle for {}.",
+        lambda: [strength().after, strength().before],
     ),
     Sentence(
         PAGE,
