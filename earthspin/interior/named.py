@@ -122,7 +122,7 @@ _LEFT_OUT_OF_PREM = {
         -2.7,
         "d",
         None,
-        "IERS Conventions (2010), table 6.3, as recalled: k21 = 0.29470 with rotation and "
+        "IERS Conventions (2010), table 6.3: k21 = 0.29470, elastic, with rotation and "
         "ellipticity, in the place of the sphere's 0.29826",
     ),
     "a solid inner core": Constant(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from earthspin.constants import IERS, Constant
 
 _MBHS = "Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219"
-_READ, _RECALLED = _MBHS + ", as copied in public code", _MBHS + ", as recalled"
+_COPIED = ", as copied in public code"
+_READ, _RECALLED = _MBHS + _COPIED, _MBHS + ", as recalled"
 
 #: By the name in that paper; a_1 to a_3 are its alphas.
 PREM_PUBLISHED: dict[str, Constant] = {
@@ -26,7 +27,7 @@ PREM_PUBLISHED: dict[str, Constant] = {
         ("a1", 0.9463, _RECALLED),
         ("a2", 0.8294, _RECALLED),
         ("a3", 0.0537, _RECALLED),
-        ("fluid", 0.113066, _RECALLED),
+        ("fluid", 0.113066, _READ + ": moments 9.0583e36 (there e37) over 8.0115e37"),
         ("inner", 7.3059e-4, _RECALLED),
     )
 }
@@ -35,9 +36,9 @@ _GROSS = "Gross 2007, Treatise on Geophysics 3.09, table 1, as recalled"
 
 #: Love numbers of the Earth: of a tide with rotation and ellipticity, of a load for PREM.
 LOVE_PUBLISHED: dict[str, Constant] = {
-    "k2": Constant(0.29525, "", None, IERS + ", table 6.3, elastic, zonal, as recalled"),
-    "h2": Constant(0.6078, "", None, IERS + ", sect. 7.1.1, nominal, as recalled"),
-    "l2": Constant(0.0847, "", None, IERS + ", sect. 7.1.1, nominal, as recalled"),
+    "k2": Constant(0.29525, "", None, IERS + ", table 6.3, elastic, zonal" + _COPIED),
+    "h2": Constant(0.6078, "", None, IERS + ", tables 7.3a and 7.3b, nominal" + _COPIED),
+    "l2": Constant(0.0847, "", None, IERS + ", tables 7.3a and 7.3b, nominal" + _COPIED),
     "k2_load": Constant(-0.305, "", None, _GROSS),
     "h2_load": Constant(-0.990, "", None, _GROSS),
 }
@@ -46,8 +47,16 @@ _MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
 
 #: The free core nutation, observed through its resonance in the nutations, and built into
 #: IAU 2000A.
-CORE_NUTATION = Constant(-430.21, "d", 0.05, _MHB + ", table 4 (recalled)")
-CORE_NUTATION_QUALITY = Constant(20000.0, "", None, _MHB + " (recalled, rounded)")
+CORE_NUTATION = Constant(
+    -430.21,
+    "d",
+    0.05,
+    _MHB + "; -1.0023181092 turns per sidereal day, 430.2082 d, in their code of IAU 2000A "
+    "(MHB_2000); its uncertainty recalled",
+)
+CORE_NUTATION_QUALITY = Constant(
+    20000.0, "", None, _MHB + ", rounded; 20,046 of the 0.000025 in " + IERS + ", table 6.4"
+)
 #: (C_f - A_f)/A_f of the core, without what couples it.
 DYNAMICAL_CORE_ELLIPTICITY = Constant(2.6456e-3, "", 2e-6, _MHB + ", table 2")
 #: What couples the core beside its figure, in phase and out, magnetic by that paper; all inferred

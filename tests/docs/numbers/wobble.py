@@ -298,14 +298,14 @@ MEASURED = [
     ),
     Sentence(PAGE, "The observed {} ± {} days require", lambda: of_c04("burg")[:2]),
     Sentence(PAGE, "they indicate $\\alpha$ near {}.", exponent_of_the_observed_quality, slow=True),
-    Sentence(PAGE, "as recalled, for {} |", lambda: love("k2")[0]),
+    Sentence(PAGE, "elastic, for {} |", lambda: love("k2")[0]),
     Sentence(PAGE, "bound to the mantle it is {} d (section", from_bound_to_free),
 ]
 TOLD = [
     Told(PAGE, "Errors are half-widths of {} % intervals", ERROR),
     Told(PAGE, "days from error of input ({} %)", ERROR),
     Told(PAGE, "Conventions (2010), eq. {} (Desai", "the number of an equation"),
-    Told(PAGE, "Conventions (2010), table {}, as recalled", "the number of a table"),
+    Told(PAGE, "Conventions (2010), table {}, elastic", "the number of a table"),
     Column(PAGE, EXPONENTS, "$\\alpha$", GIVEN),
     Told(PAGE, "the median of the periods is 433.0 days and {} % of them", "which quantiles"),
     Told(
@@ -324,6 +324,6 @@ TOLD = [
     Told(PAGE, "a core of {} km", "published: Le Maistre et al. 2023"),
     Told(PAGE, "The observed {} d\nasks for", "published: Mathews, Herring & Buffett 2002"),
     Told(PAGE, "| $H$ | {} |", "published: Mathews, Herring & Buffett 2002"),
-    Told(PAGE, "$k_{21}$ = {}, IERS Conventions (2010)", "published, as recalled"),
+    Told(PAGE, "$k_{21}$ = {}, IERS Conventions (2010)", "published, as copied in public code"),
     Told(PAGE, "against {} ± {} observed from orbit (Konopliv", "published: Konopliv et al. 2020"),
 ]
