@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from itertools import pairwise
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +26,24 @@ from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.collocation import carry as by_collocation
 
 Array = NDArray[Any]
-#: Carries columns y, shape (..., n, columns), of dy/dr = M(r) y from one radius to another.
-Carry = Callable[[Callable[[Array], Array], float, float, Array], Array]
+
+
+class Carry(Protocol):
+    """Carries columns y, shape (..., n, columns), of dy/dr = M(r) y from one radius to another."""
+
+    def __call__(
+        self,
+        matrix: Callable[[Array], Array],
+        start: float,
+        stop: float,
+        y: Array,
+        /,
+        *,
+        together: bool = False,
+    ) -> Array:
+        """`together`: all combinations of the columns are wanted, not each of them."""
+        ...
+
 
 #: The potentials r2 that are put to a body: in all of it, in its fluid core, in its inner core.
 PARTS = ("whole", "fluid", "inner")
@@ -93,14 +110,17 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
     Raises
     ------
     UndefinedError
-        If the surface is liquid, liquid and solid layers alternate further than inner core, fluid
-        core, mantle, or a core is smaller than a hundredth of the radius.
+        If the surface is liquid, there are several liquids with solids between them, or a core is
+        smaller than a hundredth of the radius.
     """
     fluid = [not layer.vs for layer in body.layers]
-    if fluid[-1] or sum(a != b for a, b in zip(fluid[1:], fluid[:-1], strict=True)) > 2:
+    liquids = sum(now and not below for below, now in pairwise([False, *fluid]))
+    if fluid[-1] or liquids > 1:
+        what = "ends in a liquid" if fluid[-1] else f"has {liquids} liquids with solids between"
         raise UndefinedError(
-            f"interior '{body.name}': Love numbers need a solid surface, and no more under it "
-            "than one liquid core with one solid inner core"
+            f"interior '{body.name}' {what}; Love numbers need a solid surface and at most one "
+            "liquid under it, with or without a solid in that: leave out the others, or give them "
+            "a vs"
         )
     for what, radius in (("an inner core", body.inner_core_radius), ("a core", body.core_radius)):
         if 0 < radius < SMALLEST_CORE * body.radius:
@@ -207,7 +227,8 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
             break
-        y = carry(solid(profile, i, strain), r, profile.tops[i], y)
+        # From the centre on nothing binds one solution, before the next boundary binds all.
+        y = carry(solid(profile, i, strain), r, profile.tops[i], y, together=first == profile.first)
         r = profile.tops[i]
     return y
 

@@ -42,7 +42,12 @@ _NODES, _WEIGHTS, _INTEGRATE = _rule(NODES)
 
 
 def carry(
-    matrix: Callable[[Array], Array], start: float, stop: float, y: Array, settled: float = SETTLED
+    matrix: Callable[[Array], Array],
+    start: float,
+    stop: float,
+    y: Array,
+    settled: float = SETTLED,
+    together: bool = False,
 ) -> Array:
     """Carry solutions from one radius to another.
 
@@ -57,6 +62,9 @@ def carry(
     settled : float
         Largest change of a solution, over its largest element, when panels are halved; those of
         the finer ones come out.
+    together : bool
+        Whether all their combinations are wanted, not each of them: what rounding adds of one to
+        another is then no change. From near a centre it adds of those that grow by more powers.
 
     Returns
     -------
@@ -73,7 +81,8 @@ def carry(
         count *= 2
         fine = _through(matrix, start, stop, y, count)
         size = np.max(abs(fine), axis=-2, keepdims=True)
-        change = float(np.max(abs(fine - coarse) / np.where(size > 0, size, 1.0)))
+        size = np.where(size > 0, size, 1.0)
+        change = _largest((fine - coarse) / size, fine / size if together else None)
         if change <= settled or last / 4 < change <= ROUNDED:
             return fine
         coarse, last = fine, change
@@ -81,6 +90,13 @@ def carry(
         f"the equations between {start:.4g} and {stop:.4g} radii do not settle: a layer there is "
         "too soft to be a solid; make it a liquid, without vs, or stiffer"
     )
+
+
+def _largest(change: Array, space: Array | None) -> float:
+    """Largest element of a change, less what of it lies in a space of solutions."""
+    if space is not None:
+        change = change - space @ (np.linalg.pinv(space) @ change)
+    return float(np.max(abs(change)))
 
 
 def _through(

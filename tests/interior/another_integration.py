@@ -149,24 +149,26 @@ def other_answers(
     kind: type[np.floating[Any]] = np.float64,
     start: float = START,
 ) -> Array:
-    """Answers [i, j] of whole, fluid and inner core, as `Yielding.answers`."""
+    """Answers [i, j] of whole, fluid and inner core, as `Yielding.answers`.
+
+    Of a body with one liquid in one layer or many, under a solid, with or without one in it: an
+    Earth, a Mars whose core is liquid to the centre, a moon with an ocean between rock and ice.
+    """
     inside = Inside(body, kind)
-    bounds = [
-        i
-        for i in range(1, len(body.layers))
-        if (not body.layers[i].vs) != (not body.layers[i - 1].vs)
-    ]
-    first, last = bounds
-    r = kind(start)
-    y = centre(inside, r)
+    liquids = [i for i, layer in enumerate(body.layers) if not layer.vs]
+    first, last = liquids[0], liquids[-1] + 1
+    y, r = centre(inside, kind(start)), kind(start)
     for i in range(first):
         y, r = carry(solid(inside, body.layers[i]), y, r, inside.tops[i]), inside.tops[i]
     icb, cmb = r, inside.tops[last - 1]
     fluid_layers = body.layers[first:last]
-    rho, g = inside.density(fluid_layers[0], icb), inside.gravity(fluid_layers[0], icb)
-    # The two solutions in the liquid, from the inner core's boundary to the mantle's.
-    two, at = np.eye(2, dtype=kind), icb
+    # From an inner core on both solutions of the liquid count, from the centre the regular one.
+    two, at = np.eye(2, dtype=kind) if first else np.array([[r**2], [2 * r]]), icb
     for i in range(first, last):
+        if i > first:  # where the density jumps, so does the slope of the potential
+            lower, upper = body.layers[i - 1 : i + 1]
+            step = inside.density(upper, at) - inside.density(lower, at)
+            two[1] += 4 * inside.pi * step * two[0] / inside.gravity(upper, at)
         two = carry(liquid(inside, body.layers[i]), two, at, inside.tops[i])
         at = inside.tops[i]
     rho_top, g_top = inside.density(fluid_layers[-1], cmb), inside.gravity(fluid_layers[-1], cmb)
@@ -176,39 +178,45 @@ def other_answers(
         at = inside.tops[i]
     found = np.zeros((3, 3), dtype=kind)
     acts = np.array([[1.0, 1, 1], [0, 1, 0], [1, 0, 0]])  # in inner core, fluid, mantle
+    # Unknown: three of an inner core, those of the liquid, two displacements of the mantle.
+    threes = 3 if first else 0
+    fluid, u, v = slice(threes, -2), -2, -1
+    unknowns = threes + two.shape[1] + 2
     for j, (in_inner, in_fluid, in_mantle) in enumerate(acts):
-        # Unknown: three of the inner core, two of the liquid, two displacements of the mantle.
-        m, b = np.zeros((7, 7), dtype=kind), np.zeros(7, dtype=kind)
-        jump = in_fluid - in_inner
-        m[0, :3] = y[3]
-        m[1, :3] = y[1] - rho * (g * y[0] - y[4])
-        b[1] = -rho * jump * icb**2
-        # f is continuous but for what acts; its slope jumps with the mass that was displaced,
-        # whose surface in the liquid is the level one.
-        m[2, :3], m[2, 3] = y[4], -1
-        b[2] = -jump * icb**2
-        m[3, :3] = y[5] + 4 * inside.pi * y[1] / g
-        m[3, 3], m[3, 4] = -(3 / icb - 4 * inside.pi * rho / g), -1
-        b[3] = -5 * jump * icb
-        # Bottom of the mantle: u, v free (5, 6), w and f from the liquid.
+        m, b = (np.zeros((unknowns, *more), dtype=kind) for more in ((unknowns,), ()))
+        if first:
+            rho, g = inside.density(fluid_layers[0], icb), inside.gravity(fluid_layers[0], icb)
+            jump = in_fluid - in_inner
+            m[0, :3] = y[3]
+            m[1, :3] = y[1] - rho * (g * y[0] - y[4])
+            b[1] = -rho * jump * icb**2
+            # f is continuous but for what acts; its slope jumps with the mass that was displaced,
+            # whose surface in the liquid is the level one.
+            m[2, :3], m[2, 3] = y[4], -1
+            b[2] = -jump * icb**2
+            m[3, :3] = y[5] + 4 * inside.pi * y[1] / g
+            m[3, 3], m[3, 4] = -(3 / icb - 4 * inside.pi * rho / g), -1
+            b[3] = -5 * jump * icb
+        # Bottom of the mantle: u, v free, w and f from the liquid.
         f_top, df_top = two
         flux = df_top + (3 / cmb - 4 * inside.pi * rho_top / g_top) * f_top
-        begin, push = np.zeros((6, 7), dtype=kind), np.zeros(6, dtype=kind)
-        begin[0, 5], begin[2, 6] = 1, 1
-        begin[1, 5], begin[1, 3:5] = rho_top * g_top, -rho_top * f_top
-        begin[4, 3:5] = f_top
-        begin[5, 3:5] = flux - 4 * inside.pi / g_top * (-rho_top * f_top)
-        begin[5, 5] = -4 * inside.pi * rho_top
+        begin, push = np.zeros((6, unknowns), dtype=kind), np.zeros(6, dtype=kind)
+        begin[0, u], begin[2, v] = 1, 1
+        begin[1, u], begin[1, fluid] = rho_top * g_top, -rho_top * f_top
+        begin[4, fluid] = f_top
+        begin[5, fluid] = flux - 4 * inside.pi / g_top * (-rho_top * f_top)
+        begin[5, u] = -4 * inside.pi * rho_top
         push[4], push[5] = (in_mantle - in_fluid) * cmb**2, 5 * (in_mantle - in_fluid) * cmb
         top, offset = six @ begin, six @ push
-        for row, k in enumerate((1, 3, 5)):
-            m[4 + row] = top[k]
-            b[4 + row] = (5 * in_mantle if k == 5 else 0.0) - offset[k]
+        for row, k in enumerate((1, 3, 5), start=-3):
+            m[row] = top[k]
+            b[row] = (5 * in_mantle if k == 5 else 0.0) - offset[k]
         x = solve(m, b)
         surface = top @ x + offset
         bottom = begin @ x + push
-        inner = y @ x[:3]
         found[0, j] = surface[4] - in_mantle
-        found[2, j] = icb**3 * (inner[4] - icb * inner[5] / 5)
+        if first:
+            inner = y @ x[:3]
+            found[2, j] = icb**3 * (inner[4] - icb * inner[5] / 5)
         found[1, j] = cmb**3 * (bottom[4] - cmb * bottom[5] / 5) - found[2, j]
     return found

@@ -51,3 +51,20 @@ def test_many_at_once() -> None:
 def test_what_never_settles_is_refused() -> None:
     with pytest.raises(UndefinedError, match="too soft"):
         carry(lambda r: 1e5 * np.sin(1e5 * r)[:, None, None], 1.0, 2.0, np.eye(1))
+
+
+def test_solutions_that_stand_for_their_combinations() -> None:
+    """Rounding adds of the one that grows by seven powers to the one that grows by one."""
+    mix = np.array([[2.0, 1.0, 0.5], [1.0, 3.0, 1.0], [0.3, -1.0, 1.0]])
+    law = mix @ np.diag([1.0, 7.0, -3.0]) @ np.linalg.inv(mix)
+
+    def matrix(r: np.ndarray) -> np.ndarray:
+        return law / r[:, None, None]
+
+    two = mix[:, :2]
+    with pytest.raises(UndefinedError, match="do not settle"):
+        carry(matrix, 1e-3, 1.0, two)
+    found = carry(matrix, 1e-3, 1.0, two, together=True)
+    found = found / np.linalg.norm(found, axis=0)
+    left = two - found @ np.linalg.lstsq(found, two, rcond=None)[0]
+    assert np.max(abs(left)) < 1e-11

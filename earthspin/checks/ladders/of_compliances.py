@@ -98,12 +98,15 @@ def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:
     """Answers of PREM, and at how many radii the matrix was asked for."""
     radii = 0
 
-    def counted(matrix: Matrix, start: float, stop: float, y: Array) -> Array:
+    def counted(
+        matrix: Matrix, start: float, stop: float, y: Array, /, *, together: bool = False
+    ) -> Array:
         def at(r: Array) -> Array:
             nonlocal radii
             radii += r.size
             return matrix(r)
 
+        # Every method follows each solution by itself, `together` or not.
         return carry(at, start, stop, y, setting)
 
     carried: Carry = counted
