@@ -298,6 +298,7 @@ TOLD = [
         Told(PAGE, f"\n| {{}} | {rest}", "periods of the adopted arguments")
         for rest in ("−8024.895", "−1180.348", "−548.627", "−94.094", "−33.360")
     ),
+    Told(PAGE, "Solid Earth {}, {})", "volume and page"),
     Told(PAGE, "lies at {} d (Mathews, Herring & Buffett 2002)", MHB),
     Told(PAGE, r"theirs is ${}\cdot10^{-3}$", MHB),
     Told(PAGE, "| {}, {}, {} | recalled |\n| $\\kappa$", PUBLISHED),
