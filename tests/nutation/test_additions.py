@@ -28,3 +28,8 @@ def test_a_response_that_is_blind_to_them_finds_them(term: str, within: float) -
     added = phases(added_to(np.array([multiple])) / UAS)
     found = resonance.left_by(resonance.held(resonance.BUILT_IN), multiple)
     assert abs(found - complex(added[0][0], added[1][0])) < within
+
+
+@pytest.mark.parametrize("multiple", list(resonance.REN_2000))
+def test_rigid_terms_beside_the_resonance_are_those_of_ren_2000(multiple: tuple[int, ...]) -> None:
+    assert resonance.beside_ren_2000(multiple) < 3  # measured: 1.6, 1.9 and 0.9 uas

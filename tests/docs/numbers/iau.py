@@ -185,17 +185,13 @@ LEADING = {
 ANNUAL = 365.26
 
 
-#: H of ours over that of REN-2000.
-FLATTENINGS = 1.00001225
-
-
 def leading(term: str) -> list[float]:
     """Period, d, and amplitude of a rigid term by DE440, less its neighbour's share, mas."""
     of = iau("de440")["nutation"].to_dataset().sel(term=term)
     amplitude = complex(of.rigid_in_phase, of.rigid_out_of_phase)
     neighbour = complex(of.neighbour_in_phase, of.neighbour_out_of_phase)
     response = complex(of.transfer_in_phase, of.transfer_out_of_phase)
-    return [float(of.period), abs(amplitude - neighbour / response) / FLATTENINGS]
+    return [float(of.period), abs(amplitude - neighbour / response) / resonance.OVER_REN_2000]
 
 
 def closures() -> list[float]:
@@ -270,6 +266,11 @@ MEASURED = [
         (0.0, 5.0),
     ),
     Sentence(PAGE, "20,000), and leaves\n{} uas rms.", partial(core, "apart_rms")),
+    Sentence(
+        PAGE,
+        "are {}, {} and {} uas from REN-2000, neighbours included",
+        lambda: [resonance.beside_ren_2000(multiple) for multiple in resonance.REN_2000],
+    ),
     *(
         Sentence(PAGE, f"| {words} | {{}} | {{}} | {rest}", partial(found_added, multiple))
         for words, rest, multiple in (
