@@ -44,6 +44,7 @@ LOVE_PUBLISHED: dict[str, Constant] = {
 }
 
 _MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
+_MHB_2 = _MHB + ", table 2, as recalled"
 
 #: The free core nutation, observed through its resonance in the nutations, and built into
 #: IAU 2000A.
@@ -58,11 +59,11 @@ CORE_NUTATION_QUALITY = Constant(
     20000.0, "", None, _MHB + ", rounded; 20,046 of the 0.000025 in " + IERS + ", table 6.4"
 )
 #: (C_f - A_f)/A_f of the core, without what couples it.
-DYNAMICAL_CORE_ELLIPTICITY = Constant(2.6456e-3, "", 2e-6, _MHB + ", table 2")
+DYNAMICAL_CORE_ELLIPTICITY = Constant(2.6456e-3, "", 2e-6, _MHB_2)
 #: What couples the core beside its figure, in phase and out, magnetic by that paper; all inferred
 #: from nutation.
-K_CMB = (Constant(2.232e-5, "", None, _MHB), Constant(-1.85e-5, "", 1.4e-6, _MHB + ", table 2"))
+K_CMB = (Constant(2.232e-5, "", None, _MHB_2), Constant(-1.85e-5, "", 1.4e-6, _MHB_2))
 K_ICB = (
-    Constant(1.11e-3, "", 1e-4, _MHB + ", table 2"),
-    Constant(-7.8e-4, "", 1.3e-4, _MHB + ", table 2"),
+    Constant(1.11e-3, "", 1e-4, _MHB_2),
+    Constant(-7.8e-4, "", 1.3e-4, _MHB_2),
 )
