@@ -443,11 +443,11 @@ class Shift:
 
 
 @part
-def nonrigid_shift(pole_analysis: Analysed, core_response: Response) -> Shift:
-    """What the fluid core and the yielding mantle add to the rigid nutations."""
-    circles = pole_analysis.our_circles
-    factor = core_response.transfer(circles.frequency) - 1
-    return Shift(replace(circles, amplitude=circles.amplitude * factor))
+def nonrigid_shift(pole_analysis: Analysed, response_apart: Apart) -> Shift:
+    """What the fluid core, the yielding mantle, sea and air add to the rigid nutations."""
+    circles, apart = pole_analysis.our_circles, response_apart
+    factor = apart.response.transfer(circles.frequency) - 1
+    return Shift(replace(circles, amplitude=apart.rigid * factor + apart.added))
 
 
 @part(unless=no_layers)

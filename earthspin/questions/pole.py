@@ -22,12 +22,12 @@ from earthspin.parts.path import (
     Shift,
     Turns,
     axis_path,
-    core_response,
     errors_of,
     largest_error,
     nonrigid_shift,
     pole_analysis,
     predicted_shift,
+    response_apart,
     turns_of,
 )
 from earthspin.parts.predicted import no_layers, prediction
@@ -48,8 +48,8 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from that of IAU
     2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
-    `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A or `predicted` from
-    its layers.
+    `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A, with what that adds
+    to a response, or `predicted` from its layers.
 
     Returns
     -------
@@ -286,7 +286,7 @@ made_of(
     sections={"neglected": neglected},
     parts=(
         places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
-        pole_analysis, core_response, nonrigid_shift, prediction, predicted_shift,
+        pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift,
         as_fitted, as_predicted,
     ),
 )  # fmt: skip

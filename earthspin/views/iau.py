@@ -190,8 +190,8 @@ def core(tree: Result) -> Table:
         "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
         "was built into it; it is no new measurement. Geodesic nutation, which no torque makes, "
         "and what the authors of IAU 2000A add to a response at single terms are taken away before "
-        f"the fit, whose residuals are {float(of.apart_rms):.1f} uas rms. The response that is "
-        "applied to the pole absorbs of these terms what it can: its core nutation comes out at "
+        f"the fit, whose residuals are {float(of.apart_rms):.1f} uas rms. A response that is "
+        "fitted with them in absorbs what it can: its core nutation comes out at "
         f"{float(of.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
         f"{float(of.response_rms):.1f} uas rms, and {float(of.response_maximum):.0f} uas at most.",
     )

@@ -54,7 +54,7 @@ MEASURED = [
     Sentence(FRAMES, "what $B - A$ adds is {} %", triaxial_share),
     Sentence(FRAMES, "up to {} mas from the real pole", lambda: residual("rigid")),
     Sentence(
-        FRAMES, "with the response fitted to IAU 2000A | {} mas", lambda: residual("nonrigid"), 0.05
+        FRAMES, "with the response fitted to IAU 2000A | {} mas", lambda: residual("nonrigid"), 0.01
     ),
     Sentence(FRAMES, "is 0h TDB, {} s before 0h UTC", zero_hours_utc),
     Sentence(FRAMES, "they differ by {} ms at most", apart_of_tt, bound=True),
