@@ -15,5 +15,5 @@ import earthspin
 from earthspin.views.nutation import plot_rung_residuals
 
 tree = earthspin.run_tree("nutation", sections=["residuals"])
-fig = plt.figure(figsize=(6.4, 7.6))
+fig = plt.figure(figsize=(6.4, 7.6), layout="constrained")
 plot_rung_residuals(tree, figure=fig)

@@ -18,5 +18,5 @@ from earthspin.views.iau import plot_pole_residuals
 sections = ["residuals_by_model", "residual_sizes"]
 tree = earthspin.run_tree(earthspin.load_scene("iau"), sections=sections)
 
-fig = plt.figure(figsize=(6.4, 8.0))
+fig = plt.figure(figsize=(6.4, 8.0), layout="constrained")
 plot_pole_residuals(tree, figure=fig)
