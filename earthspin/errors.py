@@ -462,3 +462,7 @@ def printable(text: str) -> str:
 def _sentence(subject: str, problem: str, remedy: str) -> str:
     """Join the parts of a message, leaving out an empty remedy."""
     return f"{subject}: {problem}" + (f"; {remedy}" if remedy else "")
+
+
+class ApartError(EarthspinError):
+    """Members that cannot be computed side by side; each alone may well be."""

@@ -120,6 +120,11 @@ class Rule:
         return np.asarray(self.project @ legendre.legval(self.nodes, integrals, tensor=True))
 
     @cached_property
+    def antiderivative(self) -> FloatArray:
+        """Legendre series to that of the integral from -1, with a term more."""
+        return np.asarray(legendre.legint(self._basis, lbnd=-1, axis=-1))
+
+    @cached_property
     def differentiate(self) -> FloatArray:
         """Values at the nodes to derivatives there."""
         return np.asarray(
@@ -149,6 +154,6 @@ def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) ->
     -------
     ndarray, shape (k, w, n + 1)
     """
-    series = np.asarray(legendre.legint(coefficients, lbnd=-1, axis=-1) * half)
+    series = (coefficients @ rule(coefficients.shape[-1]).antiderivative) * half
     series[..., 0] += start
     return series

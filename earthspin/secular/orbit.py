@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.secular.strength import Strength
+from earthspin.torque.quadrupole import cross, dot
 
 FloatArray = NDArray[np.float64]
 
@@ -64,10 +65,10 @@ class Changed:
 
 def reference_axes(normal: FloatArray) -> FloatArray:
     """Right-handed unit vectors, as rows: two across a normal, and the normal."""
-    third = normal / np.linalg.norm(normal)
-    first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
+    third = normal[:, np.newaxis] / np.linalg.norm(normal)
+    first = cross(third, np.eye(3)[:, [np.argmin(np.abs(normal))]])
     first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(third, first), third])
+    return np.concatenate([first, cross(third, first), third], axis=1).T
 
 
 class Pull(NamedTuple):
@@ -96,8 +97,8 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
     together act about one axis with the Moon's share of it.
     """
     normal, eccentricity, turning = shape
-    e2 = np.sum(eccentricity**2, axis=0)
-    aside = np.cross(normal, turning, axis=0) / strength.node_rate
+    e2 = dot(eccentricity, eccentricity)
+    aside = cross(normal, turning) / strength.node_rate
     return Pull(
         normal + strength.moons_share * aside,
         strength.constant(times, e2),

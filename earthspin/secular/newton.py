@@ -1,0 +1,208 @@
+r"""Newton's method in time: the equation of an axis at nodes, and a step towards what solves it.
+
+Longitude phi of the spin axis about a fixed axis N and height Z = s.N are canonical: with the
+lift L = m.s of the axis m of the torque, and a turn g,
+
+    F = g.s - (a/2) L^2,    phi' = dF/dZ,    Z' = -dF/dphi.
+
+What lies across N is written as one complex number, seen from the longitude of s: its real part
+points where s leans, its imaginary part beside it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.numerics.gauss_windows import Windows, rule
+from earthspin.secular.orbit import Pull
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+#: One for all axes, or one each.
+Share = float | FloatArray
+
+#: Sweeps that solve the linear equations of windows, and the size at which they will not.
+MOST_SWEEPS, DIVERGED = 40, 1e6
+
+
+class Turn(NamedTuple):
+    """What turns an axis at the nodes of windows, along axes of which the third is N.
+
+    Attributes
+    ----------
+    axis, drift : ndarray of complex, shape (..., w, n)
+        Across N: the axis m of the torque, and the turn g (rad/s).
+    axis_height, drift_height : ndarray, shape (..., w, n)
+        Their components along N.
+    constant : ndarray, shape (..., w, n)
+        a, rad/s.
+    """
+
+    axis: ComplexArray
+    axis_height: FloatArray
+    drift: ComplexArray
+    drift_height: FloatArray
+    constant: FloatArray
+
+    @classmethod
+    def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
+        """Seen along axes, whose last is N."""
+        shape = windows.times.shape
+
+        def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
+            x, y, z = np.tensordot(axes, vector, 1).reshape(3, *vector.shape[1:-1], *shape)
+            return x + 1j * y, z
+
+        constant = on.constant.reshape(*on.constant.shape[:-1], *shape)
+        return cls(*seen(on.axis), *seen(on.geodesic), constant)
+
+
+class Slope(NamedTuple):
+    """Rates at the nodes, and their derivatives; shape (..., w, n).
+
+    Attributes
+    ----------
+    rates : ndarray, shape (2, ..., w, n)
+        Of longitude and height.
+    mixed, by_height, by_longitude : ndarray
+        Derivatives of the rate of longitude by longitude (of the rate of height by height it is
+        minus that), of the rate of longitude by height, and of the rate of height by longitude.
+    """
+
+    rates: FloatArray
+    mixed: FloatArray
+    by_height: FloatArray
+    by_longitude: FloatArray
+
+
+def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
+    """Rates of longitude and height, rad/s and 1/s, and their derivatives."""
+    seen = np.empty(phi.shape, dtype=complex)
+    np.cos(phi, out=seen.real)
+    np.negative(np.sin(phi), out=seen.imag)
+    rho2 = 1 - z * z
+    rho = np.sqrt(rho2)
+    slant = z / rho
+    axis = on.axis * seen
+    towards = axis.real.copy()
+    lift_by_phi, lift_by_z = rho * axis.imag, on.axis_height - slant * towards
+    pull = on.constant * (rho * towards + z * on.axis_height)  # a L
+    turn = on.drift * seen - pull * axis
+    along = turn.real.copy()
+    beside = turn.imag.copy()
+    rates = np.empty((2, *phi.shape))
+    np.subtract(on.drift_height - pull * on.axis_height, slant * along, out=rates[0])
+    np.multiply(rho, -beside, out=rates[1])
+    steep = on.constant * lift_by_z
+    return Slope(
+        rates,
+        -steep * lift_by_phi - slant * beside,
+        -steep * lift_by_z - along / (rho2 * rho),
+        on.constant * lift_by_phi**2 + rho * along,
+    )
+
+
+def moved(
+    windows: Windows, rates: FloatArray, state: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Integrals from the start of each window to its nodes; where windows start, and the last ends.
+
+    Of shape (2, ..., w, n), (2, ..., w) and (2, ...).
+    """
+    inside, across = windows.integral(rates)
+    ends = np.cumsum(np.concatenate([state[..., np.newaxis], across], axis=-1), axis=-1)
+    return inside, ends[..., :-1], ends[..., -1]
+
+
+def step(
+    windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: Share = 1e-3
+) -> tuple[FloatArray, FloatArray]:
+    """One step of Newton's method: new values at the nodes, and the largest change of each axis.
+
+    With S the integral from the start of a window to its nodes, the values y of a window that
+    starts at b solve y = b + S f(y). Linearised about what there is, the change is d = c + S J d,
+    with the defect c for the start as it was; a start that moves adds what S J makes of a unit
+    step.
+
+    Parameters
+    ----------
+    windows : Windows
+    on : Turn
+    values : ndarray, shape (2, ..., w, n)
+        Longitude and height.
+    state : ndarray, shape (2, ...)
+        At the start of the first window.
+    left : float or ndarray, shape (...)
+        Share of the change that may be left to the next step.
+
+    Returns
+    -------
+    values : ndarray, shape (2, ..., w, n)
+    change : ndarray, shape (...)
+        Infinity where the linear equations could not be solved.
+    """
+    at = slope(on, *values)
+    inside, starts, _ = moved(windows, at.rates, state)
+    sides = np.zeros((2, 3, *values.shape[1:]))
+    np.subtract(starts[..., np.newaxis] + inside, values, out=sides[:, 0])
+    sides[0, 1] = sides[1, 2] = 1.0
+    change, ends, settled = _linear(windows, at, sides, left)
+    by_phi, by_z = _shifts(ends)[..., np.newaxis]
+    total = change[:, 0] + change[:, 1] * by_phi + change[:, 2] * by_z
+    return values + total, np.where(settled, np.abs(total).max(axis=(0, -2, -1)), np.inf)
+
+
+def _linear(
+    windows: Windows, at: Slope, sides: FloatArray, left: Share
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Solve d = c + S J d in every window for several c at once, shape (2, k, ..., w, n).
+
+    By sweeps: height first, then longitude with it; what turns longitude into height is small, so
+    that a sweep leaves little. Also what a window adds by its end, shape (2, k, ..., w), and which
+    axes the sweeps settled for: each has as many sweeps as it would alone.
+    """
+    gauss = rule(windows.order)
+    jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: to broadcast takes longer
+    for wide, of in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
+        wide[:] = of * windows.half
+    mixed, by_z, by_phi = jacobian
+    phi, z = sides
+    settled = np.zeros(sides.shape[2:-2], dtype=bool)
+    before = 1.0
+    for _ in range(MOST_SWEEPS):
+        height = sides[1] + (by_phi * phi - mixed * z) @ gauss.integrate
+        longitude = sides[0] + (mixed * phi + by_z * height) @ gauss.integrate
+        if settled.any():
+            kept = settled[..., np.newaxis, np.newaxis]
+            longitude, height = np.where(kept, phi, longitude), np.where(kept, z, height)
+        size = np.abs(longitude).max(axis=(0, -2, -1))
+        change = np.abs(longitude - phi).max(axis=(0, -2, -1)) / size
+        phi, z = longitude, height
+        settled = settled | (change * np.minimum(change / before, 1.0) < left)
+        if settled.all() or size.max() > DIVERGED:
+            break
+        before = change
+    ends = [of @ gauss.weights for of in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
+    return np.array([phi, z]), np.array(ends), settled
+
+
+def _shifts(ends: FloatArray) -> FloatArray:
+    """How far each window's start moves, shape (2, ..., w), from what windows do to their ends.
+
+    Parameters
+    ----------
+    ends : ndarray, shape (2, 3, ..., w)
+        Change between start and end by the defect, and by unit steps of either component at the
+        start.
+    """
+    alone = ends.ndim == 3
+    rows = ends.transpose(-1, *range(ends.ndim - 1))
+    phi = z = 0.0 if alone else np.zeros(ends.shape[2:-1])
+    found = []
+    for (d0, d00, d01), (d1, d10, d11) in rows.tolist() if alone else rows:
+        found.append((phi, z))
+        phi, z = phi + d0 + d00 * phi + d01 * z, z + d1 + d10 * phi + d11 * z
+    return np.moveaxis(np.array(found), 0, -1)
