@@ -61,11 +61,26 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
     obliquity = np.arctan2(np.linalg.norm(across, axis=1), np.sum(u * e, axis=1))
     fixed_node = np.cross(u, [0.0, 0.0, 1.0])  # towards the node of the fixed ecliptic
     chi = _angle_about(u, fixed_node, across)
-    # The origin of longitude carried to the moving ecliptic without turning (Lieske 1977).
+    general = _along_the_moving_ecliptic(across, e)
+    return np.stack([psi, omega, obliquity, chi, general], axis=-1)
+
+
+def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
+    """General precession p_A, rad, shape (n,).
+
+    Parameters
+    ----------
+    pole, ecliptic_pole : ndarray, shape (n, 3)
+        Mean pole and pole of the moving ecliptic in the axes of the fixed one.
+    """
+    return _along_the_moving_ecliptic(np.cross(pole, ecliptic_pole), ecliptic_pole)
+
+
+def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray:
+    """Angle from the equinox of date to the origin, carried along without turning (Lieske 1977)."""
     x, z = np.eye(3)[[0, 2]]
     origin = x - (e[:, :1] / (1 + e[:, 2:])) * (e + z)
-    general = _angle_about(e, across, origin)
-    return np.stack([psi, omega, obliquity, chi, general], axis=-1)
+    return _angle_about(e, equinox, origin)
 
 
 def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:

@@ -62,19 +62,3 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
     equinox = np.cross(axis, normal, axis=0)
     equinox = equinox / np.sqrt(np.sum(equinox**2, axis=0))
     return np.moveaxis(np.stack([equinox, np.cross(axis, equinox, axis=0), axis]), 2, 0)
-
-
-def unwrapped(angle: FloatArray, coarse: FloatArray, which: NDArray[np.int_]) -> FloatArray:
-    """An angle without jumps, at some times among others that leave no doubt.
-
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        rad, in any turn.
-    coarse : ndarray, shape (m,)
-        The same angle at times so close that it moves by less than half a turn, unwrapped.
-    which : ndarray, shape (n,)
-        The nearest of those times to each, as places in `coarse`.
-    """
-    turn = 2 * np.pi
-    return np.asarray(angle + turn * np.rint((coarse[which] - angle) / turn))

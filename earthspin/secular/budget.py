@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.secular.orbit import Changed, Orbit, Shape, reference_axes
-from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.strength import Numeric, Strength, Tides
 from earthspin.secular.trajectory import Trajectory, solve
+from earthspin.torque.quadrupole import cross, dot
 
 FloatArray = NDArray[np.float64]
 
@@ -43,8 +44,8 @@ class Setting:
     ----------
     strength : Strength
     orbit : Orbit
-    start : ndarray, shape (3,)
-        Unit vector of the axis at J2000.0.
+    start : ndarray, shape (3,) or (3, ...)
+        Unit vector of the axis at J2000.0, or of the axes of members.
     """
 
     strength: Strength
@@ -88,11 +89,16 @@ def solved(
         As `changes` gives them.
     """
 
-    def path(of: Setting, pieces: int = 1) -> Trajectory:
-        return solve(of.strength, of.orbit, of.start, span, pieces=pieces)
-
+    path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
     others = (("method", setting), *causes)
-    return Solved(path(setting, 2), setting, tuple((name, path(of), of) for name, of in others))
+    return Solved(
+        path,
+        setting,
+        tuple(
+            (name, solve(of.strength, of.orbit, of.start, span, near=path), of)
+            for name, of in others
+        ),
+    )
 
 
 def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
@@ -120,7 +126,7 @@ def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
 
 
 def changes(
-    setting: Setting, *, constant: float, earth: bool, error: HalfWidths
+    setting: Setting, *, constant: Numeric, earth: bool, error: HalfWidths
 ) -> tuple[tuple[str, Setting], ...]:
     """What each cause makes of a setting; the orbit is moved two ways.
 
@@ -134,9 +140,10 @@ def changes(
     error : callable
         Half-widths of the orbit's normal (rad) and eccentricity at times, s, shape (2, n).
     """
-    strength, normal = setting.strength, setting.orbit.at(np.zeros(1))[0][:, 0]
-    across = np.cross(np.cross(normal, setting.start), setting.start)
-    tilted = setting.start + START * across / max(float(np.linalg.norm(across)), 1e-300)
+    strength, start = setting.strength, setting.start.reshape(3, -1)
+    across = cross(cross(setting.orbit.at(np.zeros(1))[0], start), start)
+    tilted = start + START * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
+    tilted = (tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape)
     found = [
         (
             "constant",
@@ -147,7 +154,7 @@ def changes(
                 ),
             ),
         ),
-        ("start", replace(setting, start=tilted / np.linalg.norm(tilted))),
+        ("start", replace(setting, start=tilted)),
         *(("orbit", replace(setting, orbit=moved(setting.orbit, error, way))) for way in (0, 1)),
     ]
     if earth:

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
-from earthspin.errors import UndefinedError
-from earthspin.nutation.angles import on_fixed_ecliptic, precession_angles
-from earthspin.secular.angles import seasons, unwrapped
+from earthspin.errors import ApartError, UndefinedError
+from earthspin.nutation.angles import followed, general_precession, on_fixed_ecliptic
+from earthspin.secular.angles import seasons
 from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Orbit
 from earthspin.secular.trajectory import Trajectory
@@ -34,15 +34,17 @@ _TURN = 2 * np.pi
 
 @dataclass(frozen=True)
 class Read:
-    """What is read off one trajectory.
+    """What is read off one trajectory, or off those of members, which stand before the times.
 
     Attributes
     ----------
-    values : dict of str to ndarray, shape (n,)
+    values : dict of str to ndarray, shape (..., n)
         Angles (rad), eccentricity and its products, and the rates of precession in longitude by
         `sun`, `moon` and in `total` (rad/s).
-    pole, normal : ndarray, shape (3, n)
-        Unit vectors of spin axis and orbit normal, GCRS.
+    pole : ndarray, shape (3, ..., n)
+        Unit vector of the spin axis, GCRS.
+    normal : ndarray, shape (3, n)
+        That of the orbit, which all members share.
     """
 
     values: dict[str, FloatArray]
@@ -114,17 +116,18 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
     Raises
     ------
     UndefinedError
-        If the axis stands upright on the orbit at one of the times.
+        If the axis stands upright on the orbit at one of the times; an ApartError if that of a
+        member does.
     """
     own = solved.setting.orbit
     with_now = np.append(times, 0.0)
-    followed = followed_perihelion(own, with_now, fixed)
-    mine = read(solved.path, solved.setting, times, fixed, followed)
+    perihelion = followed_perihelion(own, with_now, fixed)
+    mine = read(solved.path, solved.setting, times, fixed, perihelion)
     _refuse_upright(mine.values["obliquity"], times)
     moved = []
     for cause, path, setting in solved.others:
         same = setting.orbit is own
-        orbits = followed if same else followed_perihelion(setting.orbit, with_now, fixed)
+        orbits = perihelion if same else followed_perihelion(setting.orbit, with_now, fixed)
         other = read(path, setting, times, fixed, orbits)
         _on_the_same_side(other.values, mine.values)
         moved.append((cause, other))
@@ -148,60 +151,64 @@ def read(
     orbits : ndarray, shape (n + 1,)
         Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps.
     """
-    perihelion, general, psi = _without_jumps(path, setting, times, fixed, orbits)
-    axis = path.at(times)
-    normal, eccentricity, _ = setting.orbit.at(times)
-    of = seasons(axis, normal, eccentricity)
-    e2 = of.eccentricity**2
-    height = np.sum(axis * normal, axis=0)
+    with_now = np.append(times, 0.0)
+    axis = path.at(with_now)
+    normal, eccentricity, _ = setting.orbit.at(with_now)
+    n, e = _beside(axis, normal), _beside(axis, eccentricity)
+    of = seasons(axis, n, e)
+    general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
+    # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
+    perihelion = np.arctan2(of.climatic_precession, of.coprecession)
+    perihelion = followed(perihelion, orbits + general)
+    perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
+    e2 = np.sum(eccentricity**2, axis=0)
+    height = np.sum(axis * n, axis=0)
     strength = setting.strength
-    sun = replace(strength, moon=0.0).constant(times, e2) * height
-    both = strength.constant(times, e2) * height
+    sun = replace(strength, moon=0.0).constant(with_now, e2) * height
+    both = strength.constant(with_now, e2) * height
     values = {
         "obliquity": of.obliquity,
         "longitude_of_perihelion": perihelion,
         "general_precession": general,
         "psi_A": psi,
-        "omega_A": np.arccos(np.clip(fixed[2] @ axis, -1.0, 1.0)),
-        "eccentricity": of.eccentricity,
+        "omega_A": np.arccos(np.clip(np.tensordot(fixed[2], axis, 1), -1.0, 1.0)),
+        "eccentricity": np.sqrt(e2),
         "climatic_precession": of.climatic_precession,
         "coprecession": of.coprecession,
         "sun": sun,
         "moon": both - sun,
         "total": both - strength.geodesic_rate(e2),
     }
-    return Read(values, axis, normal)
+    told = {name: of[..., :-1] for name, of in values.items()}
+    return Read(told, axis[..., :-1], normal[:, :-1])
 
 
-def _without_jumps(
-    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Longitude of perihelion from the moving equinox, p_A and psi_A, rad, from J2000.0 on."""
-    # at the nodes, which are close enough to follow precession from one to the next
+def _beside(axis: FloatArray, vector: FloatArray) -> FloatArray:
+    """A vector of the orbit with room for the members that the axis has."""
+    return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)
+
+
+def _followed_precession(
+    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
+) -> FloatArray:
+    """p_A and psi_A at times without jumps, rad, from J2000.0 on."""
+    # along the nodes, which are close enough to follow precession from one to the next
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
-    followed = np.unwrap(_turns(path, setting, nodes, fixed)[1:], axis=1)
+    axis = path.at(nodes)
+    coarse = np.unwrap(_turns(axis, _beside(axis, setting.orbit.at(nodes)[0]), fixed))
     origin = int(np.searchsorted(nodes, 0.0))
-    followed -= _TURN * np.rint(followed[:, origin : origin + 1] / _TURN)
+    coarse -= _TURN * np.rint(coarse[..., origin : origin + 1] / _TURN)
     nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)
-    perihelion, general, psi = _turns(path, setting, np.append(times, 0.0), fixed)
-    general, psi = (
-        unwrapped(angle[:-1], coarse, nearest)
-        for angle, coarse in zip((general, psi), followed, strict=True)
-    )
-    # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
-    about = orbits + np.append(general, 0.0)
-    perihelion = unwrapped(perihelion, about, np.arange(about.size))
-    return perihelion[:-1] - _TURN * np.floor(perihelion[-1] / _TURN), general, psi
+    return followed(angles, coarse[..., nearest])
 
 
-def _turns(path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Longitude of perihelion, p_A and psi_A in any turn, rad, shape (3, n)."""
-    axis = path.at(times)
-    normal, eccentricity, _ = setting.orbit.at(times)
-    of = seasons(axis, normal, eccentricity)
-    psi, omega = on_fixed_ecliptic(axis.T, fixed).T
-    general = precession_angles(psi, omega, (fixed @ normal).T)[:, 4]
-    return np.stack([np.arctan2(of.climatic_precession, of.coprecession), general, psi])
+def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
+    """p_A and psi_A in any turn, rad, shape (2, ..., n)."""
+    shape = axis.shape
+    pole, ecliptic = (np.broadcast_to(v, shape).reshape(3, -1).T for v in (axis, normal))
+    psi, _ = on_fixed_ecliptic(pole, fixed).T
+    general = general_precession(pole @ fixed.T, ecliptic @ fixed.T)
+    return np.stack([general, psi]).reshape(2, *shape[1:])
 
 
 def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
@@ -210,7 +217,7 @@ def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> F
     looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
     nearest = np.rint(times / LOOK - first).astype(int)
-    return unwrapped(angle, np.unwrap(coarse), nearest)
+    return followed(angle, np.unwrap(coarse)[nearest])
 
 
 def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray]) -> None:
@@ -225,8 +232,11 @@ def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray])
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:
     """Without an equinox there is no longitude."""
-    worst = int(np.argmin(np.sin(obliquity)))
-    if not np.sin(obliquity[worst]) > NO_EQUINOX:
+    sines = np.sin(obliquity)
+    if sines.ndim > 1 and not np.all(sines > NO_EQUINOX):
+        raise ApartError("the axis of a member stands upright on the orbit")
+    worst = int(np.argmin(sines))
+    if not sines.flat[worst] > NO_EQUINOX:
         raise UndefinedError(
             f"the axis stands upright on the orbit {times[worst] / JULIAN_YEAR:.0f} yr from "
             "J2000.0: there is no equinox to count from"

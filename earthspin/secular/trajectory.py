@@ -59,12 +59,16 @@ class Trajectory:
     axes: FloatArray
     steps: int
 
-    def at(self, times: FloatArray) -> FloatArray:
-        """Unit vectors of the axis, shape (3, ..., n), at times in s."""
+    def about(self, times: FloatArray) -> FloatArray:
+        """Longitude and height about the reference axis, shape (2, ..., n), at times in s."""
         series = self.coefficients
         rows = series.reshape(-1, *series.shape[-2:])
         found = self.windows.evaluate(rows, np.asarray(times, dtype=float))
-        phi, z = found.reshape(*series.shape[:-2], -1)
+        return found.reshape(*series.shape[:-2], -1)
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """Unit vectors of the axis, shape (3, ..., n), at times in s."""
+        phi, z = self.about(times)
         across = np.sqrt(1 - z * z)
         return np.tensordot(self.axes.T, [across * np.cos(phi), across * np.sin(phi), z], 1)
 
@@ -76,6 +80,7 @@ def solve(
     span: tuple[float, float],
     order: int = ORDER,
     pieces: int = 1,
+    near: Trajectory | None = None,
 ) -> Trajectory:
     """Follow a spin axis from J2000.0 both ways, or many side by side.
 
@@ -93,6 +98,8 @@ def solve(
         Nodes in a window.
     pieces : int
         Into how many windows each of the orbit's is cut.
+    near : Trajectory, optional
+        A first guess: that of a setting which is hardly another, over the same span.
 
     Raises
     ------
@@ -101,10 +108,10 @@ def solve(
     ApartError
         If it does not settle for all of many at once, or they need other reference axes.
     """
-    axes = _axes(orbit, start, span)
+    axes = _axes(orbit, start, span) if near is None else near.axes
     x, y, z = axes @ start
     state = np.array([np.arctan2(y, x), z])
-    way = _Way(strength, orbit, axes, order)
+    way = _Way(strength, orbit, axes, order, near)
     past, future = (way.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
     # the past was followed from J2000.0 backwards: put it in order again
     turned = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
@@ -145,9 +152,16 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
 class _Way:
     """Windows one after another in one direction of time, in blocks."""
 
-    def __init__(self, strength: Strength, orbit: Orbit, axes: FloatArray, order: int) -> None:
+    def __init__(
+        self,
+        strength: Strength,
+        orbit: Orbit,
+        axes: FloatArray,
+        order: int,
+        near: Trajectory | None = None,
+    ) -> None:
         self.strength, self.orbit, self.axes, self.order = strength, orbit, axes, order
-        self.steps = 0
+        self.near, self.steps = near, 0
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -165,7 +179,7 @@ class _Way:
                     "pass through the reference axis, or precess too fast for the orbit's windows"
                 )
             if settled is None:
-                size = max(size // 4, 1)
+                self.near, size = None, max(size // 4, 1)
                 continue
             series, state = settled
             found.append(series)
@@ -175,7 +189,7 @@ class _Way:
     def _block(self, windows: Windows, state: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         """Series of a block and its end, or nothing if Newton's method does not settle for all."""
         on = Turn.of(self._pull(windows.times.ravel(), state.ndim), self.axes, windows)
-        values, before = self._at_one_height(windows, on, state), np.ones(state.shape[1:])
+        values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
             self.steps += 1
@@ -203,8 +217,17 @@ class _Way:
             shape = normal, eccentricity, turning
         return pull(self.strength, shape, times)
 
+    def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
+        """Another trajectory from where this one stands, or precession at one height."""
+        if self.near is None:
+            return self._at_one_height(windows, on, state)
+        times = np.append(windows.times, windows.edges[0])
+        values = self.near.about(times)
+        values += state[..., np.newaxis] - values[..., -1:]
+        return values[..., :-1].reshape(*state.shape, *windows.times.shape)
+
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Precession at the height of the start, or the mean one so far: a first guess."""
+        """Precession at the height of the start, or the mean one so far."""
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]

@@ -1,8 +1,10 @@
-"""Polynomials of the angles: what was put in comes back, and a cubic is cut as theory says."""
+"""Polynomials of the angles: what was put in comes back, a cubic is cut as theory says; turns."""
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
-from earthspin.nutation.angles import polynomials
+from earthspin.nutation.angles import followed, polynomials
 
 
 def test_a_polynomial_comes_back() -> None:
@@ -20,3 +22,11 @@ def test_a_cubic_on_a_line_has_the_slope_of_legendre() -> None:
     # measured: 4e-17 and 6e-5, the ends of an even grid counting whole
     assert abs(constant) < 4e-16
     assert abs(slope - 0.6) < 1e-4
+
+
+@given(st.lists(st.floats(-1.5, 1.5), min_size=2, max_size=60), st.integers(-3, 3))
+def test_a_longitude_follows_a_guide_that_leaves_no_doubt(steps: list[float], turns: int) -> None:
+    guide = np.cumsum(steps) + 2 * np.pi * turns
+    near = guide + 0.4
+    wrapped = np.arctan2(np.sin(near), np.cos(near))
+    assert np.allclose(followed(wrapped, guide), near, rtol=0, atol=1e-12)

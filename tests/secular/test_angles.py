@@ -1,4 +1,4 @@
-"""Obliquity, climatic precession and the equinox from vectors; angles without jumps."""
+"""Obliquity, climatic precession and the equinox from vectors."""
 
 import erfa
 import numpy as np
@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC, J2000_JD
-from earthspin.secular.angles import equator_and_equinox, seasons, unwrapped
+from earthspin.secular.angles import equator_and_equinox, seasons
 
 NORTH = np.array([[0.0], [0.0], [1.0]])
 
@@ -40,20 +40,3 @@ def test_the_matrix_of_the_equator_is_that_of_erfa(years: float) -> None:
     (found,) = equator_and_equinox(pole, normal)
     # erfa puts the equinox where its own angles say; 2e-6 arcsec at 2,000 years
     assert np.max(np.abs(found - erfa.pmat06(J2000_JD, days))) < 1e-4 * ARCSEC
-
-
-@given(st.lists(st.floats(-1.5, 1.5), min_size=2, max_size=60), st.integers(-3, 3))
-def test_an_angle_is_unwrapped_through_times_that_leave_no_doubt(
-    steps: list[float], turns: int
-) -> None:
-    coarse = np.cumsum(steps) + 2 * np.pi * turns
-    near = coarse + 0.4  # at times near to each
-    wrapped = np.arctan2(np.sin(near), np.cos(near))
-    found = unwrapped(wrapped, coarse, np.arange(len(steps)))
-    assert np.allclose(found, near, rtol=0, atol=1e-12)
-
-
-def test_unwrapping_picks_the_nearest_known_time() -> None:
-    coarse = np.array([0.0, 3.0, 6.0, 9.0])
-    found = unwrapped(np.array([-0.3, 0.1]), coarse, np.array([2, 3]))
-    assert np.allclose(found, [2 * np.pi - 0.3, 2 * np.pi + 0.1 + 0.0], rtol=0, atol=1e-14)
