@@ -11,6 +11,8 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from dataclasses import replace as _replace
+from functools import reduce
+from operator import and_
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin import constants as c
@@ -25,7 +27,7 @@ from earthspin.bodies.kinds import (
     OwnPlace,
     Uncertainties,
 )
-from earthspin.bodies.labelled import Numeric, all_of, is_close, is_same
+from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
 from earthspin.bodies.layered import UnderTheSurface
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
@@ -496,12 +498,18 @@ class Body(FromMass):
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
     @property
-    def is_as_named(self) -> bool:
-        """Whether figure and spin are those of the named body, to one per cent."""
+    def are_as_named(self) -> Numeric:
+        """Elementwise: whether figure and spin are those of the named body, to one per cent."""
         named = BODIES.get(self.name)
-        return named is not None and all(
-            is_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE
-        )
+        if named is None:
+            return False
+        close = (are_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE)
+        return reduce(and_, close)
+
+    @property
+    def is_as_named(self) -> bool:
+        """Whether figure and spin are those of the named body, to one per cent, of all members."""
+        return all_of(self.are_as_named)
 
 
 Body.KINDS = {

@@ -22,11 +22,16 @@ def is_finite(value: Numeric) -> Numeric:
     return (value == value) & (abs(value) != math.inf)
 
 
-def is_close(value: Numeric | None, other: Numeric | None) -> bool:
-    """Whether two numbers may belong to the same body."""
+def are_close(value: Numeric | None, other: Numeric | None) -> Numeric:
+    """Elementwise: whether two numbers may belong to the same body."""
     if value is None or other is None:
         return value is other
-    return all_of(abs(value - other) <= SAME_BODY * abs(other))
+    return abs(value - other) <= SAME_BODY * abs(other)
+
+
+def is_close(value: Numeric | None, other: Numeric | None) -> bool:
+    """Whether two numbers may belong to the same body, all of them."""
+    return all_of(are_close(value, other))
 
 
 def is_same(one: object, other: object) -> bool:

@@ -31,7 +31,7 @@ from earthspin.engine.question import Question
 from earthspin.engine.run import SCENE, Again, scene_text
 from earthspin.engine.series import asked_of
 from earthspin.engine.unfinished import Layout
-from earthspin.errors import EarthspinError
+from earthspin.errors import ApartError, EarthspinError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -225,9 +225,13 @@ class Ensemble:
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
             values = along_members(self.values, np.clip(row, first, last - 1))
-            made = self._numbers(values, f"{max(begin, first)} to {min(end, last) - 1}")
             wanted = slice(max(first - begin, 0), min(last, end) - begin)
-            yield made.isel({MEMBER: wanted} if MEMBER in made.dims else {})
+            try:
+                made = self._numbers(values, f"{max(begin, first)} to {min(end, last) - 1}")
+            except ApartError:
+                yield from map(self._single, range(max(begin, first), min(end, last)))
+            else:
+                yield made.isel({MEMBER: wanted} if MEMBER in made.dims else {})
 
     def _single(self, place: int) -> xr.Dataset:
         made = self._numbers(one_member(self.values, place), str(self.which[place]))

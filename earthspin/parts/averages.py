@@ -339,9 +339,14 @@ class MeanRates:
 
 def of_all(by_perturber: Numeric) -> Numeric:
     """What all perturbers do together: the last of what each does."""
+    return of_one(by_perturber, -1)
+
+
+def of_one(by_perturber: Numeric, place: int) -> Numeric:
+    """What one of the perturbers does."""
     if hasattr(by_perturber, "dims"):
-        return by_perturber.isel(perturber=-1, drop=True)
-    return by_perturber[-1]
+        return by_perturber.isel(perturber=place, drop=True)
+    return by_perturber[place]
 
 
 @part

@@ -49,10 +49,14 @@ class SideBySide:
 
     def columns(self, *names: str) -> tuple[Any, ...]:
         """Some of the numbers, those of many with an axis of length 1 behind their own."""
-        return tuple(np.asarray(self.numbers[name])[..., np.newaxis] for name in names)
+        behind = (..., np.newaxis) if self.dims else ...
+        return tuple(np.asarray(self.numbers[name])[behind] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Label what came out, the dimensions of many in front."""
+        """Label what came out, the dimensions of many in front; what is common is repeated."""
         import xarray as xr
 
+        if values.ndim < len(self.dims) + len(dims):
+            many = np.shape(next(iter(self.numbers.values())))
+            values = np.broadcast_to(values, (*many, *values.shape))
         return xr.DataArray(values, self.labels, (*self.dims, *dims))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import MOON, SUN, Body
+from earthspin.bodies import MOON, SUN, Body, Numeric
 from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import ask
@@ -17,9 +17,10 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
 from earthspin.errors import Where
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
 from earthspin.parts.orbits import OrbitChoice, orbit_table
-from earthspin.parts.reasons import no_accuracy, no_iau_model, not_the_iaus_earth
+from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
+from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
 from earthspin.sky.orbit_table import OrbitTable
 from earthspin.units import AngleError, Number
@@ -68,6 +69,7 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     """
 
     exclusive = (("times",), ("span", "step"))
+    many_pulls = True
 
     span: YearSpan = key(
         ("-1 Myr", "0 kyr"),
@@ -102,12 +104,6 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
                 names,
                 "over millennia it is the Sun, or Sun and Moon; give no others",
             )
-        if self.body.labelled_field is not None:
-            raise self.error(
-                f"body.{self.body.labelled_field}",
-                "an array",
-                "give single numbers here, no labelled arrays: one body at a time",
-            )
 
 
 @part
@@ -123,15 +119,36 @@ def stretch(sky: Sky) -> Stretch:
 
 
 @part
-def strength(
+def numbers(
     mean_rates: MeanRates,
-    mean_torques: MeanTorques,
     body: Body,
     perturbers: tuple[Body, ...],
-    orbit_table: OrbitTable,
     tides: float,
     ellipticity: float,
     j2_rate: float | None,
+) -> SideBySide:
+    """What may differ among members, laid against one another."""
+    rate, error = mean_rates.total()
+    return SideBySide.of(
+        **{
+            name: of_one(mean_rates.rate.value, place)
+            for place, name in enumerate(mean_rates.labels)
+        },
+        relative_error=error / np.abs(rate),
+        published=0.0 if not_sun_and_moon(body, perturbers) else _published() * body.are_as_named,
+        spin_rate=body.spin_rate,
+        tides=tides,
+        ellipticity=ellipticity,
+        j2_rate=_relative_j2_rate(body) if j2_rate is None else j2_rate,
+    )
+
+
+@part
+def strength(
+    numbers: SideBySide,
+    mean_torques: MeanTorques,
+    body: Body,
+    orbit_table: OrbitTable,
 ) -> Strength:
     """The constant of precession today and how it changes.
 
@@ -141,46 +158,50 @@ def strength(
     from earthspin.secular import strength as of
 
     cosine = math.cos(mean_torques.obliquity)
-    rates = dict(zip(mean_torques.labels, mean_rates.rate.value.tolist(), strict=True))
-    as_published = not_the_iaus_earth(body, perturbers) is None
-    more = sum(
-        float(effect.value) * ARCSEC / JULIAN_YEAR
-        for name, effect in PUBLISHED_EFFECTS.items()
-        if name != "geodesic" and as_published
-    )
     eccentricity = float(np.linalg.norm(orbit_table.at(np.zeros(1))[1]))
     motion = 2 * math.pi / body.number("orbital_period")
-    sun = rates["sun"] / cosine
     geodesic = of.geodesic_precession(SUN.gm, motion, eccentricity)
-    j2_rate = _relative_j2_rate(body) if j2_rate is None else j2_rate
-    if "moon" not in rates:
+    sun, spin_rate, tides, ellipticity, j2_rate = numbers.columns(
+        "sun", "spin_rate", "tides", "ellipticity", "j2_rate"
+    )
+    sun = sun / cosine
+    if "moon" not in numbers.numbers:
         return of.Strength(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
+    moon, published = numbers.columns("moon", "published")
     return of.Strength(
         sun,
-        (rates["moon"] + more) / cosine,
+        (moon + published) / cosine,
         eccentricity,
         geodesic,
         ellipticity,
-        tides=of.Tides.of_the_earth(
-            tides, body.spin_rate, 2 * math.pi / MOON.number("orbital_period")
-        ),
+        tides=of.Tides.of_the_earth(tides, spin_rate, 2 * math.pi / MOON.number("orbital_period")),
         j2_rate=j2_rate,
         node_rate=2 * math.pi / MOON.cycle,
     )
 
 
-def _relative_j2_rate(body: Body) -> float:
+def _published() -> float:
+    """Rate of what the average of first order leaves out of the Earth's precession, rad/s."""
+    return sum(
+        float(effect.value) * ARCSEC / JULIAN_YEAR
+        for name, effect in PUBLISHED_EFFECTS.items()
+        if name != "geodesic"
+    )
+
+
+def _relative_j2_rate(body: Body) -> Numeric:
     """Rate of J2 over J2, s-1; none where the body has none."""
-    return float(body.j2_rate / body.j2) if body.j2 else 0.0
+    j2 = body.needed("j2")
+    return body.j2_rate / (j2 + (j2 == 0))
 
 
 @part
 def solved(
     strength: Strength,
+    numbers: SideBySide,
     orbit_table: OrbitTable,
     wanted: FloatArray,
     body: Body,
-    mean_rates: MeanRates,
 ) -> Solved:
     """Newton's method in time, and again with each cause changed and with windows twice as long."""
     from earthspin.secular import budget
@@ -188,11 +209,13 @@ def solved(
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     start = np.asarray(body.needed("pole").mean(np.zeros(1))[0])
+    (relative_error,) = numbers.columns("relative_error")
+    if numbers.dims:
+        start = np.stack([np.full(relative_error.shape[:-1], of) for of in start])
     setting = budget.Setting(strength, orbit_table, start)
-    rate, error = mean_rates.total()
     causes = budget.changes(
         setting,
-        constant=float(error / abs(rate)),
+        constant=relative_error,
         earth=strength.node_rate < math.inf,
         error=orbit_table.error,
     )
@@ -253,6 +276,7 @@ LONG_TERM = {
 @part(gives=LONG_TERM)
 def series(
     readings: Readings,
+    numbers: SideBySide,
     wanted: FloatArray,
     solved: Solved,
     orbit_table: OrbitTable,
@@ -262,16 +286,16 @@ def series(
     from earthspin.secular.reading import together
     from earthspin.torque import rates
 
-    mine = readings.mine
+    mine, poles_apart = readings.mine, readings.poles_apart
     values: dict[str, Any] = {}
     for name in (*_ANGLES, *_NUMBERS):
         values[name] = mine.values[name]
         values[f"{name}_error"] = together(readings.apart(name))
     values |= {
-        "pole": mine.pole.T,
-        "pole_error": together(readings.poles_apart("pole")),
+        "pole": np.moveaxis(mine.pole, 0, -1),
+        "pole_error": together(poles_apart("pole")),
         "ecliptic_pole": mine.normal.T,
-        "ecliptic_pole_error": together(readings.poles_apart("normal")),
+        "ecliptic_pole_error": together(poles_apart("normal")),
     }
     refuse_unkept(
         accuracy,
@@ -281,8 +305,8 @@ def series(
     )
     with_moon = solved.setting.strength.node_rate < math.inf
     labels = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
-    rate = np.stack([mine.values[label] for label in labels])
-    error = np.stack([together(readings.apart(label)) for label in labels])
+    rate = np.stack([mine.values[label] for label in labels], axis=-2)
+    error = np.stack([together(readings.apart(label)) for label in labels], axis=-2)
     values |= {
         "precession_rate": rate,
         "precession_rate_error": error,
@@ -293,7 +317,7 @@ def series(
     told = {"units": "yr", "long_name": "Julian years from J2000.0 (TDB)"}
     result = build(
         LONG_TERM,
-        values,
+        {name: numbers.lay(of, *LONG_TERM[name].dims) for name, of in values.items()},
         coords={
             "epoch": ("epoch", years, told),
             "component": ["x", "y", "z"],
@@ -335,7 +359,7 @@ BUDGET = without_error(
 
 
 @part(gives=BUDGET)
-def budget(readings: Readings, series: xr.Dataset) -> xr.Dataset:
+def budget(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Dataset:
     """Error of obliquity, perihelion and pole by cause."""
     shares = {
         "obliquity_share": readings.apart("obliquity"),
@@ -344,7 +368,10 @@ def budget(readings: Readings, series: xr.Dataset) -> xr.Dataset:
     }
     return build(
         BUDGET,
-        {name: np.stack(list(by_cause.values())) for name, by_cause in shares.items()},
+        {
+            name: numbers.lay(np.stack(np.broadcast_arrays(*by_cause.values()), axis=-2), *_SHARE)
+            for name, by_cause in shares.items()
+        },
         coords={"cause": list(shares["pole_share"]), "epoch": series.epoch},
     )
 
@@ -365,17 +392,18 @@ MATRICES = covered_by(
 
 
 @part(gives=MATRICES)
-def matrices(readings: Readings, series: xr.Dataset) -> xr.Dataset:
+def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Dataset:
     """Precession matrices to mean equator and equinox of date."""
     from earthspin.secular.angles import equator_and_equinox
     from earthspin.secular.reading import together
 
-    mine = readings.mine
+    mine, lay = readings.mine, numbers.lay
+    matrix = equator_and_equinox(mine.pole, mine.normal)
     return build(
         MATRICES,
         {
-            "matrix": equator_and_equinox(mine.pole, mine.normal),
-            "matrix_error": together(readings.poles_apart("pole")),
+            "matrix": lay(matrix, *MATRICES["matrix"].dims),
+            "matrix_error": lay(together(readings.poles_apart("pole")), "epoch"),
         },
         coords={
             "epoch": series.epoch,
@@ -400,9 +428,11 @@ made_of(
     sections={"budget": budget, "matrices": matrices, "neglected": neglected},
     parts=(
         places, sky, stretch, wanted, *MEANS, orbit_table,
-        strength, solved, readings,
+        numbers, strength, solved, readings,
     ),
     without=("chosen_average",),
+    together=("body", "perturbers", "tides", "ellipticity", "j2_rate"),
+    widest=256,
 )  # fmt: skip
 
 long_term = ask(LongTerm)

@@ -58,7 +58,19 @@ def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> S
 
 
 def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Matrices from the GCRS to mean equator and equinox of date, shape (n, 3, 3)."""
-    equinox = np.cross(axis, normal, axis=0)
+    """Matrices from the GCRS to mean equator and equinox of date, shape (..., n, 3, 3).
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3, ..., n)
+    normal : ndarray, shape (3, n)
+    """
+    equinox = np.cross(axis, beside(axis, normal), axis=0)
     equinox = equinox / np.sqrt(np.sum(equinox**2, axis=0))
-    return np.moveaxis(np.stack([equinox, np.cross(axis, equinox, axis=0), axis]), 2, 0)
+    rows = np.stack([equinox, np.cross(axis, equinox, axis=0), axis])
+    return np.moveaxis(rows, (0, 1), (-2, -1))
+
+
+def beside(axis: FloatArray, vector: FloatArray) -> FloatArray:
+    """A vector of the orbit, shape (3, n), with room for the members that the axis has."""
+    return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

@@ -88,7 +88,6 @@ def solved(
     causes : tuple of (str, Setting)
         As `changes` gives them.
     """
-
     path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
     others = (("method", setting), *causes)
     return Solved(

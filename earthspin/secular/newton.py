@@ -26,6 +26,8 @@ Share = float | FloatArray
 
 #: Sweeps that solve the linear equations of windows, and the size at which they will not.
 MOST_SWEEPS, DIVERGED = 40, 1e6
+#: Change that is taken for nothing at all would leave to divide by.
+TINY = 1e-300
 
 
 class Turn(NamedTuple):
@@ -184,7 +186,7 @@ def _linear(
         settled = settled | (change * np.minimum(change / before, 1.0) < left)
         if settled.all() or size.max() > DIVERGED:
             break
-        before = change
+        before = np.maximum(change, TINY)
     ends = [of @ gauss.weights for of in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
     return np.array([phi, z]), np.array(ends), settled
 

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.nutation.angles import followed, general_precession, on_fixed_ecliptic
-from earthspin.secular.angles import seasons
+from earthspin.secular.angles import beside, seasons
 from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Orbit
 from earthspin.secular.trajectory import Trajectory
+from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 
@@ -154,7 +155,7 @@ def read(
     with_now = np.append(times, 0.0)
     axis = path.at(with_now)
     normal, eccentricity, _ = setting.orbit.at(with_now)
-    n, e = _beside(axis, normal), _beside(axis, eccentricity)
+    n, e = beside(axis, normal), beside(axis, eccentricity)
     of = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
@@ -171,7 +172,7 @@ def read(
         "longitude_of_perihelion": perihelion,
         "general_precession": general,
         "psi_A": psi,
-        "omega_A": np.arccos(np.clip(np.tensordot(fixed[2], axis, 1), -1.0, 1.0)),
+        "omega_A": np.arccos(np.clip(dot(fixed[2], axis), -1.0, 1.0)),
         "eccentricity": np.sqrt(e2),
         "climatic_precession": of.climatic_precession,
         "coprecession": of.coprecession,
@@ -183,11 +184,6 @@ def read(
     return Read(told, axis[..., :-1], normal[:, :-1])
 
 
-def _beside(axis: FloatArray, vector: FloatArray) -> FloatArray:
-    """A vector of the orbit with room for the members that the axis has."""
-    return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)
-
-
 def _followed_precession(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
 ) -> FloatArray:
@@ -195,7 +191,7 @@ def _followed_precession(
     # along the nodes, which are close enough to follow precession from one to the next
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
-    coarse = np.unwrap(_turns(axis, _beside(axis, setting.orbit.at(nodes)[0]), fixed))
+    coarse = np.unwrap(_turns(axis, beside(axis, setting.orbit.at(nodes)[0]), fixed))
     origin = int(np.searchsorted(nodes, 0.0))
     coarse -= _TURN * np.rint(coarse[..., origin : origin + 1] / _TURN)
     nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)

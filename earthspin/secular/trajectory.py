@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.gauss_windows import Windows, integrated
-from earthspin.secular.newton import Turn, moved, slope, step
+from earthspin.secular.angles import beside
+from earthspin.secular.newton import TINY, Turn, moved, slope, step
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
 
@@ -109,7 +110,7 @@ def solve(
         If it does not settle for all of many at once, or they need other reference axes.
     """
     axes = _axes(orbit, start, span) if near is None else near.axes
-    x, y, z = axes @ start
+    x, y, z = np.tensordot(axes, start, 1)
     state = np.array([np.arctan2(y, x), z])
     way = _Way(strength, orbit, axes, order, near)
     past, future = (way.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
@@ -141,7 +142,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
     """Axes about the mean normal, or across it where the spin axis is too near to that."""
     times = np.linspace(min(span[0], 0.0), max(span[1], 0.0), 101)
     first, second, normal = reference_axes(np.mean(orbit.at(times)[0], axis=1))
-    near = np.abs(normal @ start) >= TOO_NEAR
+    near = np.abs(np.tensordot(normal, start, 1)) >= TOO_NEAR
     if not near.any():
         return np.stack([first, second, normal])
     if not near.all():
@@ -165,7 +166,7 @@ class _Way:
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Edges, and Legendre coefficients of longitude and height, shape (2, ..., w, order + 1)."""
+        """Edges, and Legendre series of longitude and height, shape (2, ..., w, order + 1)."""
         found = [np.empty((*state.shape, 0, self.order + 1))]
         first, size = 0, BLOCK
         while first < len(edges) - 1:
@@ -188,7 +189,7 @@ class _Way:
 
     def _block(self, windows: Windows, state: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         """Series of a block and its end, or nothing if Newton's method does not settle for all."""
-        on = Turn.of(self._pull(windows.times.ravel(), state.ndim), self.axes, windows)
+        on = Turn.of(self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows)
         values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
@@ -206,16 +207,13 @@ class _Way:
                 rates = slope(on, *values).rates
                 _, starts, end = moved(windows, rates, state)
                 return integrated(windows.coefficients(rates), windows.half, starts), end
-            before = change
+            before = np.maximum(change, TINY)
         return None
 
-    def _pull(self, times: FloatArray, dimensions: int) -> Pull:
-        """What turns the axis, or the axes of many members, which stand before the times."""
-        shape = self.orbit.at(times)
-        if dimensions > 1:
-            normal, eccentricity, turning = (of[:, np.newaxis] for of in shape)
-            shape = normal, eccentricity, turning
-        return pull(self.strength, shape, times)
+    def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
+        """What turns the axis, or the axes of members, which stand before the times."""
+        normal, eccentricity, turning = (beside(state, of) for of in self.orbit.at(times))
+        return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
         """Another trajectory from where this one stands, or precession at one height."""

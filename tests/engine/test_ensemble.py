@@ -126,6 +126,10 @@ def test_side_by_side_is_one_by_one(word: str, field: str) -> None:
         ("top", "axial_moment", 0.3, 1.9),
         ("spheroid", "body.flattening", -3.0, 0.9),
         ("spheroid", "point_mass", 1.0, 1e20),
+        ("long-term", "tides", 0.0, 1.2),
+        ("long-term", "ellipticity", 0.99, 1.02),
+        ("long-term", "j2_rate", -9e-16, 0.0),
+        ("long-term", "body.dynamical_flattening", 0.0032, 0.0034),
     ],
 )
 def test_numbers_of_a_question_are_side_by_side(
@@ -144,6 +148,19 @@ def test_numbers_of_a_question_are_side_by_side(
             found = many[variable]
             found = found.isel(member=number) if "member" in found.dims else found
             assert np.array_equal(found.values, one[variable].values), variable
+
+
+def test_members_that_cannot_stand_side_by_side_are_made_one_by_one() -> None:
+    """Newton's method does not settle for the third over blocks in which it does for the others."""
+    values = [1.0, 1.01, 8.0]
+    many = earthspin.ensemble(
+        QUESTIONS["long-term"](span=("-1 Myr", "0 kyr"), step="100 kyr"),
+        xr.Dataset({"ellipticity": ("member", values)}),
+    )
+    for number, value in enumerate(values):
+        one = earthspin.long_term("-1 Myr", "0 kyr", "100 kyr", ellipticity=value)
+        for name in one.data_vars:
+            assert np.array_equal(many[name].isel(member=number), one[name]), name
 
 
 @pytest.mark.parametrize("omega", [[0.01, 1, 0], [[0.01, 1, 0], [1, 0.2, 0.3]]])

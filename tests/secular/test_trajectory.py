@@ -8,10 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC
-from earthspin.errors import UndefinedError
+from earthspin.errors import ApartError, UndefinedError
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.newton import Turn, slope
 from earthspin.secular.orbit import pull
+from earthspin.secular.strength import Strength, Tides
 from earthspin.secular.trajectory import solve
 from tests.secular.setting import (
     E0,
@@ -204,3 +205,58 @@ def test_precession_too_fast_for_the_windows_is_refused() -> None:
     strength = replace(earths(), sun=1e4 * earths().sun)
     with pytest.raises(UndefinedError, match="cannot be followed"):
         solve(strength, EARTHS, POLE, (-100 * KYR, 0.0))
+
+
+def different(members: int) -> Strength:
+    """Earths of other ellipticities and tides, side by side."""
+    share = np.linspace(0.0, 1.0, members)[:, np.newaxis]
+    tides = earths().tides
+    return replace(
+        earths(),
+        ellipticity=0.998 + 0.014 * share,
+        tides=Tides(1.2 * share * tides.moon, 1.2 * share * tides.spin),
+    )
+
+
+def one_of(strength: Strength, member: int) -> Strength:
+    tides = Tides(strength.tides.moon[member, 0], strength.tides.spin[member, 0])
+    return replace(strength, ellipticity=strength.ellipticity[member, 0], tides=tides)
+
+
+@pytest.mark.parametrize("members", [1, 2, 9])
+def test_a_member_has_the_same_bits_alone(members: int) -> None:
+    strength, span = different(members), (-300 * KYR, 150 * KYR)
+    starts = np.repeat(POLE[:, np.newaxis], members, axis=1)
+    together = solve(strength, EARTHS, starts, span)
+    again = solve(strength, EARTHS, starts, span, near=together)
+    for member in range(members):
+        alone = solve(one_of(strength, member), EARTHS, POLE, span)
+        assert np.array_equal(together.coefficients[:, member], alone.coefficients)
+        alone = solve(one_of(strength, member), EARTHS, POLE, span, near=alone)
+        assert np.array_equal(again.coefficients[:, member], alone.coefficients)
+
+
+def test_a_guess_saves_steps_and_moves_nothing() -> None:
+    """A solution nearby leads to the same one, within what a block is settled to."""
+    span, times = (-MYR, 0.0), np.linspace(-MYR, 0.0, 101)
+    path = solve(earths(), EARTHS, POLE, span)
+    other = replace(earths(), ellipticity=1.0005)
+    plain, guided = (solve(other, EARTHS, POLE, span, near=near) for near in (None, path))
+    assert guided.steps < plain.steps
+    assert arcsec(guided.at(times), plain.at(times)) < 1e-4
+
+
+def test_axes_that_need_other_reference_axes_are_not_followed_side_by_side() -> None:
+    normal = EARTHS.at(np.zeros(1))[0][:, 0]
+    starts = np.stack([POLE, normal], axis=1)
+    with pytest.raises(ApartError, match="too near to the mean normal"):
+        solve(different(2), EARTHS, starts, (-40 * KYR, 0.0))
+
+
+def test_axes_of_which_one_does_not_settle_are_not_followed_side_by_side() -> None:
+    starts = np.repeat(POLE[:, np.newaxis], 2, axis=1)
+    fast = replace(earths(), ellipticity=np.array([[1.0], [8.0]]))
+    with pytest.raises(ApartError, match="does not settle for all"):
+        solve(fast, EARTHS, starts, (-MYR, 0.0))
+    for factor in (1.0, 8.0):
+        solve(replace(earths(), ellipticity=factor), EARTHS, POLE, (-MYR, 0.0))
