@@ -66,11 +66,11 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
 
 
 def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
-    """General precession p_A, rad, shape (n,).
+    """General precession p_A, rad, shape (...).
 
     Parameters
     ----------
-    pole, ecliptic_pole : ndarray, shape (n, 3)
+    pole, ecliptic_pole : ndarray, shape (..., 3)
         Mean pole and pole of the moving ecliptic in the axes of the fixed one.
     """
     return _along_the_moving_ecliptic(np.cross(pole, ecliptic_pole), ecliptic_pole)
@@ -79,7 +79,7 @@ def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArra
 def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray:
     """Angle from the equinox of date to the origin, carried along without turning (Lieske 1977)."""
     x, z = np.eye(3)[[0, 2]]
-    origin = x - (e[:, :1] / (1 + e[:, 2:])) * (e + z)
+    origin = x - (e[..., :1] / (1 + e[..., 2:])) * (e + z)
     return _angle_about(e, equinox, origin)
 
 
@@ -105,5 +105,5 @@ def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
 
 def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """Angle from one direction to another about an axis, rad."""
-    across = np.sum(np.cross(start, end) * axis, axis=1)
-    return np.asarray(np.arctan2(across, np.sum(start * end, axis=1)))
+    across = np.sum(np.cross(start, end) * axis, axis=-1)
+    return np.asarray(np.arctan2(across, np.sum(start * end, axis=-1)))

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from earthspin.numerics.gauss_windows import Windows, rule
 from earthspin.secular.orbit import Pull
+from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -55,7 +56,7 @@ class Turn(NamedTuple):
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
-            x, y, z = np.tensordot(axes, vector, 1).reshape(3, *vector.shape[1:-1], *shape)
+            x, y, z = (dot(row, vector).reshape(*vector.shape[1:-1], *shape) for row in axes)
             return x + 1j * y, z
 
         constant = on.constant.reshape(*on.constant.shape[:-1], *shape)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.nutation.angles import followed, general_precession, on_fixed_ecliptic
+from earthspin.nutation.angles import followed, general_precession
 from earthspin.secular.angles import beside, seasons
 from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Orbit
@@ -200,11 +200,9 @@ def _followed_precession(
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
     """p_A and psi_A in any turn, rad, shape (2, ..., n)."""
-    shape = axis.shape
-    pole, ecliptic = (np.broadcast_to(v, shape).reshape(3, -1).T for v in (axis, normal))
-    psi, _ = on_fixed_ecliptic(pole, fixed).T
-    general = general_precession(pole @ fixed.T, ecliptic @ fixed.T)
-    return np.stack([general, psi]).reshape(2, *shape[1:])
+    pole, ecliptic = (np.stack([dot(row, of) for row in fixed], axis=-1) for of in (axis, normal))
+    psi = np.arctan2(pole[..., 0], pole[..., 1])
+    return np.stack([general_precession(pole, ecliptic), psi])
 
 
 def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:

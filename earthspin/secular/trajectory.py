@@ -22,6 +22,7 @@ from earthspin.secular.angles import beside
 from earthspin.secular.newton import TINY, Turn, moved, slope, step
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
+from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 
@@ -71,7 +72,8 @@ class Trajectory:
         """Unit vectors of the axis, shape (3, ..., n), at times in s."""
         phi, z = self.about(times)
         across = np.sqrt(1 - z * z)
-        return np.tensordot(self.axes.T, [across * np.cos(phi), across * np.sin(phi), z], 1)
+        own = np.array([across * np.cos(phi), across * np.sin(phi), z])
+        return np.stack([dot(column, own) for column in self.axes.T])
 
 
 def solve(
@@ -110,7 +112,7 @@ def solve(
         If it does not settle for all of many at once, or they need other reference axes.
     """
     axes = _axes(orbit, start, span) if near is None else near.axes
-    x, y, z = np.tensordot(axes, start, 1)
+    x, y, z = (dot(row, start) for row in axes)
     state = np.array([np.arctan2(y, x), z])
     way = _Way(strength, orbit, axes, order, near)
     past, future = (way.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
@@ -142,7 +144,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
     """Axes about the mean normal, or across it where the spin axis is too near to that."""
     times = np.linspace(min(span[0], 0.0), max(span[1], 0.0), 101)
     first, second, normal = reference_axes(np.mean(orbit.at(times)[0], axis=1))
-    near = np.abs(np.tensordot(normal, start, 1)) >= TOO_NEAR
+    near = np.abs(dot(normal, start)) >= TOO_NEAR
     if not near.any():
         return np.stack([first, second, normal])
     if not near.all():

@@ -223,17 +223,27 @@ def one_of(strength: Strength, member: int) -> Strength:
     return replace(strength, ellipticity=strength.ellipticity[member, 0], tides=tides)
 
 
-@pytest.mark.parametrize("members", [1, 2, 9])
-def test_a_member_has_the_same_bits_alone(members: int) -> None:
-    strength, span = different(members), (-300 * KYR, 150 * KYR)
-    starts = np.repeat(POLE[:, np.newaxis], members, axis=1)
-    together = solve(strength, EARTHS, starts, span)
-    again = solve(strength, EARTHS, starts, span, near=together)
-    for member in range(members):
-        alone = solve(one_of(strength, member), EARTHS, POLE, span)
+@pytest.mark.parametrize("obliquities", [(23.4,), (23.4, 23.4), (23.4, 60, 85, 91, 140, 168)])
+def test_a_member_has_the_same_bits_alone(obliquities: tuple[float, ...]) -> None:
+    """Each takes the steps that it takes alone, from four to six of them."""
+    strength, span = different(len(obliquities)), (-300 * KYR, 150 * KYR)
+    normal = EARTHS.at(np.zeros(1))[0][:, 0]
+    starts = [leaning(np.radians(degrees), normal) for degrees in obliquities]
+    together = solve(strength, EARTHS, np.stack(starts, axis=1), span)
+    again = solve(strength, EARTHS, np.stack(starts, axis=1), span, near=together)
+    steps = []
+    for member, start in enumerate(starts):
+        alone = solve(one_of(strength, member), EARTHS, start, span)
         assert np.array_equal(together.coefficients[:, member], alone.coefficients)
-        alone = solve(one_of(strength, member), EARTHS, POLE, span, near=alone)
+        steps.append(alone.steps)
+        alone = solve(one_of(strength, member), EARTHS, start, span, near=alone)
         assert np.array_equal(again.coefficients[:, member], alone.coefficients)
+    assert len(set(steps)) > 1 or len(starts) < 3, steps
+
+
+def test_a_million_years_take_five_steps() -> None:
+    """Each halves the digits that are missing: starts of windows that lag behind take more."""
+    assert solve(earths(), EARTHS, POLE, (-MYR, 0.0)).steps == 5
 
 
 def test_a_guess_saves_steps_and_moves_nothing() -> None:
