@@ -4,8 +4,10 @@ Run it with `python tests/benchmarks/long_term.py`. All follow the same equation
 which is loaded before the clock runs, and are held to the same reference. A method counts only
 within the error that is named, which is asserted; a time never is. DOP853 is given two forms: the
 equation as one writes it, which asks the table at every slope, and a lean one in plain floats with
-a polynomial for each window, in one go or anew from each corner of the table. Its local errors add
-up: within 0.05 arcsec at the end it needs tolerances of some 1e-11. Only the end is asked for.
+a polynomial for each window. In one go it steps over the corners of the table, and its error then
+falls and rises with the tolerance as luck has it; anew from each corner it falls with it. A form is
+within an error from the loosest tolerance on from which all tighter ones are. Only the end is
+asked for.
 """
 
 from __future__ import annotations
@@ -37,6 +39,8 @@ from earthspin.secular.trajectory import solve
 from earthspin.sky.orbit_table import shipped
 
 RUNS = 7
+#: Error that one axis is followed within, arcsec.
+ASKED = 0.05
 IMPORTS = "import numpy, scipy, xarray, skyfield.api, astropy.time"
 TABLE = shipped("earth")
 assert TABLE is not None
@@ -92,21 +96,25 @@ def main() -> None:
         path = solve(STRENGTH, TABLE, START, (-SPAN, 0.0), order)
         error = off(path.at(MOTION.times), true)
         print(f"Newton, {order} nodes: {error:.2g} arcsec everywhere, {ours[order] * 1e3:.2f} ms")
-        assert error < 0.05
+        assert error < ASKED
     lean = Lean(MOTION)
+    alone, _ = timed(lambda: smooth(lean, 1e-9))
     for words, slope, run, tolerances, runs in (
         ("as it stands", as_it_stands, smooth, (1e-9,), 1),
-        ("lean", lean, smooth, (1e-9, 1e-10, 1e-11), RUNS),
-        ("lean, from corner to corner", lean, dop853, (1e-9, 1e-10), RUNS),
+        ("lean, in one go", lean, smooth, (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12), RUNS),
+        ("lean, from corner to corner", lean, dop853, (1e-7, 3e-8, 1e-8, 3e-9, 1e-9), RUNS),
     ):
+        within = np.nan
         for rtol in tolerances:
             seconds, found = timed(lambda f=run, s=slope, r=rtol: f(s, r), runs)  # type: ignore[misc]
+            error = off(found, true[:, 0])
+            within = np.fmin(within, seconds) if error < ASKED else np.nan
             print(
-                f"DOP853, {words}, rtol {rtol:g}: {off(found, true[:, 0]):.2g} arcsec at the end, "
+                f"DOP853, {words}, rtol {rtol:g}: {error:.2g} arcsec at the end, "
                 f"{seconds * 1e3:.0f} ms; ratio {seconds / ours[12]:.0f} to 12 nodes"
             )
-            if words == "lean":
-                alone = seconds
+        if within == within:
+            print(f"DOP853, {words}, within {ASKED} arcsec: ratio {within / ours[12]:.0f}")
     times = np.array([-SPAN])
     for members in (1024, 4096):
         starts = np.repeat(START[:, np.newaxis], members, axis=1)
