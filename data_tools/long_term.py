@@ -60,7 +60,7 @@ def earths() -> Setting:
     means = averages.mean_torques(averages.window_means(samples, pulling))
     rates = averages.mean_rates(means, EARTH, pulling)
     table = orbits.orbit_table("own", EARTH)
-    numbers = question.numbers(rates, EARTH, pulling, 1.0, 1.0, None)
+    numbers = question.numbers(rates, EARTH, pulling, 1.0, 1.0, None, 0.0, 0.0)
     strength = question.strength(numbers, means, EARTH, table)
     return Setting(strength, table, EARTH.needed("pole").mean(np.zeros(1))[0])
 

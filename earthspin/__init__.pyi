@@ -213,6 +213,8 @@ def long_term(
     tides: Value | None = ...,
     ellipticity: Value | None = ...,
     j2_rate: Value | None = ...,
+    obliquity_shift: Value | None = ...,
+    longitude_shift: Value | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
 def rotation(

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 Factor = Annotated[float, Number("", "1.0", low=-10.0, high=10.0)]
+Shift = Annotated[float, Number("rad", "0.1 deg")]
 
 
 class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", "stop", "step")):
@@ -90,6 +91,13 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
         doc="relative rate of J2 at J2000.0, which fades from 2 to 10 kyr on; 0 is off, and if "
         "it is not given that of the body is taken",
     )
+    obliquity_shift: Shift = key(
+        "0 deg", doc="what is added to the obliquity at J2000.0: the axis starts from elsewhere"
+    )
+    longitude_shift: Shift = key(
+        "0 deg",
+        doc="by what the start is turned about the normal of the orbit, in the sense of the motion",
+    )
     accuracy: AngleError | None = key(None, doc="largest error of the direction of the pole")
 
     def check(self) -> None:
@@ -126,6 +134,8 @@ def numbers(
     tides: float,
     ellipticity: float,
     j2_rate: float | None,
+    obliquity_shift: float,
+    longitude_shift: float,
 ) -> SideBySide:
     """What may differ among members, laid against one another."""
     rate, error = mean_rates.total()
@@ -140,6 +150,8 @@ def numbers(
         tides=tides,
         ellipticity=ellipticity,
         j2_rate=_relative_j2_rate(body) if j2_rate is None else j2_rate,
+        obliquity_shift=obliquity_shift,
+        longitude_shift=longitude_shift,
     )
 
 
@@ -208,11 +220,8 @@ def solved(
 
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
-    start = np.asarray(body.needed("pole").mean(np.zeros(1))[0])
     (relative_error,) = numbers.columns("relative_error")
-    if numbers.dims:
-        start = np.stack([np.full(relative_error.shape[:-1], of) for of in start])
-    setting = budget.Setting(strength, orbit_table, start)
+    setting = budget.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
     causes = budget.changes(
         setting,
         constant=relative_error,
@@ -220,6 +229,18 @@ def solved(
         error=orbit_table.error,
     )
     return budget.solved(setting, span, causes)
+
+
+def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
+    """Unit vectors of the axis at J2000.0, shape (3, ...)."""
+    from earthspin.secular.angles import leaning
+
+    now = np.zeros(1)
+    pole = np.asarray(body.needed("pole").mean(now)[0])
+    more, turned = (np.asarray(numbers.numbers[f"{of}_shift"]) for of in ("obliquity", "longitude"))
+    leant = leaning(pole, orbit_table.at(now)[0][:, 0], more, turned)
+    as_it_is = np.multiply.outer(pole, np.ones(more.shape))
+    return np.where((more == 0) & (turned == 0), as_it_is, leant)
 
 
 @part
@@ -431,7 +452,10 @@ made_of(
         numbers, strength, solved, readings,
     ),
     without=("chosen_average",),
-    together=("body", "perturbers", "tides", "ellipticity", "j2_rate"),
+    together=(
+        *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
+        *("obliquity_shift", "longitude_shift"),
+    ),
     widest=256,
 )  # fmt: skip
 

@@ -17,7 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.secular.orbit import reference_axes
+
 FloatArray = NDArray[np.float64]
+Numeric = float | FloatArray
 
 
 class Seasons(NamedTuple):
@@ -69,6 +72,38 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
     equinox = equinox / np.sqrt(np.sum(equinox**2, axis=0))
     rows = np.stack([equinox, np.cross(axis, equinox, axis=0), axis])
     return np.moveaxis(rows, (0, 1), (-2, -1))
+
+
+def leaning(axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric) -> FloatArray:
+    """An axis leant further from the normal of an orbit, and turned about that.
+
+    Parameters
+    ----------
+    axis, normal : ndarray, shape (3,)
+        Unit vectors.
+    more : float or ndarray, shape (...)
+        What is added to the obliquity, rad; an axis that is leant past the normal leans to its
+        other side.
+    turned : float or ndarray, shape (...)
+        What is added to the longitude, in the sense of the motion, rad.
+
+    Returns
+    -------
+    ndarray, shape (3, ...)
+    """
+    more, turned = np.broadcast_arrays(more, turned)
+    first, _, n = reference_axes(normal)
+    equinox = np.cross(n, axis)
+    sine = float(np.linalg.norm(equinox))
+    towards = np.cross(equinox, n) / sine if sine > 0 else first
+    obliquity = np.arctan2(sine, axis @ n) + more
+    across = np.sin(obliquity)
+    outer = np.multiply.outer
+    return np.asarray(
+        outer(n, np.cos(obliquity))
+        + outer(towards, across * np.cos(turned))
+        + outer(np.cross(n, towards), across * np.sin(turned))
+    )
 
 
 def beside(axis: FloatArray, vector: FloatArray) -> FloatArray:

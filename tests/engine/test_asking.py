@@ -34,6 +34,8 @@ VALUES: dict[str, Any] = {
     "orbit": "own",
     "tides": 1.0,
     "ellipticity": 1.0,
+    "obliquity_shift": "1 deg",
+    "longitude_shift": "1 deg",
     "j2_rate": "0 1/s",
 }
 #: Every key at the head of a scene that some question has.

@@ -129,6 +129,8 @@ def test_side_by_side_is_one_by_one(word: str, field: str) -> None:
         ("long-term", "tides", 0.0, 1.2),
         ("long-term", "ellipticity", 0.99, 1.02),
         ("long-term", "j2_rate", -9e-16, 0.0),
+        ("long-term", "obliquity_shift", 0.0, 0.5),
+        ("long-term", "longitude_shift", -3.0, 3.0),
         ("long-term", "body.dynamical_flattening", 0.0032, 0.0034),
     ],
 )

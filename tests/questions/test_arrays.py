@@ -67,7 +67,7 @@ def test_a_number_of_the_body(word: str, field: str) -> None:
 @pytest.mark.parametrize("word", ["precession", "torque", "pole", "iau", "long-term"])
 def test_a_number_of_what_pulls_is_one(word: str, field: str) -> None:
     """Once they leaked numpy's words on the truth of arrays."""
-    if (word, field) == ("precession", "gm"):
+    if word in ("precession", "long-term") and field == "gm":
         return  # the mean torque is linear in it: tests/engine/test_ensemble.py
     value = getattr(SUN, field)
     sun = SUN.replace(**{field: many(7e8 if value is None else float(value))})
