@@ -31,7 +31,7 @@ from earthspin.errors import (
     nearest,
     no_plain_file,
 )
-from earthspin.sky.chebyshev import BLOCK, Table
+from earthspin.sky.chebyshev import BLOCK, Epochs, Table
 from earthspin.sky.kernel_checks import (
     AGAIN,
     ORBITS,
@@ -106,8 +106,8 @@ class Ephemeris:
         along: dict[Step, FloatArray] = {}
 
         def place(code: int, days: FloatArray) -> FloatArray:
-            steps = self._path_to_root(code)
-            along.update({step: self._along(step, days) for step in steps if step not in along})
+            steps, epochs = self._path_to_root(code), Epochs(days)
+            along.update({step: self._along(step, epochs) for step in steps if step not in along})
             total: FloatArray = np.sum([along[step] for step in steps], axis=0)
             return total.T
 
@@ -206,39 +206,39 @@ class Ephemeris:
         found = {label: np.empty((days.size, 3)) for label in targets}
         for first in range(0, days.size, BLOCK):
             block = slice(first, first + BLOCK)
-            steps: dict[Step, FloatArray] = {}
+            epochs, steps = Epochs(days[block]), dict[Step, FloatArray]()
             for label, place in targets.items():
-                found[label][block] = self._difference(place, centre, days[block], steps).T
+                found[label][block] = self._difference(place, centre, epochs, steps).T
         return found
 
     def _difference(
-        self, target: Place, centre: Place, days: FloatArray, steps: dict[Step, FloatArray]
+        self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
         """Position of target minus centre in metres, shape (3, n); common steps cancel."""
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
-        total = np.zeros((3, days.size))
+        total = np.zeros((3, epochs.days.size))
         for path, combine in ((outward, np.add), (homeward, np.subtract)):
             for step in path:
                 if step in outward and step in homeward:
                     continue
                 if step not in steps:
-                    steps[step] = self._evaluate(step, days)
+                    steps[step] = self._evaluate(step, epochs)
                 combine(total, steps[step], out=total)
         if not (np.all(total[0]) or np.all(np.any(total, axis=0))):
             where, seen_from = words(target), words(centre).removeprefix("NAIF ")
             raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
 
-    def _evaluate(self, step: Step, days: FloatArray) -> FloatArray:
+    def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
         """Position along one step, m, shape (3, n)."""
-        self.evaluations[step] += days.size
-        return self._along(step, days)
+        self.evaluations[step] += epochs.days.size
+        return self._along(step, epochs)
 
-    def _along(self, step: Step, days: FloatArray) -> FloatArray:
+    def _along(self, step: Step, epochs: Epochs) -> FloatArray:
         if not isinstance(step, tuple):
-            return checked(step.positions(days), step, days).T
+            return checked(step.positions(epochs.days), step, epochs.days).T
         with np.errstate(all="ignore"):  # what overflows is refused
-            position = self._tables[step].positions(days)
+            position = self._tables[step].at(epochs)
             position *= 1e3
             whole = np.isfinite(np.sum(position))  # what is not finite makes the sum so
         if not whole:

@@ -85,9 +85,9 @@ def test_a_time_has_the_same_bits_in_any_company(
 def test_each_way_of_laying_out_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
     """In order by rows; uneven or turned round by coefficients for each."""
     used: list[str] = []
-    rows = Table._in_order
+    rows = chebyshev._InOrder.sums
     monkeypatch.setattr(
-        Table, "_in_order", lambda *of: (used.append("rows"), rows(*of))[1], raising=True
+        chebyshev._InOrder, "sums", lambda *of: (used.append("rows"), rows(*of))[1], raising=True
     )
     tables = table(13)
     dense = np.arange(0.0, 100.0, 0.01)
