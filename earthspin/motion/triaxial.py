@@ -29,7 +29,9 @@ ComplexArray = NDArray[np.complex128]
 
 #: Nearer to the resonance of a flat body the series would not close.
 NEAREST_RESONANCE = 0.2
-_ROUNDS = 8  # each gains a factor of 25 for terms of a fortnight
+_ROUNDS = 8  # at most; each gains a factor of 25 for terms of a fortnight
+#: Terms below this change no digit of a unit vector, rad.
+_ROUNDING = 1e-16
 
 
 def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -41,8 +43,9 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
         Unit vectors, none along x.
     """
     x, y, z = figure
-    first = np.stack([1 - x * x, -x * y, -x * z]) / np.sqrt(y * y + z * z)
-    second = np.stack([np.zeros_like(x), z, -y]) / np.sqrt(y * y + z * z)
+    from_x = np.sqrt(y * y + z * z)
+    first = np.stack([1 - x * x, -x * y, -x * z]) / from_x
+    second = np.stack([np.zeros_like(x), z, -y]) / from_x
     return first, second
 
 
@@ -86,9 +89,8 @@ def semidiurnal_amplitudes(
     first, second = equatorial_basis(figure)
     q = _on_equator(apply(tensor, figure), first, second)
     torque = -1.5j * triaxiality / spin_rate * np.conj(q)
-    momentum = torque / (2j * spin_rate)
-    for _ in range(_ROUNDS):
-        momentum = (torque - windows.derivative(momentum)) / (2j * spin_rate)
+    half_turn = 2j * spin_rate
+    momentum = _series(windows, torque / half_turn, -1 / half_turn)
 
     turn = tau * spin_rate  # A/C
     away = 1 - 2 * turn  # from the free nutation, which a thin disc has at half a day
@@ -99,11 +101,20 @@ def semidiurnal_amplitudes(
             f"the body's triaxiality to 0"
         )
     uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, first, second))
-    axis = (momentum + uneven) / away
-    for _ in range(_ROUNDS):
-        axis = (momentum + uneven - 1j * tau * windows.derivative(axis)) / away
+    axis = _series(windows, (momentum + uneven) / away, -1j * tau / away)
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])
+
+
+def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexArray:
+    """Sum of terms, each the derivative of the last times a factor: x = first + factor x'."""
+    total = term = first
+    for _ in range(_ROUNDS):
+        term = factor * windows.derivative(term)
+        total = total + term
+        if np.max(np.abs(term.view(float))) < _ROUNDING:
+            break
+    return total
 
 
 def _on_equator(vector: FloatArray, first: FloatArray, second: FloatArray) -> ComplexArray:

@@ -98,8 +98,10 @@ class Windows:
 def _apply(values: Any, matrix: FloatArray) -> Any:
     """Values times a real matrix; complex ones in two parts, which costs half."""
     if np.iscomplexobj(values):
-        real, imaginary = (np.ascontiguousarray(part) for part in (values.real, values.imag))
-        return real @ matrix + 1j * (imaginary @ matrix)
+        found = np.empty((*values.shape[:-1], matrix.shape[1]), dtype=complex)
+        found.real = np.ascontiguousarray(values.real) @ matrix
+        found.imag = np.ascontiguousarray(values.imag) @ matrix
+        return found
     return values @ matrix
 
 

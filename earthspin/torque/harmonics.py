@@ -69,19 +69,14 @@ def zonal_law(
     """
     distance = np.sqrt(dot(position, position))
     direction = position / distance
-    pulls = [
-        (
-            gm / distance**3 * coefficient * (radius / distance) ** (degree - 2),
-            legendre.legder(np.eye(degree + 1)[degree]),
-        )
-        for degree, coefficient in coefficients.items()
-    ]
+    series = np.zeros((max(coefficients, default=1), *distance.shape))
+    for degree, coefficient in coefficients.items():
+        pull = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
+        slope = legendre.legder(np.eye(degree + 1)[degree])
+        series[:degree] += np.multiply.outer(slope, pull)
 
     def torque(axis: FloatArray) -> FloatArray:
-        u = dot(direction, axis)
-        size = np.zeros_like(u)
-        for pull, slope in pulls:
-            size += pull * legendre.legval(u, slope)
-        return size * cross(direction, axis)
+        size = legendre.legval(dot(direction, axis), series, tensor=False)
+        return np.asarray(size * cross(direction, axis))
 
     return torque

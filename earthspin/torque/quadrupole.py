@@ -35,12 +35,14 @@ def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
     """
     total: FloatArray | None = None
     for gm, position in pulls:
-        x, y, z = position
-        square = x * x + y * y + z * z
+        square = dot(position, position)
         scale = gm / (square * square * np.sqrt(square))
-        one = np.stack([x * x, y * y, z * z, x * y, x * z, y * z])
-        one *= scale
-        total = one if total is None else np.add(total, one, out=total)
+        x, y, z = position
+        sx, sy, sz = scale * x, scale * y, scale * z
+        if total is None:
+            total = np.zeros((6, *square.shape))
+        for row, a, b in zip(total, (sx, sy, sz, sx, sx, sy), (x, y, z, y, z, z), strict=True):
+            row += a * b
     if total is None:
         raise ValueError("a tide needs a mass")
     return total

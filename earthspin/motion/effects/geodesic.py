@@ -23,7 +23,7 @@ from earthspin.constants import SPEED_OF_LIGHT
 from earthspin.motion.effects.effect import Effect, Growth, Numbers
 from earthspin.motion.forces import Forces, Places, RateLaw, Torque
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import cross
+from earthspin.torque.quadrupole import cross, dot
 
 FloatArray = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def geodesic_rate(
     total = np.zeros_like(own)
     for name, mass in gm.items():
         place = position[name]
-        distance = np.sqrt(np.sum(place * place, axis=0))
+        distance = np.sqrt(dot(place, place))
         scale = mass / (SPEED_OF_LIGHT.value**2 * distance**3)
         its_own = velocity[name] + own
         total += scale * cross(2 * its_own - 1.5 * own, -place)
