@@ -6,9 +6,10 @@ momentum l in units of C Omega,
     l = F + \tau F x F',     \tau = A/(C Omega)
 
 is exact. Free motion turns F about l once in C/A ... a day (I.6); what torques alone do
-is slow. Solved for F by iteration, F = l - tau F x F', the equation gives the one motion
-that has no free part. Each round adds a term of a series in (turns of the axis' motion per turn
-of the body): it is asymptotic, and for a body that spins too slowly its terms soon grow.
+is slow. Solved by iteration for the tilt, l - F = tau F x (l' - (l - F)'), the equation gives the
+one motion that has no free part. Each round adds a term, -tau F x (the last term)', of a series in
+(turns of the axis' motion per turn of the body): it is asymptotic, and for a body that spins too
+slowly its terms soon grow.
 """
 
 from __future__ import annotations
@@ -49,16 +50,17 @@ def tilt_of_figure(
     tilt : ndarray, shape (3, w, n)
         rad.
     sizes : list of float
-        Largest change in each round, rad. The series is cut before they begin to grow.
+        Largest of each term, rad. The series is cut before they begin to grow.
     """
-    tilt = tau * cross(figure, rate)
+    scaled = tau * figure
+    tilt = term = cross(scaled, rate)
     sizes = [float(np.max(np.abs(tilt)))]
     for _ in range(rounds):
-        next_tilt = tau * cross(figure, rate - windows.derivative(tilt))
-        size = float(np.max(np.abs(next_tilt - tilt)))
+        term = cross(windows.derivative(term), scaled)
+        size = float(np.max(np.abs(term)))
         if size > 0.7 * sizes[-1]:
             break
-        tilt = next_tilt
+        tilt += term
         sizes.append(size)
         if size < _ROUNDING:
             break

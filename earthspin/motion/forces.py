@@ -118,11 +118,16 @@ class Forces:
         zonals = self._zonal_laws(place) if figure.zonal else []
         added = [torque(self, windows, place) for torque in self.torques]
 
-        def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
-            seen = axis if mean is None else mean
-            total = quadrupole_torque(scaled, seen)
+        def on_figure(axis: FloatArray) -> FloatArray:
+            total = quadrupole_torque(scaled, axis)
             for zonal in zonals:
-                total += zonal(seen)
+                total += zonal(axis)
+            return total
+
+        known = None if mean is None else on_figure(mean)
+
+        def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
+            total = on_figure(axis) if known is None else known.copy()
             for of in added:
                 total += of(axis, momentum)
             return total
