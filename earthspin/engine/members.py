@@ -401,13 +401,22 @@ def draw(
         return {}
     names = list(inputs)
     normal = standard_normal(members.seed, which, len(names))
-    normal = normal @ _root(members, names, where).T if members.correlations else normal
+    if members.correlations:
+        normal = _mixed(normal, _root(members, names, where))
     place, found = which.astype(int), {}
     for column, name in enumerate(names):
         shape, size = inputs[name].shape, len(inputs[name].numbers)
         found[name] = drawn(shape, numbers[name], normal[:, column], place % size)
         if shape == "grid":
             place = place // size
+    return found
+
+
+def _mixed(normal: FloatArray, root: FloatArray) -> FloatArray:
+    """Each row times the root, summed number by number: a BLAS rounds a row alone otherwise."""
+    found = np.zeros_like(normal)
+    for column, weights in zip(normal.T, root.T, strict=True):
+        found += np.multiply.outer(column, weights)
     return found
 
 

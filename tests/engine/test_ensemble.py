@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ import earthspin
 from earthspin import EARTH, MOON, SUN, EarthspinError, SceneError
 from earthspin.engine.ensemble import ROW, Ensemble
 from earthspin.engine.inputs import inputs_of
-from earthspin.engine.members import standard_normal
+from earthspin.engine.members import Distribution, Members, draw, standard_normal
+from earthspin.errors import Where
 from earthspin.scenes import QUESTIONS, Scene, load_scene
 from tests.engine.work import bytes_of
 
@@ -288,6 +290,22 @@ def test_correlations() -> None:
     found = draws(4000, inputs, correlations=pair)
     assert np.corrcoef(*found.values())[0, 1] == pytest.approx(-0.8, abs=0.02)
     assert np.array_equal(draws(4000, inputs)["body.j2"], found["body.j2"])
+
+
+def test_correlated_numbers_of_a_member_are_the_same_alone() -> None:
+    """To the bit: a product of matrices would round a single row otherwise."""
+    names, here = (
+        ("body.j2", "body.dynamical_flattening", "body.gm", "body.radius"),
+        Where("members"),
+    )
+    pairs = tuple((a, b, 0.4) for a, b in pairwise(names))
+    members = Members(n=50, correlations=pairs)
+    normal = dict.fromkeys(names, Distribution("normal", (1.0, 1.0)))
+    numbers = dict.fromkeys(names, (1.0, 1.0))
+    together = draw(members, normal, numbers, np.arange(50), here)
+    for number in range(50):
+        alone = draw(members, normal, numbers, np.array([number]), here)
+        assert all(alone[name][0] == together[name][number] for name in names)
 
 
 def test_published_uncertainties_are_the_bodies_own() -> None:
