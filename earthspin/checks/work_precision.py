@@ -53,6 +53,7 @@ QUANTITIES: dict[str, str] = {
     "excitation": "of_excitation",
     "chandler": "of_chandler",
     "compliances": "of_compliances",
+    "ensemble": "of_ensemble",
 }
 
 #: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
@@ -321,7 +322,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     quantity : str
         ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"elements"``,
         ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
-        ``"excitation"``, ``"chandler"`` or ``"compliances"``.
+        ``"excitation"``, ``"chandler"``, ``"compliances"`` or ``"ensemble"``.
     quick : bool
         A short problem with few settings, in a second or two.
 

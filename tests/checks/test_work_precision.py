@@ -19,6 +19,7 @@ from earthspin.checks.ladders import (
     model_sky,
     of_chandler,
     of_compliances,
+    of_ensemble,
     of_excitation,
     of_pole,
     of_spheroid,
@@ -490,6 +491,14 @@ def test_exact_pair_on_steps_alone_is_exact(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_best_scatter_is_the_bound_of_the_docs() -> None:
     assert of_chandler.best_scatter(65.0) == pytest.approx(1.65, abs=0.005)
+
+
+def test_drawn_half_widths_scatter_as_expected() -> None:
+    """400 draws of numpy's own: 0.0351 measured at 1000 members, of 0.0348."""
+    drawn = np.random.default_rng(5).normal(1.0, of_ensemble.UNCERTAINTY, (400, 1000))
+    low, high = np.quantile(1 / drawn, of_ensemble.ENDS, axis=1)
+    scatter = np.sqrt(np.mean(((high - low) / 2 / of_ensemble.HALF_WIDTH - 1) ** 2))
+    assert scatter == pytest.approx(of_ensemble.expected_scatter(1000), rel=0.1, abs=0)
 
 
 def test_arctangents_lose_their_digits_with_distance() -> None:

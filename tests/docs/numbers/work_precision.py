@@ -10,10 +10,12 @@ from typing import NamedTuple
 
 import mpmath as mp
 import numpy as np
+from scipy.special import ndtri
 
 from earthspin.bodies import MOON
 from earthspin.checks.ladders import (
     model_sky,
+    of_ensemble,
     of_free_rotor,
     of_spheroid,
     of_top,
@@ -126,6 +128,16 @@ def period_of_the_slow_term() -> float:
     return float(abs(2 * np.pi / rate) / JULIAN_YEAR)
 
 
+def not_linear(uncertainty: float = of_ensemble.UNCERTAINTY) -> float:
+    """What the linear half-width of 1/H lacks, relative."""
+    return (float(ndtri(of_ensemble.ENDS[1])) * uncertainty) ** 2
+
+
+def members_for(error: float) -> float:
+    """How many drawn members have a half-width as good as that."""
+    return (of_ensemble.expected_scatter(1) / error) ** 2
+
+
 def last_place_of_the_top() -> float:
     """What a unit in the last place of each input does to the top's attitude, rad."""
     with mp.workdps(DIGITS):
@@ -220,6 +232,18 @@ MEASURED = [
         "for no method can it be smaller than\n$T\\sqrt{T/4\\pi QL}$, {} days for {} years",
         lambda: [433 * math.sqrt(433 / (4 * math.pi * 100 * 65 * 365.25)), 65],
     ),
+    Sentence(PAGE, "what is not linear, {} % here", lambda: 100 * not_linear()),
+    Sentence(PAGE, "known to a thousandth would leave ${}$", lambda: not_linear(1e-3)),
+    Sentence(
+        PAGE,
+        "{} are known to {} %, and to\ndo as well as the linear error takes {} of them",
+        lambda: [1000, 100 * of_ensemble.expected_scatter(1000), members_for(not_linear())],
+    ),
+    Sentence(
+        PAGE,
+        "are off by ${}/n$ instead",
+        lambda: 1000 * row("ensemble", "members spread evenly", "1,000 members").error,
+    ),
     Sentence(
         PAGE,
         "at Gauss's nodes leaves ${}$, which is not its own",
@@ -238,6 +262,7 @@ MEASURED = [
 #: Measured once, where the ladder was made.
 IN_LADDERS = "earthspin/checks/ladders: what steps or points in between change"
 TOLD: list[Told | Column | Part] = [
+    Told(PAGE, "so that the ends of its central {} % are those of $H$", "given: what is meant"),
     Told(PAGE, "points finds it to\n${}$ without a window", IN_LADDERS),
     Told(PAGE, "Steps of six hours change it by ${}$ rad", IN_LADDERS),
     Told(PAGE, "halving those changes it by ${}$ rad", IN_LADDERS),

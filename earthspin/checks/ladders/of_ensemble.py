@@ -1,0 +1,135 @@
+"""What an uncertain H makes of the period of precession: members, drawn or spread; linear errors.
+
+The period is as 1/H, so that the ends of its central 95 % are those of H, turned over.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from earthspin.bodies import EARTH
+from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.many import ensemble, quantiles
+from earthspin.scenes import QUESTIONS, run
+
+FloatArray = NDArray[np.float64]
+#: Half-widths over the period, and how many members they took.
+Found = tuple[FloatArray, int]
+
+H = EARTH.number("dynamical_flattening")
+#: Relative standard uncertainty of H: so large that the period is not linear in it.
+UNCERTAINTY = 0.1
+NAME, TOTAL = "body.dynamical_flattening", {"perturber": "total"}
+#: Ends of the central 95 %.
+ENDS = (0.025, 0.975)
+#: By how much H is off at an end, relative; what the period is then off by, half of both ends.
+OFF = float(ndtri(ENDS[1])) * UNCERTAINTY
+HALF_WIDTH = OFF / (1 - OFF * OFF)
+MEMBERS, QUICK_MEMBERS = (100, 1000, 10_000), (100, 1000)
+#: Seeds that the rms error of drawn members is taken over.
+SEEDS, FEW_SEEDS = 32, 4
+#: How far beyond what is expected of so many draws a rms over seeds may be, and over a few.
+EXCESS, QUICK_EXCESS = 1.5, 2.0
+
+
+def ladder(quick: bool) -> Ladder:
+    """Make the ladder."""
+    seeds = FEW_SEEDS if quick else SEEDS
+    return Ladder(
+        quantity="ensemble",
+        unit="1",
+        problem="half-width of the central 95 % of the period of precession, if H has a relative "
+        f"standard uncertainty of {100 * UNCERTAINTY:g} %; the error is relative, with drawn "
+        f"members the rms over {seeds} seeds, known to {100 / math.sqrt(2 * seeds):.0f} per cent",
+        subject="the half-width of a number from an uncertain H",
+        reference="the closed form: the period is as 1/H, so that its quantiles follow from those "
+        "of the normal distribution",
+        reference_error=1e-15,
+        methods=_methods(quick, seeds),
+        error=lambda found: float(np.sqrt(np.mean((found / HALF_WIDTH - 1) ** 2))),
+        useful=0.3,
+    )
+
+
+def expected_scatter(members: int) -> float:
+    """Relative scatter of a sampled half-width by the density of the period at its ends.
+
+    A quantile of n draws scatters by sqrt(p (1 - p)/n) over the density there, and both ends are
+    correlated by p/(1 - p) (David & Nagaraja 2003, Order Statistics, sect. 10.2, recalled).
+    """
+    p, at = ENDS[0], OFF / UNCERTAINTY
+    density = math.exp(-at * at / 2) / math.sqrt(2 * math.pi)
+    of_h = math.sqrt(p * (1 - p) / members) * UNCERTAINTY / density
+    low, high = of_h / (1 + OFF) ** 2, of_h / (1 - OFF) ** 2
+    both = math.sqrt(low * low + high * high - 2 * low * high * p / (1 - p)) / 2
+    return both / HALF_WIDTH
+
+
+def _methods(quick: bool, seeds: int) -> list[Method]:
+    members = QUICK_MEMBERS if quick else MEMBERS
+    excess = QUICK_EXCESS if quick else EXCESS
+    spread = [Setting(f"{n:,} members", partial(_spread, n)) for n in members]
+    return [
+        Method(
+            "members drawn",
+            True,
+            [_over_seeds(n, _drawn, seeds) for n in members],
+            bound=excess * expected_scatter(members[-1]),
+        ),
+        Method("members spread evenly", True, spread, bound=5 / members[-1]),
+        Method("linear errors", True, [Setting("", _linear)], bound=1.1 * OFF * OFF),
+        Method("numpy, as 1/H", False, [_over_seeds(n, _by_hand, seeds) for n in members]),
+    ]
+
+
+def _over_seeds(members: int, of: Callable[[int, int], Found], seeds: int) -> Setting:
+    return Setting(
+        f"{members:,} members",
+        lambda: of(members, 0),
+        judged=lambda: np.concatenate([of(members, seed)[0] for seed in range(seeds)]),
+    )
+
+
+def _drawn(members: int, seed: int) -> Found:
+    normal = {"normal": [H, UNCERTAINTY * H]}
+    return _half_width({"n": members, NAME: normal}, seed), members
+
+
+def _spread(members: int) -> Found:
+    """Each member in the middle of its share of the distribution."""
+    grid = H * (1 + UNCERTAINTY * ndtri((np.arange(members) + 0.5) / members))
+    return _half_width({NAME: {"grid": grid.tolist()}}), members
+
+
+def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
+    """From quantiles of an ensemble, over the period of the Earth as it is."""
+    answer = ensemble("precession", members, seed=seed)
+    low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
+    return np.atleast_1d((high - low) / 2 / _period())
+
+
+def _linear() -> Found:
+    uncertain = EARTH.replace(relative_uncertainty={NAME.split(".")[1]: UNCERTAINTY})
+    answer = run(QUESTIONS["precession"](body=uncertain)).sel(TOTAL)
+    width = answer.precession_period_error / answer.precession_period
+    return np.atleast_1d(width.values), 1
+
+
+def _by_hand(members: int, seed: int) -> Found:
+    """One answer, and draws of 1/H over its own."""
+    period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
+    drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)
+    low, high = np.quantile(period / drawn, ENDS)
+    return np.atleast_1d((high - low) / 2 / period), members
+
+
+@cache
+def _period() -> float:
+    return float(run(QUESTIONS["precession"]()).precession_period.sel(TOTAL))
