@@ -217,7 +217,8 @@ class Ensemble:
         first, last = self.layout.bounds(number)
         one_by_one = (self._single(place) for place in range(first, last))
         pieces = [*one_by_one] if self.width == 1 else [*self._side_by_side(first, last)]
-        return _laid(pieces).assign_coords(self._labels(slice(first, last)))
+        laid = _laid(pieces)
+        return laid.assign_coords(self._labels(slice(first, last), laid))
 
     def _side_by_side(self, first: int, last: int) -> Iterator[xr.Dataset]:
         """Members in whole rows, and of these the ones that are wanted."""
@@ -249,8 +250,8 @@ class Ensemble:
             error.args = (f"member {which}: {error}",)
             raise
 
-    def _labels(self, which: slice) -> dict[str, Any]:
-        """Numbers of members, and their inputs."""
+    def _labels(self, which: slice, laid: xr.Dataset) -> dict[str, Any]:
+        """Numbers of members, and their inputs; of what moves, as theta, the one that is given."""
         labels: dict[str, Any] = {
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
@@ -258,7 +259,8 @@ class Ensemble:
             values = self.values[name][which]
             dims = (MEMBER, *(f"{one.label}_{k}" for k in range(values.ndim - 1)))
             attrs = {"long_name": f"{name} of the member", "units": one.unit or "1", "input": name}
-            labels[one.label] = (dims, values, attrs)
+            label = f"{one.label}_given" if one.label in laid.variables else one.label
+            labels[label] = (dims, values, attrs)
         return labels
 
 
