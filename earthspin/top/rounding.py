@@ -74,10 +74,12 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
     turned = 2 * np.abs(one.attitude - sign * other.attitude)
+    # an axis that stands or hangs has no azimuth: how both angles share the turn is a convention
+    tilted = (other.theta != 0) & (other.theta != np.pi)
     ratios = (
         _relative(one.theta - other.theta, np.abs(other.theta)),
-        _relative(one.phi - other.phi, _largest(other.phi)),
-        _relative(one.psi - other.psi, _largest(other.psi)),
+        _relative(tilted * (one.phi - other.phi), _largest(other.phi)),
+        _relative(tilted * (one.psi - other.psi), _largest(other.psi)),
         _relative(across - reference, _largest(reference)),
         turned.max(axis=(-2, -1)),
     )
@@ -90,5 +92,7 @@ def _largest(values: Numbers) -> FloatArray:
 
 
 def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
-    """Largest ratio over the times; nothing over nothing is nothing."""
-    return np.asarray(np.max(np.abs(difference) / np.maximum(size, np.finfo(float).tiny), axis=-1))
+    """Largest ratio over the times; over nothing there is none."""
+    ratio = np.zeros(difference.shape)
+    np.divide(np.abs(difference), size, out=ratio, where=size > 0)
+    return np.asarray(np.max(ratio, axis=-1))
