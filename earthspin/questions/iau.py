@@ -200,14 +200,20 @@ def budget(rates_by_effect: Budget) -> xr.Dataset:
             "closure": of.closure,
             "omega_closure": of.omega_closure,
             "omega_closure_with_tides": of.omega_closure_with_tides,
-            "closure_over_flattening": of.closure / of.psi_from_h,
-            "closure_over_uncertainty": of.closure
-            / math.hypot(of.psi_from_h, of.psi_analysis_error),
+            "closure_over_flattening": _over(of.closure, of.psi_from_h),
+            "closure_over_uncertainty": _over(
+                of.closure, math.hypot(of.psi_from_h, of.psi_analysis_error)
+            ),
             "psi_rate_analysis_error": of.psi_analysis_error,
             "omega_rate_analysis_error": of.omega_analysis_error,
         },
         coords={"effect": list(of.psi)},
     )
+
+
+def _over(closure: float, uncertainty: float) -> float:
+    """Ratio; infinite where no uncertainty is known, as of an H of one's own."""
+    return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
 
 # --- sections ------------------------------------------------------------------------------------
