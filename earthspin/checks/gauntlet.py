@@ -29,6 +29,7 @@ PARTS = (
     "nutation",
     "sky",
     "scene",
+    "many",
     "units",
     "storage",
 )

@@ -1,0 +1,220 @@
+"""Stiff and extreme cases of many: members side by side, how they are drawn, what they tell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import ndtri
+
+from earthspin.bodies import EARTH
+from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
+from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.members import MEMBER
+from earthspin.engine.question import Question
+from earthspin.many import ensemble, quantiles, sensitivity
+from earthspin.numerics import sampling
+from earthspin.questions.free_rotor import free_rotor
+from earthspin.questions.precession import precession
+from earthspin.questions.spheroid import spheroid_field
+from earthspin.questions.top import heavy_top
+from earthspin.scenes import QUESTIONS
+
+CASES = Cases("many")
+
+FloatArray = NDArray[np.float64]
+
+H, J2 = "body.dynamical_flattening", "body.j2"
+#: A moment about each axis, and angular velocities.
+ROTOR = tuple(f"{key}.{axis}" for key in ("moments", "omega") for axis in range(3))
+TIMES = (0.0, 7.0, 90.0)
+
+
+def _beside(
+    question: Question, names: Sequence[str], rows: ArrayLike, alone: Callable[..., xr.Dataset]
+) -> Iterator[ArrayLike]:
+    """Where numbers of members side by side are not those of each asked for alone."""
+    values = np.array(rows, dtype=float).reshape(-1, len(names))
+    given = xr.Dataset({name: (MEMBER, of) for name, of in zip(names, values.T, strict=True)})
+    yield Ensemble(question.replace(members=given)).width == 1  # not one by one
+    many = ensemble(question, given)
+    for place, row in enumerate(values.tolist()):
+        for name, of in alone(*row).data_vars.items():
+            found = many[name]
+            found = found.isel({MEMBER: place}) if MEMBER in found.dims else found
+            yield found.values != of.values
+
+
+def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
+    question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
+    return _beside(question, ROTOR, rows, lambda *of: free_rotor(of[:3], of[3:], TIMES))
+
+
+@CASES.case("rotors twenty orders of magnitude apart, side by side")
+@hard_because("what scales one to the numbers of another leaves it no digit")
+@held_against("each rotor alone, bit for bit", bound=0.0)
+def _scales() -> Distances:
+    yield from _rotors(
+        [[s, 2 * s, 2.8 * s, w, 0.3 * w, w] for s, w in ((1e-10, 1e-3), (1.0, 1.0), (1e10, 1e-9))]
+    )
+
+
+@CASES.case("a sphere and a separatrix beside other rotors")
+@hard_because("the one has no polhode, the other's has no period: arrays know no exceptions")
+@held_against("each rotor alone, bit for bit", bound=0.0)
+def _degenerate_rotors() -> Distances:
+    yield from _rotors(
+        [
+            [1.0, 2.0, 2.8, 0.01, 1.0, 0.0],
+            [2.0, 2.0, 2.0, 0.3, 0.4, 0.5],
+            [3.0, 4.0, 6.0, 2.0, 0.0, 1.0],
+            [1.0, 2.0, 2.5, 0.0, 1.0, 0.0],
+            [1.0, 1.0, 2.0, 0.0, 1e-9, 1.0],
+        ]
+    )
+
+
+@CASES.case("tops that stand, hang and sleep beside one that loops")
+@hard_because("upright and upside down there is no azimuth, and a sleeping top has no nutation")
+@held_against("each top alone, bit for bit", bound=0.0)
+def _tops() -> Distances:
+    top = {"transverse_moment": 1.0, "axial_moment": 1.2, "weight_moment": 1.5}
+    question = QUESTIONS["top"](times=TIMES, theta=0.7, spin=3.0, **top)
+    rows = [[0.7, 3.0], [0.0, 50.0], [0.0, 1.0], [np.pi, 3.0], [1e-9, 2.041], [1.0, 0.0]]
+    yield from _beside(
+        question, ("theta", "spin"), rows, lambda t, s: heavy_top(TIMES, **top, theta=t, spin=s)
+    )
+
+
+@CASES.case("a ball, a disc and a needle beside the Earth")
+@hard_because("each has a closed form of its own, and a series where that loses its digits")
+@held_against("the field of each alone, bit for bit", bound=0.0)
+def _spheroids() -> Distances:
+    place = [[7e6, 1e5, 2e6], [1e9, 1e9, 1e3]]
+    question = QUESTIONS["spheroid"](position=place)
+
+    def alone(flattening: float) -> xr.Dataset:
+        return spheroid_field(place, body=EARTH.replace(flattening=flattening))
+
+    rows = [0.0, 1e-15, 1e-7, float(EARTH.flattening or 0.0), 0.999999, -0.05]
+    yield from _beside(question, ("body.flattening",), rows, alone)
+
+
+@CASES.case("a thin disc and almost a ball beside the Earth, precessing")
+@hard_because("their rates are eleven orders of magnitude apart, in one product")
+@held_against("the precession of each alone, bit for bit", bound=0.0)
+def _discs() -> Distances:
+    rows = [[5e-12, 1e-12], [EARTH.number("dynamical_flattening"), EARTH.number("j2")], [0.5, 0.2]]
+    yield from _beside(
+        QUESTIONS["precession"](),
+        (H, J2),
+        rows,
+        lambda h, j2: precession(body=EARTH.replace(dynamical_flattening=h, j2=j2)),
+    )
+
+
+# --- drawn ---------------------------------------------------------------------------------------
+
+
+def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
+    """Two standard normal numbers of each member."""
+    normal = {"normal": [0.0, 1.0]}
+    question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
+    members = {"n": n, "omega.0": normal, "omega.1": normal, **settings}
+    return Ensemble(question.replace(members=members)).values
+
+
+@CASES.case("the last of ten million members, alone")
+@hard_because("each has a generator of its own: those before it must not be needed")
+@held_against("numbers of a generator of its own, Philox by seed and member", bound=0.0)
+def _last() -> Distances:
+    number = 10**7 - 1
+    sequence = np.random.SeedSequence(5, spawn_key=(number,))
+    own = np.random.Generator(np.random.Philox(sequence)).standard_normal(2)
+    found = _drawn(10**7, seed=5, only=[number])
+    yield [found[f"omega.{axis}"][0] - own[axis] for axis in range(2)]
+
+
+@CASES.case("inputs correlated by 0.999999")
+@hard_because("1 - r2 loses six digits, and the second input is nearly the first")
+@held_against("r x + sqrt((1 - r) (1 + r)) y of two independent numbers", bound=2e-13)
+def _correlated() -> Distances:
+    r = 0.999999
+    first, second = "omega.0", "omega.1"
+    x, y = _drawn(200).values()
+    found = _drawn(200, correlations=[[first, second, r]])
+    yield found[first] - x
+    yield found[second] - (r * x + np.sqrt((1 - r) * (1 + r)) * y)
+
+
+@CASES.case("correlations that no three numbers have")
+@hard_because("each pair is possible, and a root of the matrix is not")
+@refused("the matrix is not positive")
+def _not_positive() -> None:
+    names = [f"omega.{axis}" for axis in range(3)]
+    pairs = [[names[a], names[b], -0.6] for a, b in ((0, 1), (1, 2), (2, 0))]
+    _drawn(3, **{names[2]: {"normal": [0.0, 1.0]}}, correlations=pairs)
+
+
+@CASES.case("thirty thousand decades of torques held at once")
+@hard_because("each alone fits, and so do all numbers that are drawn")
+@refused("write them to a store")
+def _too_many() -> None:
+    decade = QUESTIONS["torque"](span=("2000-01-01", "2010-01-01"), step="1 d")
+    ensemble(decade, {"n": 30_000, J2: {"uniform": [1.082e-3, 1.083e-3]}})
+
+
+# --- told ----------------------------------------------------------------------------------------
+
+
+@CASES.case("an ensemble of one member")
+@hard_because("it has no spread, no neighbour, and no row of its own length")
+@held_against("the answer to its own numbers, and that as each quantile, bit for bit", bound=0.0)
+def _one() -> Distances:
+    h = 1.5 * EARTH.number("dynamical_flattening")
+    alone = precession(body=EARTH.replace(dynamical_flattening=h)).precession_period
+    told = quantiles(ensemble("precession", {H: {"grid": [h]}}), (0.0, 0.3, 1.0))
+    yield told.precession_period.values != alone.values
+
+
+@CASES.case("slopes from one member")
+@hard_because("any line goes through one point")
+@refused("take at least 3 members")
+def _one_slope() -> None:
+    sensitivity(ensemble("precession", {H: {"grid": [EARTH.number("dynamical_flattening")]}}))
+
+
+@CASES.case("inputs whose spread is below their last bit")
+@hard_because("shares of no variance are zero over zero")
+@held_against("no slope, no share and nothing unexplained", bound=0.0)
+def _no_spread() -> Distances:
+    normal = {"normal": [EARTH.number("dynamical_flattening"), 1e-30]}
+    told = sensitivity(ensemble("precession", {"n": 9, H: normal}))
+    yield from (of.values for of in told.data_vars.values())
+
+
+@CASES.case("a sum of inputs twenty-four orders of magnitude apart")
+@hard_because("a fit in their own units would leave the small ones out")
+@held_against("the coefficient of each, relative, and shares that add up to 1", bound=2e-14)
+def _additive() -> Distances:
+    spread = np.array([1e-12, 1e-3, 1.0, 1e12])
+    inputs = spread * (3 + np.random.default_rng(1).standard_normal((300, 4)))
+    weights = np.array([1.0, -2.0, 0.5, 3.0]) / spread
+    told = sampling.shares_of_variance(inputs, inputs @ weights)
+    yield told.slope / weights - 1
+    yield told.share.sum() - 1
+    yield told.unexplained
+
+
+@CASES.case("quantiles of the normal distribution, its infinite ends among the samples")
+@hard_because("between a number and infinity there is no straight line")
+@held_against("the samples that stand there", bound=0.0)
+def _quantiles() -> Distances:
+    shares = np.arange(1001) / 1000
+    samples = ndtri(shares)
+    found = sampling.quantiles(samples[::-1], shares)
+    yield apart(found[1:-1], samples[1:-1])
+    yield found[[0, -1]] != samples[[0, -1]]
