@@ -10,8 +10,8 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtri
 
-from earthspin.bodies import EARTH
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
+from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import Question
@@ -27,7 +27,7 @@ CASES = Cases("many")
 
 FloatArray = NDArray[np.float64]
 
-H, J2 = "body.dynamical_flattening", "body.j2"
+H_OF_BODY, J2_OF_BODY = "body.dynamical_flattening", "body.j2"
 #: A moment about each axis, and angular velocities.
 ROTOR = tuple(f"{key}.{axis}" for key in ("moments", "omega") for axis in range(3))
 TIMES = (0.0, 7.0, 90.0)
@@ -89,7 +89,7 @@ def _tops() -> Distances:
     )
 
 
-@CASES.case("a ball, a disc and a needle beside the Earth")
+@CASES.case("a ball, a disc and a needle, side by side")
 @hard_because("each has a closed form of its own, and a series where that loses its digits")
 @held_against("the field of each alone, bit for bit", bound=0.0)
 def _spheroids() -> Distances:
@@ -97,22 +97,22 @@ def _spheroids() -> Distances:
     question = QUESTIONS["spheroid"](position=place)
 
     def alone(flattening: float) -> xr.Dataset:
-        return spheroid_field(place, body=EARTH.replace(flattening=flattening))
+        return spheroid_field(place, body=BODY.replace(flattening=flattening))
 
-    rows = [0.0, 1e-15, 1e-7, float(EARTH.flattening or 0.0), 0.999999, -0.05]
+    rows = [0.0, 1e-15, 1e-7, float(BODY.flattening or 0.0), 0.999999, -0.05]
     yield from _beside(question, ("body.flattening",), rows, alone)
 
 
-@CASES.case("a thin disc and almost a ball beside the Earth, precessing")
+@CASES.case("a thin disc and almost a ball, precessing side by side")
 @hard_because("their rates are eleven orders of magnitude apart, in one product")
 @held_against("the precession of each alone, bit for bit", bound=0.0)
 def _discs() -> Distances:
-    rows = [[5e-12, 1e-12], [EARTH.number("dynamical_flattening"), EARTH.number("j2")], [0.5, 0.2]]
+    rows = [[5e-12, 1e-12], [H, J2], [0.5, 0.2]]
     yield from _beside(
         QUESTIONS["precession"](),
-        (H, J2),
+        (H_OF_BODY, J2_OF_BODY),
         rows,
-        lambda h, j2: precession(body=EARTH.replace(dynamical_flattening=h, j2=j2)),
+        lambda h, j2: precession(body=BODY.replace(dynamical_flattening=h, j2=j2)),
     )
 
 
@@ -164,7 +164,7 @@ def _not_positive() -> None:
 @refused("write them to a store")
 def _too_many() -> None:
     decade = QUESTIONS["torque"](span=("2000-01-01", "2010-01-01"), step="1 d")
-    ensemble(decade, {"n": 30_000, J2: {"uniform": [1.082e-3, 1.083e-3]}})
+    ensemble(decade, {"n": 30_000, J2_OF_BODY: {"uniform": [1.082e-3, 1.083e-3]}})
 
 
 # --- told ----------------------------------------------------------------------------------------
@@ -174,9 +174,9 @@ def _too_many() -> None:
 @hard_because("it has no spread, no neighbour, and no row of its own length")
 @held_against("the answer to its own numbers, and that as each quantile, bit for bit", bound=0.0)
 def _one() -> Distances:
-    h = 1.5 * EARTH.number("dynamical_flattening")
-    alone = precession(body=EARTH.replace(dynamical_flattening=h)).precession_period
-    told = quantiles(ensemble("precession", {H: {"grid": [h]}}), (0.0, 0.3, 1.0))
+    h = 1.5 * H
+    alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
+    told = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
     yield told.precession_period.values != alone.values
 
 
@@ -184,15 +184,15 @@ def _one() -> Distances:
 @hard_because("any line goes through one point")
 @refused("take at least 3 members")
 def _one_slope() -> None:
-    sensitivity(ensemble("precession", {H: {"grid": [EARTH.number("dynamical_flattening")]}}))
+    sensitivity(ensemble("precession", {H_OF_BODY: {"grid": [H]}}))
 
 
 @CASES.case("inputs whose spread is below their last bit")
 @hard_because("shares of no variance are zero over zero")
 @held_against("no slope, no share and nothing unexplained", bound=0.0)
 def _no_spread() -> Distances:
-    normal = {"normal": [EARTH.number("dynamical_flattening"), 1e-30]}
-    told = sensitivity(ensemble("precession", {"n": 9, H: normal}))
+    normal = {"normal": [H, 1e-30]}
+    told = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
     yield from (of.values for of in told.data_vars.values())
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
-from earthspin.bodies import EARTH
+from earthspin.checks.sky import BODY, H
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.many import ensemble, quantiles
 from earthspin.scenes import QUESTIONS, run
@@ -23,7 +23,6 @@ FloatArray = NDArray[np.float64]
 #: Half-widths over the period, and how many members they took.
 Found = tuple[FloatArray, int]
 
-H = EARTH.number("dynamical_flattening")
 #: Relative standard uncertainty of H: so large that the period is not linear in it.
 UNCERTAINTY = 0.1
 NAME, TOTAL = "body.dynamical_flattening", {"perturber": "total"}
@@ -109,14 +108,14 @@ def _spread(members: int) -> Found:
 
 
 def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
-    """From quantiles of an ensemble, over the period of the Earth as it is."""
+    """From quantiles of an ensemble, over the period of the body as it is."""
     answer = ensemble("precession", members, seed=seed)
     low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
     return np.atleast_1d((high - low) / 2 / _period())
 
 
 def _linear() -> Found:
-    uncertain = EARTH.replace(relative_uncertainty={NAME.split(".")[1]: UNCERTAINTY})
+    uncertain = BODY.replace(relative_uncertainty={NAME.split(".")[1]: UNCERTAINTY})
     answer = run(QUESTIONS["precession"](body=uncertain)).sel(TOTAL)
     width = answer.precession_period_error / answer.precession_period
     return np.atleast_1d(width.values), 1
