@@ -39,6 +39,7 @@ _HOME = {
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",
+        "ApartError",
         "BodyError",
         "CoverageError",
         "EarthspinError",

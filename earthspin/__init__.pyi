@@ -41,6 +41,7 @@ from earthspin.questions.polar_motion import read_excitation as read_excitation
 from earthspin.checks.gauntlet import stability as stability
 from earthspin.checks.work_precision import accuracy as accuracy
 from earthspin.errors import AccuracyError as AccuracyError
+from earthspin.errors import ApartError as ApartError
 from earthspin.errors import BodyError as BodyError
 from earthspin.errors import CoverageError as CoverageError
 from earthspin.errors import EarthspinError as EarthspinError
@@ -341,6 +342,7 @@ def compliances(
 __all__ = [
     "__version__",
     "AccuracyError",
+    "ApartError",
     "BODIES",
     "Body",
     "BodyError",

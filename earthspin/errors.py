@@ -249,6 +249,25 @@ class UndefinedError(EarthspinError, ValueError):
     """
 
 
+class ApartError(UndefinedError):
+    """Several that cannot be computed side by side, though each alone may well be.
+
+    Examples
+    --------
+    >>> import earthspin, xarray
+    >>> h = xarray.DataArray([0.0033, 0.026], dims="case")
+    >>> body = earthspin.EARTH.replace(dynamical_flattening=h)
+    >>> try:
+    ...     earthspin.long_term("-1 Myr", "0 kyr", "1 kyr", body=body)
+    ... except earthspin.ApartError as error:
+    ...     print(error)
+    Newton's method in time does not settle for all at once; ask for each alone, or in an ensemble
+    """
+
+    def __init__(self, why: str) -> None:
+        super().__init__(f"{why}; ask for each alone, or in an ensemble")
+
+
 class SeriesError(EarthspinError, ValueError):
     """A file of observations that cannot be used as it is.
 
@@ -462,7 +481,3 @@ def printable(text: str) -> str:
 def _sentence(subject: str, problem: str, remedy: str) -> str:
     """Join the parts of a message, leaving out an empty remedy."""
     return f"{subject}: {problem}" + (f"; {remedy}" if remedy else "")
-
-
-class ApartError(EarthspinError):
-    """Members that cannot be computed side by side; each alone may well be."""

@@ -15,6 +15,7 @@ EXAMPLES = [
     errors.KernelError("x.bsp", "the file is empty", "fetch it again"),
     errors.CoverageError("de421", ("1800-01-01", "1801-01-01"), ("1899-07-29", "2053-10-09")),
     errors.UndefinedError("it has no longitude"),
+    errors.ApartError("they do not settle at once"),
     errors.SeriesError("pole.txt", "it ends early", "is the file cut off?", line=7),
     errors.AccuracyError(1e-9, 6e-7, "(relative)", "give a longer span"),
     errors.OutputError("/x", "it cannot be written"),

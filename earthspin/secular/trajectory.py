@@ -90,10 +90,10 @@ def solve(
     Parameters
     ----------
     strength : Strength
-        For many: its arrays of shape (m, 1).
+        For many: its arrays of shape (..., 1).
     orbit : Orbit
         Common to all.
-    start : ndarray, shape (3,) or (3, m)
+    start : ndarray, shape (3,) or (3, ...)
         Unit vector of the axis at J2000.0, GCRS.
     span : tuple of float
         First and last time that will be asked for, s; J2000.0 need not lie between.
@@ -175,7 +175,7 @@ class _Way:
             windows = Windows(edges[first : first + size + 1], self.order)
             settled = self._block(windows, state)
             if settled is None and state.ndim > 1:
-                raise ApartError("Newton's method in time does not settle for all members at once")
+                raise ApartError("Newton's method in time does not settle for all at once")
             if settled is None and size == 1:
                 raise UndefinedError(
                     "the axis cannot be followed: Newton's method in time does not settle; it may "

@@ -41,8 +41,9 @@ def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
         sx, sy, sz = scale * x, scale * y, scale * z
         if total is None:
             total = np.zeros((6, *square.shape))
-        for row, a, b in zip(total, (sx, sy, sz, sx, sx, sy), (x, y, z, y, z, z), strict=True):
-            row += a * b
+        products = zip((sx, sy, sz, sx, sx, sy), (x, y, z, y, z, z), strict=True)
+        for row, (a, b) in enumerate(products):
+            total[row] += a * b
     if total is None:
         raise ValueError("a tide needs a mass")
     return total
