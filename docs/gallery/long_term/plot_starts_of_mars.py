@@ -31,6 +31,6 @@ for colour, obliquity in zip(colours, mars.obliquity.values, strict=True):
     ax.plot(mars.epoch / 1e6, obliquity, color=colour, lw=0.6)
 shown = plt.cm.ScalarMappable(plt.Normalize(-1, 1), "viridis")
 fig.colorbar(shown, ax=ax, label="shift of the obliquity today (deg)")
-ax.set_xlabel("time from J2000.0 (Myr)")
+ax.set_xlabel("time from J2000.0 (million years)")
 ax.set_ylabel("obliquity of Mars (deg)")
 ax.margins(x=0)
