@@ -53,7 +53,7 @@ BLOCK = 1 << 17
 #: Attributes of an answer that say what made it, beside its scene.
 VERSIONS = (
     "earthspin_version", "numpy_version", "jplephem_version", "skyfield_version", "pyerfa_version",
-    "ephemeris_sha256",
+    "ephemeris_sha256", "orbit_sha256", "table_sha256",
 )  # fmt: skip
 
 

@@ -27,6 +27,7 @@ class OrbitChoice:
 
     words = '"own", the path of a table, or what read_orbit gives'
     hint = "str | PathLike[str] | OrbitTable"
+    by_name = True
 
     def read(self, given: object, where: Where) -> str | OrbitTable:
         """Take the word, a path, a table, or a table as `write` gives it."""
@@ -43,12 +44,12 @@ class OrbitChoice:
         if isinstance(value, str):
             return value
         numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
-        return {"name": value.name, "source": value.source} | numbers
+        return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
 
 
 def _table_of(given: Mapping[str, Any], where: Where) -> OrbitTable:
     """The table that a scene holds."""
-    wanted = {"name", "source", *_ARRAYS}
+    wanted = {"name", "source", "sha256", *_ARRAYS}
     if set(given) != wanted:
         raise where.error(sorted(given), f"the table of an orbit holds {', '.join(sorted(wanted))}")
     edges, coefficients, axes, errors = (unpack(given[name], where) for name in _ARRAYS)
@@ -63,6 +64,7 @@ def _table_of(given: Mapping[str, Any], where: Where) -> OrbitTable:
         axes=axes,
         source=str(given["source"]),
         errors=errors,
+        sha256=str(given["sha256"]),
     )
 
 

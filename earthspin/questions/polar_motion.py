@@ -37,6 +37,7 @@ from earthspin.units import (
 if TYPE_CHECKING:
     import xarray as xr
 
+    from earthspin.sky.eop import PoleSeries
     from earthspin.wobble.estimate import WobbleFit
 
 ComplexArray = NDArray[np.complex128]
@@ -61,6 +62,7 @@ class TableFile:
     """Kind of a table of polar motion: a known one, or a local file."""
 
     words, hint = '"c04" or the path of a file', "str | PathLike[str]"
+    by_name = True
 
     def read(self, given: object, where: Where) -> str:
         """Take a word or a path."""
@@ -129,13 +131,20 @@ def not_observed(body: Body) -> str | None:
     return f"no polar motion of {in_a_sentence(body.name)} is kept" if no_iau_model(body) else None
 
 
-@part(gives=OBSERVED, unless=not_observed)
-def observed_pole(body: Body, span: Span | None, file: str, kind: str | None) -> xr.Dataset:
-    """Observed polar motion from a table of the IERS."""
-    from earthspin.mass.figure import polar_radius
+@part(unless=not_observed)
+def pole_table(file: str, kind: str | None) -> PoleSeries:
+    """A table of the IERS."""
     from earthspin.sky.eop import read_polar_motion
 
-    series = read_polar_motion(file, kind)
+    return read_polar_motion(file, kind)
+
+
+@part(gives=OBSERVED, unless=not_observed)
+def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> xr.Dataset:
+    """Observed polar motion from a table of the IERS."""
+    from earthspin.mass.figure import polar_radius
+
+    series = pole_table
     if span is not None:
         first, last = span.days
         series = series.between(first + _MJD, last + _MJD)
@@ -372,6 +381,7 @@ made_of(
     PolarMotion,
     answer=observed_pole,
     sections={"chandler": chandler, "spectrum": spectrum, "neglected": neglected},
+    parts=(pole_table,),
 )
 
 polar_motion = ask(PolarMotion)

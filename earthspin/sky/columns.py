@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import hashlib
 from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
@@ -27,6 +28,11 @@ def lines_of(file: Path) -> list[str]:
         return file.read_text(encoding="ascii", errors="replace").splitlines()
     except OSError as error:
         raise SeriesError(file, f"it cannot be read: {error.strerror}") from None
+
+
+def checksum(file: Path) -> str:
+    """SHA-256 of a file that was read, by which an answer knows it again."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def is_number(word: str) -> bool:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import SeriesError
-from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers
+from earthspin.sky.columns import check_calendar, checksum, is_number, lines_of, numbers
 
 Array = NDArray[np.float64]
 
@@ -59,6 +59,8 @@ class PoleSeries:
         Kind of table.
     repairs : str
         What was put right; empty if nothing.
+    sha256 : str
+        Of the file.
     """
 
     mjd: Array
@@ -68,6 +70,12 @@ class PoleSeries:
     y_error: Array
     name: str
     repairs: str = ""
+    sha256: str = ""
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Checksum of the file, for the attributes of an answer."""
+        return {"table_sha256": self.sha256}
 
     @property
     def step(self) -> float:
@@ -141,7 +149,7 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
     _check_size(file, rows)
     rows = _in_order(file, rows, repairs)
     _check_jumps(file, rows)
-    return _even(file, rows, kind, repairs)
+    return replace(_even(file, rows, kind, repairs), sha256=checksum(file))
 
 
 # --- the kinds of table --------------------------------------------------------------------------

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
-from earthspin.sky.columns import is_number, lines_of, numbers
+from earthspin.sky.columns import checksum, is_number, lines_of, numbers
 from earthspin.sky.equator import direction
 from earthspin.sky.orbit_table import OrbitTable, fitted, load
 
@@ -172,7 +172,8 @@ def read_orbit(
         return _load(Path(path))
     else:
         given = _Rows.of_text(Path(path))
-    return _table(given, body, axes, frame, time, angles)
+    table = _table(given, body, axes, frame, time, angles)
+    return table if given.source == _FRAME else replace(table, sha256=checksum(Path(path)))
 
 
 def _axes(frame: object, where: Where) -> FloatArray:

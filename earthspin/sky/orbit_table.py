@@ -8,7 +8,6 @@ rates at any time cost a few products.
 
 from __future__ import annotations
 
-import hashlib
 import os
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
+from earthspin.sky.columns import checksum
 
 FloatArray = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class OrbitTable:
         95 % half-widths of n (rad) and of e in each window: what half the step changes, and what
         the series leave out. Of a table that was given, the last alone.
     sha256 : str
-        Of the file it was read from.
+        Of the file it was read from; empty if there was none.
     """
 
     name: str
@@ -65,6 +65,11 @@ class OrbitTable:
     source: str
     errors: FloatArray
     sha256: str = ""
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Checksum of the file, for the attributes of an answer."""
+        return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
     def coverage(self) -> tuple[float, float]:
@@ -259,7 +264,7 @@ def load(path: Path) -> OrbitTable:
             axes=file["axes"],
             source=str(file["source"]),
             errors=file["errors"].astype(float),
-            sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+            sha256=checksum(path),
         )
 
 
