@@ -52,3 +52,31 @@ def test_shares_of_correlated_inputs_add_up() -> None:
     assert float(told.share.sum()) == pytest.approx(1, abs=1e-12)
     assert told.slope[2] == 0
     np.testing.assert_allclose(told.slope[:2], 1, rtol=1e-12, atol=0)
+
+
+def test_the_share_of_a_class_is_eta_squared() -> None:
+    """Variance between the means of the classes over the whole variance, whatever their order."""
+    rng = np.random.default_rng(8)
+    labels = rng.choice(["b", "a", "c"], 500)
+    y = np.select([labels == "a", labels == "b"], [5.0, -1.0], 2.0) + rng.standard_normal(500)
+    between = sum((labels == o).mean() * (y[labels == o].mean() - y.mean()) ** 2 for o in "abc")
+    told = shares_of_variance(np.empty((500, 0)), y, [labels])
+    assert float(told.share[0]) == pytest.approx(between / y.var(), rel=1e-12, abs=0)
+    assert float(told.share.sum() + told.unexplained) == pytest.approx(1, abs=1e-12)
+    assert np.isnan(told.slope[0])
+
+
+def test_numbers_and_classes_share_what_a_balanced_grid_gives_each() -> None:
+    """Three numbers by two classes: variances 6 of 3 x and 4 of the class, which do not mix."""
+    x, labels = np.repeat([-1.0, 0.0, 1.0], 2), np.array(["here", "there"] * 3)
+    y = 3 * x + np.where(labels == "here", 2.0, -2.0)
+    told = shares_of_variance(x[:, np.newaxis], np.stack([y, np.full(6, 1.0)], axis=1), [labels])
+    np.testing.assert_allclose(told.share[:, 0], [0.6, 0.4], rtol=1e-12, atol=0)
+    assert told.slope[0, 0] == pytest.approx(3, rel=1e-12, abs=0)
+    np.testing.assert_allclose(told.unexplained, 0, rtol=0, atol=1e-12)
+    assert np.array_equal(told.share[:, 1], [0, 0])  # what does not vary
+
+
+def test_one_class_alone_explains_nothing() -> None:
+    told = shares_of_variance(np.empty((4, 0)), np.arange(4.0), [np.array(["a"] * 4)])
+    assert (float(told.share[0]), float(told.unexplained)) == (0, 1)
