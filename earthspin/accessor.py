@@ -170,7 +170,9 @@ class Answer:
     def sensitivity(self) -> xr.Dataset:
         """How much each input of an ensemble has to do with each number of its answer.
 
-        Straight lines in all inputs are fitted together (`numerics.sampling`).
+        Straight lines in all inputs are fitted together (`numerics.sampling`). An input that is no
+        number, such as the table of an orbit, has its classes: their share is that of the variance
+        between the means of their members (eta squared), and there is no slope, NaN.
 
         Returns
         -------
@@ -182,7 +184,8 @@ class Answer:
         Raises
         ------
         SceneError
-            If it is no ensemble, or has not more members than inputs.
+            If it is no ensemble, or has too few members: two more than there are inputs, an input
+            in words counting for as many as there are of these, less one.
 
         Examples
         --------

@@ -8,8 +8,9 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from earthspin.engine.members import MEMBER
+from earthspin.engine.given import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics import sampling
 from earthspin.scenes import load_scene
@@ -25,7 +26,7 @@ def ensemble(
     block: int | None = None,
     impossible: Literal["refuse", "drop"] | None = None,
 ) -> xr.Dataset:
-    """Answer one question for many members, whose numbers differ.
+    """Answer one question for many members, which differ in numbers or in words.
 
     Member 17 is the same alone, in any block and with any workers: it draws its own random numbers
     by the seed and its number.
@@ -38,8 +39,10 @@ def ensemble(
         How many: they are drawn from the published uncertainties of the bodies, or from what the
         question's own table ``members`` says. A mapping, as that table has it, of inputs to
         distributions: ``{"n": 1000, "body.j2": {"normal": [1.0826e-3, 1e-10]}}``, with ``normal``,
-        ``uniform``, ``choice`` and ``grid``. Or the values themselves: a Dataset of variables along
-        `member`, named after the inputs, or the path of a file (.csv, .nc, .zarr) that holds one.
+        ``uniform``, ``choice`` and ``grid``; the last two take words as well, such as the paths of
+        orbits: ``{"orbit": {"grid": ["own", "la2010a.dat"]}}``. Or the values themselves: a Dataset
+        of variables along `member`, named after the inputs, or the path of a file (.csv, .nc,
+        .zarr) that holds one.
     seed : int, optional
         Of the random numbers; 0 if nothing says otherwise.
     path : str or Path, optional
@@ -125,6 +128,9 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
 def sensitivity(answer: xr.Dataset) -> xr.Dataset:
     """How much each input has to do with each number; ``ds.earthspin.sensitivity()``.
 
+    An input that is no number, such as the table of an orbit, has a share, that of the variance
+    between the means of its members, and no slope.
+
     Parameters
     ----------
     answer : Dataset
@@ -132,17 +138,21 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
     Raises
     ------
     SceneError
-        If it is no ensemble, or has not more members than inputs.
+        If it is no ensemble, or has too few members: two more than there are inputs, an input in
+        words counting for as many as there are of these, less one.
     """
     outputs = {n: of for n, of in _members(answer, "sensitivity").items() if "_error" not in n}
-    columns = inputs_of(answer)
-    inputs = np.stack([*columns.values()], axis=1)
-    if len(inputs) <= len(columns) + 1:
-        words = f"{len(columns)} inputs take at least {len(columns) + 2} members"
-        raise SceneError("sensitivity", f"{len(inputs)} members", words)
+    columns, count, needed = inputs_of(answer), answer.sizes[MEMBER], members_needed(answer)
+    if count < needed:
+        words = f"{len(columns)} inputs take at least {needed} members"
+        raise SceneError("sensitivity", f"{count} members", words)
+    classes = [of for of in columns.values() if of.dtype.kind == "U"]
+    numbers = [of for of in columns.values() if of.dtype.kind != "U"]
+    inputs = np.stack(numbers, axis=1) if numbers else np.empty((count, 0))
+    no_slope = {"no_slope": "of words there is none"} if classes else {}
     found: dict[str, Any] = {}
     for name, of in outputs.items():
-        told = sampling.shares_of_variance(inputs, of.values.astype(float))
+        told = sampling.shares_of_variance(inputs, of.values.astype(float), classes)
         what, rest = of.attrs.get("long_name", name), of.dims[1:]
         slope_units = f"{of.attrs.get('units', '1')} per unit of the input"
         for ending, values, dims, words, units in (
@@ -151,19 +161,29 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
             ("unexplained", told.unexplained, rest, "share that straight lines leave", "1"),
         ):
             attrs = {"long_name": f"{words}, of the {what}", "units": units}
+            attrs |= no_slope if ending == "slope" else {}
             found[f"{name}_{ending}"] = (dims, values, attrs)
-    labels = {"input": ("input", [*columns], {"long_name": "number that differs"})}
+    labels = {"input": ("input", [*columns], {"long_name": "what differs"})}
     return xr.Dataset(found, labels | _other_labels(answer), dict(answer.attrs))
 
 
-def inputs_of(answer: xr.Dataset) -> dict[str, sampling.FloatArray]:
-    """What differs among the members of an ensemble, by name, a column for each number."""
-    return {
+def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
+    """What differs among members, by name: a column for each number, then words."""
+    given = [of for of in answer.coords.values() if "input" in of.attrs]
+    numbers = {
         f"{of.attrs['input']}{'' if of.ndim == 1 else f'.{k}'}": column
-        for of in answer.coords.values()
-        if "input" in of.attrs
+        for of in given
+        if of.dtype.kind in "fiu"
         for k, column in enumerate(of.values.reshape(of.sizes[MEMBER], -1).T)
     }
+    words = {str(of.attrs["input"]): of for of in given if of.dtype.kind not in "fiu"}
+    return numbers | {name: of.values.astype(str) for name, of in words.items()}
+
+
+def members_needed(answer: xr.Dataset) -> int:
+    """Fewest members of an ensemble from which shares of its inputs follow."""
+    columns = inputs_of(answer).values()
+    return 2 + sum(len(np.unique(of)) - 1 if of.dtype.kind == "U" else 1 for of in columns)
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:

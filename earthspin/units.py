@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Protocol, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +64,17 @@ class Kind(Protocol[T]):
 
     def write(self, value: T) -> Plain:
         """Give it as a scene file holds it; `read` turns that into the same bits."""
+
+
+def by_name(kind: object) -> bool:
+    """Whether text alone tells a value of a kind: a word, the name of a body, the path of a file.
+
+    Parameters
+    ----------
+    kind : Kind
+        One that says so with an attribute `by_name`.
+    """
+    return bool(getattr(kind, "by_name", False))
 
 
 # --- values with units -------------------------------------------------------------------------
@@ -423,6 +434,8 @@ class Word:
 
     allowed: tuple[str, ...]
 
+    by_name: ClassVar[bool] = True
+
     @property
     def hint(self) -> str:
         """Type for editors."""
@@ -451,6 +464,7 @@ class FilePath:
     """The path of a file or folder."""
 
     words, hint = "the path of a file", "str | PathLike[str]"
+    by_name: ClassVar[bool] = True
 
     def read(self, given: object, where: Where) -> Path:
         """Check that it is a path; whether something is there shows when it is opened."""

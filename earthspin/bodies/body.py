@@ -151,6 +151,7 @@ class Body(FromMass):
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
+    by_name: ClassVar[bool] = True
     #: How each field is read and written; the units of those that are numbers; and the numbers
     #: that may be labelled arrays, which stand for many bodies.
     KINDS: ClassVar[dict[str, Any]]

@@ -24,6 +24,7 @@ class Layers:
         "samples (radius, density, vp, vs, shear_q)"
     )
     hint = "str | LayeredBody | Mapping[str, Any]"
+    by_name = True
 
     def read(self, given: object, where: Where) -> LayeredBody:
         """Read a name, a layered body, or a table."""

@@ -3,7 +3,8 @@
 A question whose physics is arrays through and through says so (`made_of`, `together`); its members
 are computed side by side, and every other question member by member. Side by side, members stand in
 rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS) then
-rounds them alike, however many members there are, and a member is the same bits alone.
+rounds them alike, however many members there are, and a member is the same bits alone. Members that
+differ in words stand side by side with those of the same words.
 """
 
 from __future__ import annotations
@@ -11,14 +12,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.engine import loop
 from earthspin.engine import run as running
+from earthspin.engine.given import MEMBER
 from earthspin.engine.inputs import (
+    Input,
     along_members,
     changed,
     inputs_of,
@@ -26,15 +31,18 @@ from earthspin.engine.inputs import (
     published,
     with_bodies,
 )
-from earthspin.engine.members import MEMBER, Members, count_of, draw
+from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.question import Question
-from earthspin.engine.run import SCENE, Again, scene_text
+from earthspin.engine.run import SCENE, scene_text
 from earthspin.engine.series import asked_of
 from earthspin.engine.unfinished import Layout
+from earthspin.engine.variants import Variants, Words
 from earthspin.errors import ApartError, EarthspinError
 
 if TYPE_CHECKING:
     import xarray as xr
+
+IntArray = NDArray[np.int64]
 
 #: Members that stand in a row.
 ROW = 64
@@ -63,7 +71,7 @@ class Ensemble:
     inputs : dict of str to Input
         What differs among them.
     values : dict of str to ndarray, shape (n, ...)
-        Of every member that is made.
+        Of every member that is made; text where words differ.
     which : ndarray of int
         Their numbers.
     dropped : list of int
@@ -92,14 +100,18 @@ class Ensemble:
             for name, of in distributions.items()
         }
         self.values = draw(members, distributions, numbers, self.which, where)
-        self.values |= {name: of[self.which] for name, of in members.values.items()}
+        self.values |= {
+            name: self.inputs[name].checked(of, where.at(name))[self.which]
+            for name, of in members.values.items()
+        }
         self.dropped: list[int] = []
         self._leave_out_the_impossible(members.impossible == "drop", n)
         self._length = block
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # known before it is sent
-        return {name: of for name, of in vars(self).items() if name not in ("again", "nominal")}
+        here = ("variants", "nominal")
+        return {name: of for name, of in vars(self).items() if name not in here}
 
     # --- what there is to do ---------------------------------------------------------------------
 
@@ -109,21 +121,42 @@ class Ensemble:
         return f"{self.question.word} members"
 
     @cached_property
-    def again(self) -> Again:
-        """The question, whose parts that no input touches run once."""
-        return Again(self.question, {one.key for one in self.inputs.values()})
+    def numbers(self) -> dict[str, Input]:
+        """The inputs that are numbers; the others are words."""
+        return {name: one for name, one in self.inputs.items() if not one.named}
+
+    @cached_property
+    def variants(self) -> Variants:
+        """The question, or one for all the words of a member."""
+        keys = tuple(one.key for one in self.inputs.values() if one.named)
+        return Variants(self.question, keys, {one.key for one in self.numbers.values()})
+
+    def words(self, place: int) -> Words:
+        """What is chosen for a member that is not a number."""
+        named = (name for name, one in self.inputs.items() if one.named)
+        return tuple(str(self.values[name][place]) for name in named)
+
+    @cached_property
+    def every(self) -> dict[Words, IntArray]:
+        """Places of the members of all words that there are, ascending."""
+        if len(self.numbers) == len(self.inputs):
+            return {(): np.arange(len(self.which))}
+        places: dict[Words, list[int]] = {}
+        for place in range(len(self.which)):
+            places.setdefault(self.words(place), []).append(place)
+        return {words: np.array(of) for words, of in places.items()}
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """The question as it is, without members."""
-        return self.again.answer(self.question)
+        """The question as it is, without members; its words are those of the first."""
+        return self.variants.nominal(next(iter(self.every)))
 
     @cached_property
     def width(self) -> int:
         """How many members are computed side by side; 1 if one by one."""
         together = self.question.graph.together
-        fit = all(one.key in together and one.labelled for one in self.inputs.values())
-        if not fit or getattr(self.question, "accuracy", None) is not None:
+        fit = all(one.key in together and one.labelled for one in self.numbers.values())
+        if not (self.numbers and fit) or getattr(self.question, "accuracy", None) is not None:
             return 1  # what is chosen for an accuracy is chosen for each alone
         rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
         return min(rows * ROW, self.question.graph.widest) or 1
@@ -140,12 +173,12 @@ class Ensemble:
 
     @cached_property
     def asked(self) -> Mapping[str, str]:
-        """The question with its members, the versions and the kernel."""
-        return asked_of(self.asked_question, self.again)
+        """The question with its members, the versions, and checksums of what is read."""
+        return asked_of(self.asked_question, self.variants.provenance(self.every))
 
     def plan_data(self) -> xr.Dataset:
         """The plan of one member, as data."""
-        return running.plan_data(self.again(self.question).plan)
+        return running.plan_data(self.variants[self.words(0)]().plan)
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Make it in memory.
@@ -169,7 +202,7 @@ class Ensemble:
 
     def _leave_out_the_impossible(self, drop: bool, n: int) -> None:
         """Refuse members that cannot exist, or leave them out; say which and why."""
-        wrong = dict(self._impossible())
+        wrong = dict(sorted(self._impossible(), key=itemgetter(0)))
         if not wrong:
             return
         numbers = [int(self.which[place]) for place in wrong]
@@ -181,21 +214,33 @@ class Ensemble:
         kept = np.delete(np.arange(len(self.which)), list(wrong))
         self.which, self.dropped = self.which[kept], numbers
         self.values = {name: of[kept] for name, of in self.values.items()}
+        del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
-        """Places of members that cannot exist, and why; at once where arrays tell."""
-        at_once = all(one.field and one.labelled for one in self.inputs.values())
+        """Places of members that cannot exist, and why."""
+        for words, places in self.every.items():
+            try:
+                question = self.variants.question(words)
+            except EarthspinError as error:
+                yield from ((int(place), error) for place in places)
+            else:
+                yield from self._impossible_of(question, places)
+
+    def _impossible_of(
+        self, question: Question, places: IntArray
+    ) -> Iterator[tuple[int, EarthspinError]]:
+        """The same of the members that share a question; at once where arrays tell."""
+        at_once = all(one.field and one.labelled for one in self.numbers.values())
         if at_once:
             try:
-                together = along_members(self.values, slice(None))
-                with_bodies(self.question, self.inputs, together)
+                with_bodies(question, self.numbers, along_members(self._of_numbers, places))
                 return
             except EarthspinError:
                 pass
         make = with_bodies if at_once else changed
-        for place in range(len(self.which)):
+        for place in places.tolist():
             try:
-                make(self.question, self.inputs, one_member(self.values, place))
+                make(question, self.numbers, one_member(self._of_numbers, place))
             except EarthspinError as error:
                 yield place, error
 
@@ -203,52 +248,78 @@ class Ensemble:
 
     def first(self) -> xr.Dataset:
         """Block 0, with the attributes of the whole."""
-        attributes = self.nominal.attrs | {
+        attributes = self.variants.attributes(self.every) | {
             "title": self.asked_question.title,
             SCENE: scene_text(self.asked_question),
         }
         if self.dropped:
             told = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
             attributes["members_dropped"] = told
-        return self.make(0).assign_attrs(attributes)
+        return self.variants.describe(self.make(0), self.every).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
-        one_by_one = (self._single(place) for place in range(first, last))
-        pieces = [*one_by_one] if self.width == 1 else [*self._side_by_side(first, last)]
-        laid = _laid(pieces)
+        made = self._one_by_one if self.width == 1 else self._side_by_side
+        places, pieces = zip(*made(first, last), strict=True)
+        laid = _laid([*pieces])
+        order = np.argsort(np.concatenate(places))
+        if (np.diff(order) != 1).any():
+            laid = laid.isel({MEMBER: order} if MEMBER in laid.dims else {})
         return laid.assign_coords(self._labels(slice(first, last), laid))
 
-    def _side_by_side(self, first: int, last: int) -> Iterator[xr.Dataset]:
-        """Members in whole rows, and of these the ones that are wanted."""
+    def _one_by_one(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
+        for place in range(first, last):
+            yield np.array([place]), self._single(place)
+
+    def _side_by_side(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
+        """Members in whole rows, and of these the ones that are wanted, by their words."""
         for begin in range(first - first % ROW, last, self.width):
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
-            values = along_members(self.values, np.clip(row, first, last - 1))
-            wanted = slice(max(first - begin, 0), min(last, end) - begin)
-            try:
-                made = self._numbers(values, f"{max(begin, first)} to {min(end, last) - 1}")
-            except ApartError:
-                yield from map(self._single, range(max(begin, first), min(end, last)))
-            else:
-                yield made.isel({MEMBER: wanted} if MEMBER in made.dims else {})
+            for words, every in self.every.items():
+                mine = every[np.searchsorted(every, max(begin, first)) :]
+                mine = mine[: np.searchsorted(mine, min(end, last))]
+                if not mine.size:
+                    continue
+                stand_in = np.where(np.isin(row, mine), row, mine[0])
+                values = along_members(self._of_numbers, stand_in)
+                which = _named(self.which[mine].tolist())
+                try:
+                    made = self._answer(words, values, which)
+                except ApartError:
+                    yield from ((np.array([place]), self._single(place)) for place in mine)
+                    continue
+                self._check_labels(made, which)
+                if words:
+                    made = _for_each(made, len(row))
+                yield mine, made.isel({MEMBER: _short(mine - begin)} if MEMBER in made.dims else {})
 
     def _single(self, place: int) -> xr.Dataset:
-        made = self._numbers(one_member(self.values, place), str(self.which[place]))
-        for name, label in self.nominal.coords.items():
-            if name not in made.coords or not label.equals(made.coords[name]):
-                words = f"member {self.which[place]} has other labels along '{name}'"
-                raise self.question.error("members", list(self.inputs), words)
-        numbers = [name for name, of in made.data_vars.items() if of.dtype.kind in "fiubM"]
-        return made.assign({name: made[name].expand_dims(MEMBER) for name in numbers})
+        which = str(self.which[place])
+        made = self._answer(self.words(place), one_member(self._of_numbers, place), which)
+        self._check_labels(made, which)
+        return _for_each(made, 1)
 
-    def _numbers(self, values: Mapping[str, Any], which: str) -> xr.Dataset:
+    def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
+        """The numbers of one member, or of several with the same words."""
         try:
-            return self.again.numbers(changed(self.question, self.inputs, values))
+            again = self.variants[words]
+            return again.numbers(changed(again.planned.question, self.numbers, values))
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
+
+    def _check_labels(self, made: xr.Dataset, which: str) -> None:
+        for name, label in self.nominal.coords.items():
+            if name not in made.coords or not label.equals(made.coords[name]):
+                words = f"member {which} has other labels along '{name}'"
+                raise self.question.error("members", list(self.inputs), words)
+
+    @property
+    def _of_numbers(self) -> dict[str, NDArray[Any]]:
+        """Values of the inputs that are numbers."""
+        return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, laid: xr.Dataset) -> dict[str, Any]:
         """Numbers of members, and their inputs; of what moves, as theta, the one that is given."""
@@ -259,6 +330,8 @@ class Ensemble:
             values = self.values[name][which]
             dims = (MEMBER, *(f"{one.label}_{k}" for k in range(values.ndim - 1)))
             attrs = {"long_name": f"{name} of the member", "units": one.unit or "1", "input": name}
+            if one.named:
+                del attrs["units"]
             label = f"{one.label}_given" if one.label in laid.variables else one.label
             labels[label] = (dims, values, attrs)
         return labels
@@ -268,6 +341,19 @@ def _named(numbers: list[int]) -> str:
     """Numbers of members, the first few by name."""
     more = f" and {len(numbers) - NAMED} more" if len(numbers) > NAMED else ""
     return f"{', '.join(map(str, numbers[:NAMED]))}{more}"
+
+
+def _short(places: IntArray) -> IntArray | slice:
+    """Places as a slice where they stand next to one another, which takes no copy."""
+    first, last = int(places[0]), int(places[-1])
+    return slice(first, last + 1) if last - first + 1 == len(places) else places
+
+
+def _for_each(made: xr.Dataset, count: int) -> xr.Dataset:
+    """An answer whose every number stands along `member`, that of one for so many."""
+    numbers = {name: of for name, of in made.data_vars.items() if of.dtype.kind in "fiubM"}
+    alone = {name: of for name, of in numbers.items() if MEMBER not in of.dims}
+    return made.assign({name: of.expand_dims({MEMBER: count}) for name, of in alone.items()})
 
 
 def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:

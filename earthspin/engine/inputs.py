@@ -1,7 +1,8 @@
-"""The numbers of a question that members of an ensemble may differ in, by name.
+"""What members of an ensemble may differ in, by name.
 
 ``"body.j2"`` is a number of the body, ``"moon.gm"`` one of a perturber, ``"spin"`` a key that is a
-number, and ``"moments.2"`` a number of a key that is a list of them.
+number, and ``"moments.2"`` a number of a key that is a list of them. ``"orbit"`` is a key whose
+values have names: what is chosen for it is told by text.
 """
 
 from __future__ import annotations
@@ -11,10 +12,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from earthspin.engine.members import MEMBER, Distribution
+from earthspin.engine.given import MEMBER
+from earthspin.engine.members import Distribution, texts
 from earthspin.errors import Where, nearest
-from earthspin.units import FloatArray, Number
+from earthspin.units import FloatArray, Number, by_name
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Input:
-    """One number of a question.
+    """One number of a question, or a key that takes a name.
 
     Attributes
     ----------
@@ -35,7 +38,7 @@ class Input:
     element : int or None
         Which of several, where the key holds a list.
     field : str
-        The field of a body; empty if the key itself is the number.
+        The field of a body; empty if it is the key itself.
     kind : Kind
         How it is read.
     labelled : bool
@@ -50,14 +53,33 @@ class Input:
     labelled: bool
 
     @property
+    def named(self) -> bool:
+        """Whether it is no number, but chosen by a name."""
+        return not self.field and self.element is None and by_name(self.kind)
+
+    @property
     def unit(self) -> str:
-        """In which it is kept."""
-        return str(self.kind.unit)
+        """In which it is kept; empty for pure numbers and names."""
+        return "" if self.named else str(self.kind.unit)
 
     @property
     def label(self) -> str:
         """Its name among the coordinates of an answer."""
         return self.name.replace(".", "_")
+
+    def checked(self, values: NDArray[Any], where: Where) -> NDArray[Any]:
+        """Values of the members as they were given, if they are numbers where it is one.
+
+        Raises
+        ------
+        EarthspinError
+            If they are not, or one of the names is none that the key takes.
+        """
+        if self.named:
+            texts(dict.fromkeys(values.tolist()), self.kind, where)
+        elif values.dtype.kind == "U":
+            raise where.error(str(values[0]), "give finite numbers")
+        return values
 
 
 def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[str, Input]:
@@ -73,9 +95,16 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
     Raises
     ------
     SceneError
-        If there is none of a name; it names the nearest.
+        If there is none of a name, which names the nearest; or a number belongs to something that
+        is itself chosen.
     """
-    return {name: _input(question, name, where) for name in names}
+    found = {name: _input(question, name, where) for name in names}
+    chosen = {one.key: one.name for one in found.values() if one.named}
+    for one in found.values():
+        if chosen.get(one.key, one.name) != one.name:
+            words = f"members differ in '{chosen[one.key]}' itself; leave out one of the two"
+            raise where.at(one.name).error("a number", words)
+    return found
 
 
 def _input(question: Question, name: str, where: Where) -> Input:
@@ -89,11 +118,13 @@ def _input(question: Question, name: str, where: Where) -> Input:
 
 
 def _every(question: Question) -> Iterable[tuple[str, tuple[str, int | None, str, Any, bool]]]:
-    """Every number of a question that is set, by name."""
-    from earthspin.engine.question import keys_of
+    """Every number of a question that is set, and every key that takes a name."""
+    from earthspin.engine.question import Question, keys_of
 
     for key, one in keys_of(question.__class__).items():
         value = getattr(question, key)
+        if by_name(one.kind) and key not in keys_of(Question):
+            yield key, (key, None, "", one.kind, False)
         if hasattr(value, "magnitudes"):
             for field, kind in value.magnitudes().items():
                 yield f"{key}.{field}", (key, None, field, kind, field in value.LABELLED)
@@ -222,4 +253,4 @@ def along_members(values: Mapping[str, Any], which: Any) -> dict[str, Any]:
 
 def one_member(values: Mapping[str, Any], number: int) -> dict[str, Any]:
     """Values of one member."""
-    return {name: float(of[number]) if of.ndim == 1 else of[number] for name, of in values.items()}
+    return {name: of[number].item() if of.ndim == 1 else of[number] for name, of in values.items()}

@@ -1,4 +1,6 @@
-"""Members of an ensemble: which numbers of a question differ among them, and how they are drawn.
+"""Members of an ensemble: what differs among them, and how it is drawn.
+
+What differs are numbers of a question, or words in it: the table of an orbit, a kernel, a model.
 
 Every member has random numbers of its own, by its number and the seed (Philox over
 ``SeedSequence(seed, spawn_key=(member,))``), so that member 17 is the same alone, in any block and
@@ -10,21 +12,18 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from earthspin.errors import OutputError, Where, nearest
-from earthspin.units import FloatArray, pack, unpack
+from earthspin.engine.given import from_scene, of_dataset, read_file
+from earthspin.errors import Where, nearest
+from earthspin.units import FloatArray, by_name, pack
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-#: The dimension of an ensemble.
-MEMBER = "member"
 #: As many members as numbers of one kind are ever held whole.
 MOST = 10_000_000
 
@@ -47,7 +46,7 @@ class Distribution:
     shape : str
         ``"normal"``, ``"uniform"``, ``"choice"`` or ``"grid"``.
     numbers : tuple
-        Numbers, or text with units.
+        Numbers, text with units, or words.
     """
 
     shape: str
@@ -67,8 +66,13 @@ class Distribution:
             raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
         return cls(shape, tuple(map(_plain, numbers)))
 
-    def values(self, kind: Any, where: Where) -> tuple[float, ...]:
-        """Its numbers as the input is kept, checked."""
+    def values(self, kind: Any, where: Where) -> tuple[float, ...] | tuple[str, ...]:
+        """Its numbers as the input is kept, or its words, checked."""
+        if by_name(kind):
+            if self.shape not in ("choice", "grid"):
+                words = f"{self.shape} is of numbers; of words and names give choice or grid"
+                raise where.error(list(self.numbers), words)
+            return texts(self.numbers, kind, where)
         read = [kind.read(number, where) for number in self.numbers]
         if any(np.ndim(one) for one in read):
             raise where.error(self.numbers, "give single numbers")
@@ -79,22 +83,44 @@ class Distribution:
         return tuple(map(float, read))
 
 
+def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
+    """Words of an input that is no number, as they were given, each checked.
+
+    Raises
+    ------
+    EarthspinError
+        If the input does not take one, or it is told by more than text.
+    """
+    found = tuple(several)
+    for one in dict.fromkeys(found):
+        kind.read(one, where)
+        if not isinstance(one, str):
+            words = "members are labelled by text: give a name, or the path of a file it is in"
+            raise where.error(type(one).__name__, words)
+    return found
+
+
 def _plain(number: Any) -> Any:
-    """A number as a scene holds it."""
+    """A number as a scene holds it, or a path."""
+    if isinstance(number, os.PathLike):
+        return os.fspath(number)
     if hasattr(number, "to_value"):
         return f"{float(number.value)!r} {number.unit}"
     return number.item() if isinstance(number, np.generic) else number
 
 
 def drawn(
-    distribution: str, numbers: tuple[float, ...], normal: FloatArray, place: FloatArray
-) -> FloatArray:
+    distribution: str,
+    numbers: tuple[Any, ...],
+    normal: FloatArray,
+    place: FloatArray,
+) -> NDArray[Any]:
     """Turn standard normal numbers into those of a distribution.
 
     Parameters
     ----------
     distribution : str
-    numbers : tuple of float
+    numbers : tuple of float or of str
         As `Distribution.values` gives them.
     normal : ndarray, shape (n,)
     place : ndarray of int, shape (n,)
@@ -106,7 +132,7 @@ def drawn(
     """
     from scipy.special import ndtr
 
-    several = np.array(numbers, dtype=np.float64)
+    several = np.array(numbers)
     if distribution == "normal":
         return np.asarray(numbers[0] + numbers[1] * normal)
     share = ndtr(normal)
@@ -157,7 +183,7 @@ class Members:
     distributions : mapping of str to Distribution
         By the name of the input, like ``"body.j2"``.
     values : mapping of str to ndarray, shape (n, ...)
-        Given member by member.
+        Given member by member: numbers, or words.
     """
 
     n: int | None = None
@@ -167,7 +193,7 @@ class Members:
     only: tuple[int, ...] = ()
     correlations: tuple[tuple[str, str, float], ...] = ()
     distributions: Mapping[str, Distribution] = field(default_factory=dict)
-    values: Mapping[str, FloatArray] = field(default_factory=dict)
+    values: Mapping[str, NDArray[Any]] = field(default_factory=dict)
 
     words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
     hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
@@ -190,7 +216,7 @@ class Members:
         if isinstance(given, (str, os.PathLike)):
             given = read_file(Path(given))
         if hasattr(given, "data_vars"):
-            return cls(values=_of_dataset(given, where))
+            return cls(values=of_dataset(given, where))
         if not isinstance(given, Mapping):
             raise where.error(given, f"give {cls.words}")
         return cls._of_table(given, where)
@@ -219,7 +245,8 @@ class Members:
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
             values={
-                name: unpack(of, where.at(name)) for name, of in settings.get("values", {}).items()
+                name: from_scene(of, where.at(name))
+                for name, of in settings.get("values", {}).items()
             },
         )
 
@@ -236,7 +263,10 @@ class Members:
             told["correlations"] = [list(one) for one in self.correlations]
         told |= {name: {of.shape: list(of.numbers)} for name, of in self.distributions.items()}
         if self.values:
-            told["values"] = {name: pack(of) for name, of in self.values.items()}
+            told["values"] = {
+                name: of.tolist() if of.dtype.kind == "U" else pack(of)
+                for name, of in self.values.items()
+            }
         return told
 
 
@@ -283,70 +313,6 @@ def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
         yield first, second, float(size)
 
 
-# --- from files ----------------------------------------------------------------------------------
-
-
-def read_file(path: Path) -> xr.Dataset:
-    """Read values of members from a file: a table with a line of names, or netCDF or Zarr.
-
-    Parameters
-    ----------
-    path : Path
-        Ends in ``.csv``, ``.nc`` or ``.zarr``.
-
-    Raises
-    ------
-    OutputError, SceneError
-        If it cannot be read.
-    """
-    import xarray as xr
-
-    if not path.exists():
-        raise OutputError(path, "there is no such file", "give a .csv, .nc or .zarr, or a number")
-    try:
-        if path.suffix == ".csv":
-            import pandas as pd
-
-            frame = pd.read_csv(path, skipinitialspace=True)
-            columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
-            return xr.Dataset(columns)
-        if path.suffix in (".nc", ".zarr"):
-            with xr.open_dataset(path, **({} if path.suffix == ".nc" else _ZARR)) as found:
-                return found.load()
-    except Exception as error:  # whatever the libraries say of a file that is none
-        raise OutputError(path, f"it cannot be read: {error}") from None
-    raise OutputError(path, "it is no file of members", "its name ends in .csv, .nc or .zarr")
-
-
-_ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
-
-
-def _of_dataset(given: Any, where: Where) -> dict[str, FloatArray]:
-    """Values by name, from a Dataset along `member`; those of an ensemble that was made, too."""
-    values: dict[str, FloatArray] = {}
-    for name, of in {**given.data_vars, **given.coords}.items():
-        if name == MEMBER or (name in given.coords and "input" not in of.attrs):
-            continue
-        if name in given.data_vars and any("input" in c.attrs for c in given.coords.values()):
-            continue  # an answer: its inputs are what is asked again
-        inner = where.at(str(of.attrs.get("input", name)))
-        if not of.dims or of.dims[0] != MEMBER:
-            words = f"its first dimension is '{MEMBER}'"
-            raise inner.error(f"dimensions {', '.join(map(str, of.dims)) or 'none'}", words)
-        if of.dtype.kind not in "fiu" or not np.isfinite(of.values).all():
-            bad = [] if of.dtype.kind not in "fiu" else _first_bad(of.values)
-            raise inner.error(f"member {bad[0]}" if bad else "words", "give finite numbers")
-        values[str(of.attrs.get("input", name))] = of.values.astype(float)
-    if not values or not all(len(of) for of in values.values()):
-        raise where.error("a Dataset", f"it holds no member; give variables along '{MEMBER}'")
-    return values
-
-
-def _first_bad(values: FloatArray) -> list[int]:
-    flat = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
-    return [int(place) for place in np.flatnonzero(~flat)[:1]]
-
-
 # --- drawing -------------------------------------------------------------------------------------
 
 
@@ -377,17 +343,17 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
 def draw(
     members: Members,
     inputs: Mapping[str, Distribution],
-    numbers: Mapping[str, tuple[float, ...]],
+    numbers: Mapping[str, tuple[Any, ...]],
     which: FloatArray,
     where: Where,
-) -> dict[str, FloatArray]:
+) -> dict[str, NDArray[Any]]:
     """Values of every input that is drawn.
 
     Parameters
     ----------
     members : Members
     inputs : mapping of str to Distribution
-    numbers : mapping of str to tuple of float
+    numbers : mapping of str to tuple of float or of str
         Of each distribution, as the input is kept.
     which : ndarray of int, shape (n,)
         Numbers of the members.

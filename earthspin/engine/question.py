@@ -131,8 +131,9 @@ class Question:
     title: str = key("", doc="words for headings")
     members: Members | None = key(
         None,
-        doc="the same for many: numbers that differ from member to member, drawn or given; a whole "
-        "number draws those of the bodies from their published uncertainties",
+        doc="the same for many: numbers, or words such as paths, that differ from member to "
+        "member, drawn or given; a whole number draws those of the bodies from their published "
+        "uncertainties",
     )
     uncertainty: Literal["linear", "sample"] | None = key(
         None,

@@ -34,10 +34,19 @@ class Ran:
     plan: Plan
     given: dict[str, Any]
 
+    @property
+    def provenance(self) -> dict[str, str]:
+        """What its parts say of where their numbers come from."""
+        return _provenance(self.given)
+
+    def answer(self) -> xr.Dataset:
+        """Lay out the answer, with all that it carries."""
+        return _answer(self)
+
 
 def run(question: Question) -> xr.Dataset:
     """The answer to a question for one, its complete question among the attributes."""
-    return _answer(_run_parts(plan(question)))
+    return _run_parts(plan(question)).answer()
 
 
 def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.DataTree:
@@ -45,7 +54,7 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
     import xarray as xr
 
     ran = _run_parts(plan(question, sections))
-    answer = _answer(ran)
+    answer = ran.answer()
     nodes = {"/": answer}
     for name in ran.plan.sections:
         nodes[name] = _section(ran, name, answer)
@@ -85,7 +94,7 @@ class Again:
 
     def answer(self, question: Question | None = None, **given: object) -> xr.Dataset:
         """Answer it, with all that an answer carries."""
-        return _answer(self(question, **given))
+        return self(question, **given).answer()
 
     def numbers(self, question: Question | None = None, **given: object) -> xr.Dataset:
         """Answer it, without the attributes of the whole."""
@@ -250,7 +259,7 @@ def _attributes(ran: Ran) -> dict[str, str]:
         elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    attributes |= _provenance(ran.given)
+    attributes |= ran.provenance
     attributes[NEGLECTED] = ran.given[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.members import MEMBER, Members
+from earthspin.engine.given import MEMBER
+from earthspin.engine.members import Members
 from earthspin.engine.question import Question
 
 if TYPE_CHECKING:

@@ -53,7 +53,7 @@ class Series:
     @cached_property
     def asked(self) -> Mapping[str, str]:
         """The question, the versions and the kernel."""
-        return asked_of(self.question, self._again)
+        return asked_of(self.question, self._again.provenance)
 
     def first(self) -> xr.Dataset:
         """Answer the first stretch; its attributes are those of the whole."""
@@ -64,10 +64,17 @@ class Series:
         return self._again.answer(block=Block(*self.layout.bounds(number)))
 
 
-def asked_of(question: Question, again: Again) -> dict[str, str]:
-    """What is asked and of which versions, by name, for a store that may be gone on with."""
+def asked_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
+    """What is asked and of which versions, by name, for a store that may be gone on with.
+
+    Parameters
+    ----------
+    question : Question
+    provenance : mapping of str to str
+        Further versions, and checksums of the files that are read.
+    """
     return {
         "question": scene_text(question),
         "version of earthspin": __version__,
         "version of numpy": version("numpy"),
-    } | again.provenance
+    } | dict(provenance)

@@ -45,6 +45,7 @@ class KernelName:
 
     words = '"de421", "de440", or the path of a .bsp file'
     hint = "str | PathLike[str] | SpiceKernel"
+    by_name = True
 
     def read(self, given: object, where: Where) -> str:
         """Take a name or a path; of a kernel of Skyfield's, its file."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from earthspin.many import inputs_of, quantiles, sensitivity
+from earthspin.many import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Drawing, axes, drawn, empty, style
 from earthspin.views.reading import Result
 from earthspin.views.table import Table, short_exponents, with_error
@@ -172,13 +172,13 @@ def _whole(result: Result) -> xr.Dataset:
 
 
 def _inputs(answer: xr.Dataset) -> list[str]:
-    """Names of the numbers that differ, as `sensitivity` has them."""
+    """Names of what differs, as `sensitivity` has them."""
     return list(inputs_of(answer))
 
 
 def _tells(answer: xr.Dataset) -> bool:
     """Whether there are members enough to fit straight lines."""
-    return bool(answer.sizes[MEMBER] > len(_inputs(answer)) + 1)
+    return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
 def _numbers(answer: xr.Dataset) -> Iterator[tuple[str, dict[str, Any], str]]:

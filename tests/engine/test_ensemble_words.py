@@ -1,0 +1,374 @@
+"""Ensembles whose members differ in words: orbits, kernels, models, bodies by name."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EarthspinError, OutputError, SceneError
+from earthspin.engine.ensemble import ROW, Ensemble
+from earthspin.engine.inputs import inputs_of
+from earthspin.engine.variants import KEPT, Variants
+from earthspin.scenes import QUESTIONS, Scene, VersionWarning, load_scene
+from earthspin.sky.eop import c04_path
+from earthspin.sky.ephemeris import open_ephemeris
+from earthspin.sky.orbit_table import shipped
+from tests.engine.test_ensemble import ASKED, asked, differ
+from tests.engine.work import bytes_of
+
+OWN, ROUND, COPY = "own", "round.dat", "earth.npz"
+
+
+def write_orbit(path: str, eccentricity: float) -> None:
+    """A table in the manner of La2010: in the ecliptic, its perihelion going round."""
+    t = np.arange(-60.0, 61.0)
+    sines = {"k": np.cos(t / 15), "h": np.sin(t / 15), "q": 0 * t, "p": 0 * t}
+    rows = pd.DataFrame({"t": t, **{name: eccentricity * of for name, of in sines.items()}})
+    rows.to_csv(path, sep=" ", index=False)
+
+
+@pytest.fixture
+def orbits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with two tables of an orbit, and work in it."""
+    monkeypatch.chdir(tmp_path)
+    write_orbit(ROUND, 0.01)
+    own = shipped("earth")
+    assert own is not None
+    own.to_file(COPY)
+    return tmp_path
+
+
+def long_term(members: object = None, **keys: Any) -> Any:
+    """Twenty thousand years, with members."""
+    span = {"span": ("-20 kyr", "0 kyr"), "step": "10 kyr"}
+    return QUESTIONS["long-term"](members=members, **(span | keys))
+
+
+def assert_is_alone(many: xr.Dataset, place: int, alone: xr.Dataset) -> None:
+    """A member is the answer to the question with its words and numbers, to the bit."""
+    for name, of in alone.data_vars.items():
+        found = many[name]
+        found = found.isel(member=place) if "member" in found.dims else found
+        assert np.array_equal(found.values, of.values), name
+
+
+# --- orbits --------------------------------------------------------------------------------------
+
+
+def test_each_member_has_the_orbit_that_is_chosen(orbits: Path) -> None:
+    scene = orbits / "orbits.toml"
+    scene.write_text(
+        'compute = "long-term"\nspan = ["-20 kyr", "0 kyr"]\nstep = "10 kyr"\n'
+        f'[members]\nn = 8\norbit = {{ choice = ["{OWN}", "{ROUND}"] }}\n'
+    )
+    many = earthspin.run(scene)
+    chosen = many.orbit.values.tolist()
+    assert set(chosen) == {OWN, ROUND}
+    assert many.orbit.attrs == {"long_name": "orbit of the member", "input": "orbit"}
+    for place, orbit in enumerate(chosen):
+        assert_is_alone(many, place, earthspin.run(long_term(orbit=orbit)))
+    assert np.all(many.eccentricity.sel(member=many.orbit == ROUND).round(12) == 0.01)
+
+
+@pytest.mark.parametrize("given", ["names", "paths"])
+def test_orbits_and_numbers_make_a_grid(orbits: Path, given: str) -> None:
+    tables = [OWN, ROUND, COPY] if given == "names" else [OWN, Path(ROUND), Path(COPY)]
+    grid = {"orbit": {"grid": tables}, "tides": {"grid": [0.5, 1.0]}}
+    question = long_term(grid)
+    assert Ensemble(question).width > 1
+    many = earthspin.run(question)
+    assert many.orbit.values.tolist() == [OWN, ROUND, COPY] * 2
+    assert many.tides.values.tolist() == [0.5] * 3 + [1.0] * 3
+    for place in range(6):
+        keys = {"orbit": str(many.orbit.values[place]), "tides": float(many.tides[place])}
+        assert_is_alone(many, place, earthspin.run(long_term(**keys)))
+
+
+def mixed(n: int, **settings: Any) -> Any:
+    """Members of which each has one of three orbits, and tides of its own."""
+    drawn = {"orbit": {"choice": [OWN, ROUND, COPY]}, "tides": {"uniform": [0.9, 1.1]}}
+    return long_term({"n": n, **drawn, **settings}, span=("-2 kyr", "0 kyr"), step="1 kyr")
+
+
+def test_a_member_is_the_same_alone_and_in_any_block(orbits: Path) -> None:
+    many = earthspin.run(mixed(ROW + 6))
+    assert len(np.unique(many.orbit)) == 3
+    for number in (17, ROW + 2):
+        alone = earthspin.run(mixed(ROW + 6, only=[number]))
+        assert differ(alone, many.isel(member=[number])) == []
+    for block in (7, 45):
+        assert differ(earthspin.ensemble(mixed(ROW + 6), block=block), many) == []
+    again = earthspin.ensemble(mixed(1).replace(members=None), many.isel(member=[2, 3]))
+    assert differ(again.drop_vars("member"), many.isel(member=[2, 3]).drop_vars("member")) == []
+
+
+def test_more_orbits_than_are_kept_at_a_time(orbits: Path) -> None:
+    names = [f"{number}.dat" for number in range(KEPT + 2)]
+    for number, name in enumerate(names):
+        write_orbit(name, 0.01 + 0.001 * number)
+    grid = {"orbit": {"grid": names}, "tides": {"grid": [1.0, 1.0]}}
+    many = earthspin.run(long_term(grid, span=("-2 kyr", "0 kyr"), step="1 kyr"))
+    expected = 2 * [0.01 + 0.001 * number for number in range(KEPT + 2)]
+    np.testing.assert_allclose(many.eccentricity[:, 0], expected, rtol=1e-9, atol=0)
+
+
+def test_files_and_stores_keep_the_words(orbits: Path) -> None:
+    answer = earthspin.run(mixed(9))
+    assert earthspin.run(answer).identical(answer)
+    assert earthspin.open(earthspin.write(answer, "r.nc")).identical(answer)
+    stored = earthspin.ensemble(mixed(9), path="r.zarr", block=2)
+    assert stored.load().identical(answer)
+    assert earthspin.verify("r.zarr")
+    given = earthspin.ensemble(mixed(1).replace(members=None), answer)
+    assert earthspin.run(given).identical(given)
+
+
+@pytest.mark.slow
+def test_a_store_by_two_workers_is_the_same(orbits: Path) -> None:
+    question = mixed(30)
+    for orbit in (ROUND, COPY):  # workers have the same files, not the same folder
+        (orbits / orbit).rename(orbits / f"there-{orbit}")
+    chosen = [OWN, str(orbits / f"there-{ROUND}"), str(orbits / f"there-{COPY}")]
+    question = mixed(30, orbit={"choice": chosen})
+    earthspin.ensemble(question, path="plain.zarr", block=7)
+    earthspin.ensemble(question, path="two.zarr", block=7, client=2)
+    assert bytes_of(orbits / "plain.zarr") == bytes_of(orbits / "two.zarr")
+
+
+def test_what_differs_between_orbits_is_told_with_its_name(orbits: Path) -> None:
+    many = earthspin.run(long_term({"orbit": {"grid": [ROUND, COPY]}}))
+    sums = [hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in (ROUND, COPY)]
+    assert many.attrs["orbit_sha256"] == f"{ROUND}: {sums[0]}; {COPY}: {sums[1]}"
+    assert many.obliquity.attrs["orbit"].startswith(f"{ROUND}: {ROUND}, ECLIPJ2000; {COPY}: ")
+    assert many.obliquity.attrs["orbit_of"] == "earth"
+    for name in (ROUND, COPY):
+        assert f"{name}: Newton's method" not in many.pole_error.attrs["method"]
+    one = earthspin.run(long_term({"orbit": {"grid": [ROUND]}}))
+    assert one.attrs["orbit_sha256"] == sums[0]
+
+
+# --- what a store was made of --------------------------------------------------------------------
+
+
+def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
+    """By a complete store, by one that was begun, and when an answer is run again."""
+    complete, begun = Path("complete.zarr"), Path("begun.zarr.partial")
+    answer = earthspin.ensemble(mixed(9), path=complete, block=2)
+    before = bytes_of(complete)
+    begun.mkdir()
+    work = Ensemble(mixed(9), block=2)
+    told = dict(work.asked) | {"size": "9 along member by 2"}
+    (begun / "asked.json").write_text(json.dumps(told))
+    write_orbit(ROUND, 0.02)
+    with pytest.raises(OutputError, match="a store of something else stands there"):
+        earthspin.ensemble(mixed(9), path=complete, block=2)
+    assert bytes_of(complete) == before
+    with pytest.raises(OutputError, match=r"begun with another orbit sha256 of round\.dat"):
+        earthspin.ensemble(mixed(9), path="begun.zarr", block=2)
+    with pytest.warns(VersionWarning, match="orbit_sha256"):
+        earthspin.run(answer)
+
+
+@pytest.mark.parametrize("word", ["precession", "torque", "pole", "long-term", "rotation"])
+def test_stores_know_their_kernel(word: str) -> None:
+    """Whatever differs among the members: numbers of a body change what is read from it."""
+    path = open_ephemeris("de421").path
+    found = Ensemble(asked(word)).asked
+    assert found["ephemeris_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_answers_know_the_tables_that_they_were_read_from(orbits: Path) -> None:
+    text = earthspin.run(long_term(orbit=ROUND))
+    told = hashlib.sha256(Path(ROUND).read_bytes()).hexdigest()
+    assert text.attrs["orbit_sha256"] == told
+    table = earthspin.read_orbit(COPY)
+    from_table = earthspin.run(long_term(orbit=table))
+    assert from_table.attrs["orbit_sha256"] == table.sha256
+    assert earthspin.run(from_table).identical(from_table)
+    assert (
+        "orbit_sha256"
+        not in earthspin.run(
+            long_term(orbit=earthspin.read_orbit(pd.read_csv(ROUND, sep=" ")))
+        ).attrs
+    )
+    pole = earthspin.polar_motion(span=("2000-01-01", "2001-01-01"))
+    assert pole.attrs["table_sha256"] == hashlib.sha256(c04_path().read_bytes()).hexdigest()
+
+
+# --- other questions -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("word", "key", "words"),
+    [
+        ("precession", "source", ["jplephem", "skyfield"]),
+        ("torque", "equator", ["true", "mean"]),
+        ("wobble", "ocean", ["global", "real"]),
+        ("spheroid", "body", ["mars", "earth"]),
+        ("polar-motion", "method", ["burg", "likelihood"]),
+        ("polar-motion", "file", ["c04"]),
+        ("compliances", "interior", ["prem"]),
+    ],
+)
+def test_words_of_other_questions(word: str, key: str, words: list[str]) -> None:
+    question = asked(word).replace(members=None)
+    many = earthspin.ensemble(question, {key: {"grid": words}})
+    assert many[key].values.tolist() == words
+    for place, one in enumerate(words):
+        assert_is_alone(many, place, earthspin.run(question.replace(**{key: one})))
+
+
+def test_every_key_with_a_name_may_be_chosen() -> None:
+    named = {"body", "ephemeris", "source", "equator", "response", "coupling", "orbit", "ocean",
+             "file", "kind", "method", "interior"}  # fmt: skip
+    found = set()
+    for word in ASKED:
+        question = asked(word).replace(members=None)
+        for key in named & set(question.keys()):
+            try:
+                found |= {n for n, of in inputs_of(question, [key], question.where("m")).items()
+                          if of.named}  # fmt: skip
+            except SceneError:
+                assert word == "cassini-states"  # an orbit by its elements has no name
+    assert found == named - {"coupling"}  # that of the nutation, which takes ten seconds
+
+
+def test_words_that_do_not_go_with_the_question_are_left_out() -> None:
+    """The Moon does not pull on itself."""
+    question = QUESTIONS["precession"](perturbers=["sun", "moon"])
+    grid = {"body": {"grid": ["earth", "moon", "earth"]}}
+    with pytest.raises(SceneError, match=r"'1'.*of 3 these cannot be.*does not pull on itself"):
+        earthspin.ensemble(question, grid)
+    kept = earthspin.ensemble(question, grid, impossible="drop")
+    assert kept.member.values.tolist() == [0, 2]
+    assert kept.attrs["members_dropped"] == "1 that cannot exist: 1"
+
+
+def test_words_that_change_the_labels_are_refused() -> None:
+    with pytest.raises(SceneError, match="member 1 has other labels along 'perturber'"):
+        earthspin.ensemble("precession", {"body": {"grid": ["earth", "mars"]}})
+
+
+def test_parts_that_no_number_touches_run_once_for_all_of_the_same_words(
+    orbits: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked_for = []
+
+    def counted(self: Variants, words: tuple[str, ...]) -> Any:
+        asked_for.append(words)
+        return question(self, words)
+
+    question = Variants.question
+    monkeypatch.setattr(Variants, "question", counted)
+    work = Ensemble(long_term({"n": 20, "orbit": {"choice": [OWN, ROUND]}}))
+    assert {*asked_for} == {(OWN,), (ROUND,)}
+    assert len(asked_for) == 2  # once for each, to see whether they can be
+    first = work.variants[(OWN,)]
+    assert work.variants[(OWN,)] is first
+    assert {"orbit_table", "series"} <= set(first.still)
+
+
+# --- what they tell ------------------------------------------------------------------------------
+
+
+def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
+    """The variance between the means of classes over the whole."""
+    many = earthspin.run(mixed(40))
+    told = many.earthspin.sensitivity()
+    assert told.input.values.tolist() == ["tides", "orbit"]
+    y, orbit = many.obliquity.isel(epoch=0).values, many.orbit.values
+    between = sum((orbit == o).mean() * (y[orbit == o].mean() - y.mean()) ** 2 for o in {*orbit})
+    share = float(told.obliquity_share.isel(epoch=0).sel(input="orbit"))
+    # tides are drawn, and lean a little on the orbits: they have 1e-9 of the variance (measured)
+    assert share == pytest.approx(between / y.var(), rel=0, abs=1e-6)
+    assert np.isnan(told.obliquity_slope.sel(input="orbit")).all()
+    assert np.isfinite(told.obliquity_slope.sel(input="tides")).all()
+    assert told.obliquity_slope.attrs["no_slope"] == "of words there is none"
+    middle = many.earthspin.quantiles([0.5])
+    np.testing.assert_allclose(
+        middle.obliquity[0], many.obliquity.median("member"), rtol=1e-15, atol=0
+    )
+
+
+def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
+    three = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND, COPY]}}))
+    with pytest.raises(SceneError, match="1 inputs take at least 4 members"):
+        three.earthspin.sensitivity()
+    from earthspin.views.ensemble import lead, tables
+
+    assert len(tables(three)) == 1
+    two = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND]}, "tides": {"grid": [0, 1]}}))
+    assert len(tables(two)) == 2
+    assert "comes from" in lead(two)
+
+
+# --- what cannot be ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("members", "words"),
+    [
+        ({"n": 3, "orbit": {"normal": [OWN, ROUND]}}, "normal is of numbers; .* give choice or"),
+        ({"n": 3, "orbit": {"uniform": [OWN, ROUND]}}, "uniform is of numbers; .* give choice or"),
+        ({"n": 3, "orbit": {"choice": []}}, "one value or more"),
+        ({"n": 3, "orbit": {"choice": [OWN, 3]}}, 'members.orbit = 3: it is "own"'),
+        ({"n": 3, "orbit": {"choice": [OWN, " "]}}, "the path of a table"),
+        ({"n": 3, "orbit": {"choice": [OWN, "nowhere.dat"]}}, "'nowhere.dat': it cannot be read"),
+        ({"n": 3, "orbit": OWN}, "a table like normal"),
+        ({"n": 3, "source": {"choice": ["skyfeld"]}}, "did you mean 'skyfield'"),
+        ({"n": 3, "body": {"grid": ["mrs"]}}, "did you mean 'mars'"),
+        (
+            {"n": 4, "body": {"grid": ["earth"]}, "body.j2": {"choice": [1e-3]}},
+            "body.j2 = 'a number': members differ in 'body' itself",
+        ),
+        ({"n": 3, "perturbers": {"choice": ["sun"]}}, "allowed: accuracy, body"),
+        ({"n": 3, "title": {"choice": ["a"]}}, "allowed|did you mean"),
+        (xr.Dataset({"orbit": ("member", np.array([OWN, None]))}), "'member 1'.*a word for each"),
+        (xr.Dataset({"orbit": ("member", np.array([OWN, np.nan], "O"))}), "'member 1'"),
+        (xr.Dataset({"orbit": ("member", [OWN, ""])}), "orbit = ''"),
+        (xr.Dataset({"orbit": ("member", [1.0, 2.0])}), 'orbit = 1.0: it is "own"'),
+        (xr.Dataset({"tides": ("member", [OWN, ROUND])}), "tides = 'own': give finite numbers"),
+        (xr.Dataset({"orbit": (("member", "x"), [[OWN, ROUND]])}), "one word for each member"),
+        ({"values": {"orbit": [OWN, 3]}}, "'member 1'"),
+    ],
+)
+def test_bad_words_are_refused_in_one_line(orbits: Path, members: object, words: str) -> None:
+    with pytest.raises(EarthspinError, match=words) as error:
+        earthspin.ensemble(long_term(), members)
+    assert "\n" not in str(error.value)
+
+
+def test_a_table_that_is_no_text_is_refused(orbits: Path) -> None:
+    table = earthspin.read_orbit(ROUND)
+    with pytest.raises(SceneError, match="'OrbitTable': members are labelled by text") as error:
+        earthspin.ensemble(long_term(), {"orbit": {"grid": [OWN, table]}})
+    assert "\n" not in str(error.value)
+
+
+def test_files_of_members_with_words(orbits: Path) -> None:
+    Path("m.csv").write_text(f"member, orbit, tides\n0, {OWN}, 1\n1, {ROUND}, 0.9\n")
+    by_table = earthspin.ensemble(long_term(), "m.csv")
+    given = xr.Dataset({"orbit": ("member", [OWN, ROUND]), "tides": ("member", [1.0, 0.9])})
+    given.to_netcdf("m.nc")
+    assert differ(by_table, earthspin.ensemble(long_term(), "m.nc")) == []
+    assert by_table.orbit.values.tolist() == [OWN, ROUND]
+    Path("gap.csv").write_text(f"orbit,tides\n{OWN},1\n,0.9\n")
+    with pytest.raises(SceneError, match=r"'member 1'.*a word for each member"):
+        earthspin.ensemble(long_term(), "gap.csv")
+
+
+def test_labels_of_numbers_have_units_and_those_of_words_none() -> None:
+    question = Scene(compute="wobble")
+    grid = {"ocean": {"grid": ["real", "global"]}, "body.radius": {"grid": ["6378 km"]}}
+    answer = earthspin.ensemble(question, grid)
+    assert "units" not in answer.ocean.attrs
+    assert answer.body_radius.attrs["units"] == "m"
+    assert load_scene(answer).members.distributions["ocean"].numbers == ("real", "global")
