@@ -13,7 +13,7 @@ from scipy.special import ndtri
 from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.members import MEMBER
+from earthspin.engine.given import MEMBER
 from earthspin.engine.question import Question
 from earthspin.many import ensemble, quantiles, sensitivity
 from earthspin.numerics import sampling
