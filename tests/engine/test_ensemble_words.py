@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -183,6 +184,28 @@ def test_stores_know_their_kernel(word: str) -> None:
     path = open_ephemeris("de421").path
     found = Ensemble(asked(word)).asked
     assert found["ephemeris_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_a_kernel_that_changed_is_noticed(orbits: Path) -> None:
+    """Alone and among others, though the numbers of a body are all that members differ in."""
+    mine = Path(shutil.copy(open_ephemeris("de421").path, "mine.bsp"))
+    inputs = {"n": 3, "body.j2": {"normal": [earthspin.EARTH.j2, 1e-10]}}
+    alone = QUESTIONS["precession"](ephemeris=mine, members=inputs)
+    both = {**inputs, "n": 4, "ephemeris": {"grid": ["de421", "mine.bsp"]}}
+    among = QUESTIONS["precession"](members=both)
+    many = earthspin.run(among)
+    assert_is_alone(
+        many, 1, earthspin.run(among.replace(members={**both, "only": [1]})).isel(member=0)
+    )
+    assert ";" not in many.attrs["ephemeris_sha256"]
+    assert many.attrs["ephemeris"] == "de421: de421; mine.bsp: mine.bsp"
+    before = [Ensemble(question).asked for question in (alone, among)]
+    with mine.open("r+b") as file:
+        file.seek(16)  # the name that a DAF file gives itself
+        file.write(b"another")
+    after = [Ensemble(question).asked for question in (alone, among)]
+    for old, new, where in zip(before, after, ("", " of mine.bsp"), strict=True):
+        assert [name for name in old if old[name] != new[name]] == [f"ephemeris_sha256{where}"]
 
 
 def test_answers_know_the_tables_that_they_were_read_from(orbits: Path) -> None:
