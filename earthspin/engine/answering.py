@@ -64,7 +64,7 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
         work = Ensemble(question)
         nodes = {"/": work.hold(), "plan": work.plan_data()}
         if named:
-            beside = running.run_tree(question.replace(members=None), NEGLECTED)
+            beside = running.run_tree(work.variants.question(work.words(0)), NEGLECTED)
             nodes[NEGLECTED] = beside[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
     tree = running.run_tree(question, sections)

@@ -94,7 +94,7 @@ def _checked(values: NDArray[Any], where: Where) -> NDArray[Any]:
 
 def _words(values: NDArray[Any], where: Where) -> NDArray[Any]:
     """Words along `member`, all of one width, as a store keeps them."""
-    if values.ndim != 1:
+    if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one word for each member")
     for place, one in enumerate(values):
         if not isinstance(one, str):

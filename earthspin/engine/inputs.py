@@ -76,7 +76,7 @@ class Input:
             If they are not, or one of the names is none that the key takes.
         """
         if self.named:
-            texts(dict.fromkeys(values.tolist()), self.kind, where)
+            texts(np.unique(values).tolist(), self.kind, where)
         elif values.dtype.kind == "U":
             raise where.error(str(values[0]), "give finite numbers")
         return values

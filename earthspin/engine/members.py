@@ -92,7 +92,7 @@ def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
         If the input does not take one, or it is told by more than text.
     """
     found = tuple(several)
-    for one in dict.fromkeys(found):
+    for one in found:
         kind.read(one, where)
         if not isinstance(one, str):
             words = "members are labelled by text: give a name, or the path of a file it is in"
@@ -235,6 +235,9 @@ class Members:
         impossible = settings.get("impossible", "refuse")
         if impossible not in ("refuse", "drop"):
             raise where.at("impossible").error(impossible, nearest(impossible, ["refuse", "drop"]))
+        values = settings.get("values", {})
+        if not isinstance(values, Mapping):
+            raise where.at("values").error(values, "give a table of inputs, each with its values")
         n = settings.get("n")
         return cls(
             n=None if n is None else _whole(n, where.at("n"), 1),
@@ -244,10 +247,7 @@ class Members:
             only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
-            values={
-                name: from_scene(of, where.at(name))
-                for name, of in settings.get("values", {}).items()
-            },
+            values={name: from_scene(of, where.at(name)) for name, of in values.items()},
         )
 
     def write(self) -> dict[str, Any]:

@@ -361,6 +361,10 @@ def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
         (xr.Dataset({"tides": ("member", [OWN, ROUND])}), "tides = 'own': give finite numbers"),
         (xr.Dataset({"orbit": (("member", "x"), [[OWN, ROUND]])}), "one word for each member"),
         ({"values": {"orbit": [OWN, 3]}}, "'member 1'"),
+        ({"values": {"orbit": []}}, "one word for each member"),
+        ({"values": {"orbit": OWN}}, "one word for each member"),
+        ({"values": [OWN]}, "a table of inputs"),
+        ({"n": 3, "orbit": {"choice": [[OWN], {}]}}, "the path of a table"),
     ],
 )
 def test_bad_words_are_refused_in_one_line(orbits: Path, members: object, words: str) -> None:
@@ -395,3 +399,14 @@ def test_labels_of_numbers_have_units_and_those_of_words_none() -> None:
     assert "units" not in answer.ocean.attrs
     assert answer.body_radius.attrs["units"] == "m"
     assert load_scene(answer).members.distributions["ocean"].numbers == ("real", "global")
+
+
+def test_a_body_whose_orbit_is_not_shipped_has_those_of_its_members(orbits: Path) -> None:
+    """The question by itself has no answer; that of each member has one."""
+    write_orbit("wide.dat", 0.02)
+    saturn = long_term({"orbit": {"grid": [ROUND, "wide.dat"]}}, body="saturn", perturbers=["sun"])
+    with pytest.raises(EarthspinError, match="no orbit over millions of years is shipped"):
+        earthspin.run(saturn.replace(members=None))
+    tree = earthspin.run_tree(saturn)
+    np.testing.assert_allclose(tree.eccentricity[:, 0], [0.01, 0.02], rtol=1e-9, atol=0)
+    assert "neglected" in tree.children
