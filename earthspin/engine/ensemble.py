@@ -154,11 +154,13 @@ class Ensemble:
     @cached_property
     def width(self) -> int:
         """How many members are computed side by side; 1 if one by one."""
+        rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
+        if not self.numbers:
+            return rows * ROW or 1  # nothing is computed but the answer to each of their words
         together = self.question.graph.together
         fit = all(one.key in together and one.labelled for one in self.numbers.values())
-        if not (self.numbers and fit) or getattr(self.question, "accuracy", None) is not None:
+        if not fit or getattr(self.question, "accuracy", None) is not None:
             return 1  # what is chosen for an accuracy is chosen for each alone
-        rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
         return min(rows * ROW, self.question.graph.widest) or 1
 
     @cached_property
