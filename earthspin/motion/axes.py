@@ -393,8 +393,10 @@ def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _S
 
 
 def _left(change: float, previous: float) -> float:
-    """What further rounds would move the axis by, each gaining as much as the last one did, rad."""
-    return change * min(1.0, change / previous) if 0 < previous < np.inf else change
+    """What all further rounds would move the axis by, each gaining as much as the last one, rad."""
+    if not change < previous < np.inf:
+        return change
+    return change * min(1.0, change / (previous - change))
 
 
 def _chain(
