@@ -456,7 +456,7 @@ made_of(
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),
     ),
-    widest=256,
+    widest=64,
 )  # fmt: skip
 
 long_term = ask(LongTerm)
