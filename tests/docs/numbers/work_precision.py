@@ -165,6 +165,19 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
+        "are {} to {} times slower than\nwindows of {} d with {} nodes",
+        lambda: [
+            *(
+                slower_than("pole", method, ("Picard, 8 d", "20 nodes"), "DOP853")
+                for method in ("momentum and figure axis", "whole attitude")
+            ),
+            8,
+            20,
+        ],
+        factor=RUN_TIMES,
+    ),
+    Sentence(
+        PAGE,
         "comes\nwithin ${}$ some {} times faster, and does not say so",
         lambda: [
             row("rotation", "solve_ivp LSODA (other)", "rtol 1e-13").error,
