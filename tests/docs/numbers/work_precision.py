@@ -271,6 +271,13 @@ MEASURED = [
         millionth_of_the_answers,
         slow=True,
     ),
+    Sentence(
+        PAGE,
+        "leaves {}″ at a relative $10^{-9}$ and {}″ at $10^{-10}$",
+        lambda: [
+            row("long-term", "DOP853 on a lean one (other)", f"rtol 1e-{k}").error for k in (9, 10)
+        ],
+    ),
 ]
 #: Measured once, where the ladder was made.
 IN_LADDERS = "earthspin/checks/ladders: what steps or points in between change"
@@ -281,5 +288,12 @@ TOLD: list[Told | Column | Part] = [
     Told(PAGE, "halving those changes it by ${}$ rad", IN_LADDERS),
     Told(
         PAGE, "halving its steps changes it by\n${}$.", "printed by python -m data_tools references"
+    ),
+    Told(PAGE, "at a relative ${}$ and", "given: a tolerance"),
+    Told(PAGE, "″ at ${}$. Begun anew", "given: a tolerance"),
+    Told(
+        PAGE,
+        "it\nkeeps {}″ in {} ms, {} times as long as twelve nodes",
+        "run times: python tests/benchmarks/long_term.py",
     ),
 ]
