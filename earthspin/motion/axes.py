@@ -1,17 +1,12 @@
-r"""Angular-momentum, rotation and figure axes in time: Picard iteration on Gauss windows.
+r"""Angular-momentum, rotation and figure axes in time, segment by segment.
 
 In units of C Omega, with the figure axis F of an axisymmetric body,
 
     l' = N(F, t)/(C Omega),     F = l - \tau F x F',     \omega/\Omega = F + F x F'/\Omega
 
-The axis moves by arcseconds while the sky goes round, so that the torque hardly depends
-on it: from a guess of F at the nodes of all windows, integrate the torque through each
-window with the spectral integration matrix, chain the windows by a cumulative sum, take F
-on the slow manifold (`earthspin.motion.figure`), and repeat. Each round gains two to three
-digits (Clenshaw & Norton 1963, on Chebyshev nodes), by which the rounds end when the next
-would move the axis by less than rounding. Long spans are cut into segments in which the axis
-turns little, so that time and memory grow linearly with the span; the mean rate of a segment
-leads the guess of the next.
+Spans are cut into segments in which the axis turns little, each of which is solved at once
+(`earthspin.motion.segment`), so that time and memory grow linearly with the span; the mean rate of
+a segment leads the guess of the next.
 """
 
 from __future__ import annotations
@@ -22,12 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, DAY, NORMAL_95
-from earthspin.errors import UndefinedError
-from earthspin.motion.figure import tilt_of_figure
+from earthspin.constants import DAY, NORMAL_95
 from earthspin.motion.forces import Forces
-from earthspin.motion.triaxial import equatorial_basis, semidiurnal_amplitudes
-from earthspin.numerics.gauss_windows import Windows, integrated
+from earthspin.motion.segment import Segment, Start, signs, solve
+from earthspin.motion.triaxial import equatorial_basis
+from earthspin.numerics.gauss_windows import Windows
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -41,14 +35,6 @@ ORDER = 14
 #: the axis turns by so much at most (rad), that the iteration converges fast.
 SEGMENT_WINDOWS = 512
 SEGMENT_TURN = 0.2
-#: Terms of the slow manifold that do not fall below this are refused, rad.
-LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
-
-_ROUND_OFF = 1e-15  # rad
-#: A round that moves the axis by more than this has run away: the next ones would overflow, rad.
-_RUNAWAY = 1e3
-#: Rounds on the slow manifold: a few while the path is but roughly known, then all that help.
-_ROUGH, _FEW, _ALL = 2, 2, 9
 
 
 @dataclass(frozen=True)
@@ -106,7 +92,7 @@ class AxisPath:
 
     def at_starts(self) -> FloatArray:
         """Unit vectors of the angular momentum where each window begins, shape (w, 3)."""
-        found = (self.momentum @ _signs(self.momentum.shape[-1])).T
+        found = (self.momentum @ signs(self.momentum.shape[-1])).T
         return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
 
     def at(self, times: FloatArray, *, semidiurnal: bool = True) -> dict[str, FloatArray]:
@@ -185,16 +171,16 @@ def axis_path(
         If the body spins too slowly for its axis to stay near the angular momentum.
     """
     figure = forces.figure
-    done: list[_Segment] = []
+    done: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
-        here = _Start(start_axis, np.zeros(3), is_figure=True)
+        here = Start(start_axis, np.zeros(3), is_figure=True)
         first = 0
         while first < len(edges) - 1:
             count = _segment_length(done, len(edges) - 1 - first, window)
             part = edges[first : first + count + 1]
-            segment = _solve(forces, Windows(np.sort(part), order), here, forward)
+            segment = solve(forces, Windows(np.sort(part), order), here, forward)
             done.append(segment)
-            here = _Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
+            here = Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
             first += count
             if advance is not None:
                 advance(count)
@@ -264,58 +250,6 @@ def _swept(path: AxisPath, figure: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.norm(figure - path.at(epoch)["figure"], axis=1))
 
 
-@dataclass(frozen=True)
-class _Start:
-    """What a segment begins with: the figure axis at the epoch, or the angular momentum.
-
-    The mean rate of the last segment leads ten times nearer to the path than no rate does.
-    """
-
-    axis: FloatArray
-    rate: FloatArray
-    is_figure: bool
-
-    def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start, given how it is tilted from the figure axis."""
-        return self.axis + tilt if self.is_figure else self.axis
-
-    def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """Guess of the axis at the nodes of a segment, shape (3, w, n)."""
-        since = windows.times - windows.edges[0 if forward else -1]
-        return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
-
-
-@dataclass(frozen=True)
-class _Segment:
-    """A stretch that has been solved; series as in `AxisPath`."""
-
-    windows: Windows
-    momentum: FloatArray
-    tilt: FloatArray
-    fast: ComplexArray | None
-    turn: float
-    tail: float
-    floor: float
-    left: float
-    rounds: int
-
-    def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum where the next segment joins."""
-        if forward:
-            return np.asarray(self.momentum[:, -1].sum(axis=-1))
-        return np.asarray(self.momentum[:, 0] @ _signs(self.momentum.shape[-1]))
-
-    def mean_rate(self) -> FloatArray:
-        """Mean rate of the angular momentum, s-1."""
-        moved = self.momentum_at_end(True) - self.momentum_at_end(False)
-        return np.asarray(moved / (self.windows.edges[-1] - self.windows.edges[0]))
-
-
-def _signs(terms: int) -> FloatArray:
-    """Legendre polynomials at -1, where a window begins."""
-    return np.asarray((-1.0) ** np.arange(terms))
-
-
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
@@ -342,7 +276,7 @@ def _one_window(
     return np.array([epoch, max(epoch - window, limits[0])]), False
 
 
-def _segment_length(done: list[_Segment], left: int, window: float) -> int:
+def _segment_length(done: list[Segment], left: int, window: float) -> int:
     """How many windows to take next: few at first, to learn how fast the axis turns."""
     if not done:
         return min(left, 32)
@@ -352,118 +286,10 @@ def _segment_length(done: list[_Segment], left: int, window: float) -> int:
     return max(1, min(left, allowed, SEGMENT_WINDOWS))
 
 
-def _solve(forces: Forces, windows: Windows, start: _Start, forward: bool) -> _Segment:
-    """Picard iteration on one segment."""
-    law, tensor = forces.over(windows)
-    tau = forces.figure.tau
-    axis = momentum = start.guess(windows, forward)
-    tilt = np.zeros_like(axis)
-    change = left = np.inf
-    rounds = 0
-    while left > _ROUND_OFF or rounds <= _ROUGH:
-        rounds += 1
-        rate = law(axis, momentum)
-        begin = start.momentum_with(_at_edge(windows, tilt, forward))
-        starts, momentum = _chain(windows, rate, begin, forward)
-        tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds <= _ROUGH else _ALL)
-        moved = momentum - tilt
-        previous, change = change, float(np.max(np.abs(moved - axis)))
-        axis, left = moved, _left(change, previous)
-        if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
-            break  # at the floor of rounding, or not converging: decided below
-    if not left < 1e-13:
-        raise UndefinedError(
-            f"the axis turns too fast for the iteration: after {rounds} rounds it still moves by "
-            f"{change:.1g} rad; choose a slower precession or a shorter window"
-        )
-    _refuse_slow_spin(terms[-1], forces.figure.spin_rate)
-    series = windows.coefficients(rate)
-    fast = _fast(forces, windows, tensor, axis, tilt)
-    return _Segment(
-        windows=windows,
-        momentum=integrated(series, windows.half, starts),
-        tilt=windows.coefficients(tilt),
-        fast=fast,
-        turn=float(np.max(np.abs(rate)) * (windows.edges[-1] - windows.edges[0])),
-        tail=_tail(series, windows),
-        floor=terms[-1] + _fast_tail(fast),
-        left=left,
-        rounds=rounds,
-    )
-
-
-def _left(change: float, previous: float) -> float:
-    """What all further rounds would move the axis by, each gaining as much as the last one, rad."""
-    if not change < previous < np.inf:
-        return change
-    return change * min(1.0, change / (previous - change))
-
-
-def _chain(
-    windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
-) -> tuple[FloatArray, FloatArray]:
-    """Integrate a rate through all windows: value at each window's start, and at the nodes."""
-    to_nodes, whole = windows.integral(rate)
-    if forward:
-        starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
-    else:
-        starts = begin[:, None] - np.cumsum(whole[:, ::-1], axis=1)[:, ::-1]
-    return starts, starts[..., None] + to_nodes
-
-
-def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Value where the segment begins, shape (3,)."""
-    series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
-    return np.asarray(series @ _signs(series.shape[-1]) if forward else series.sum(axis=-1))
-
-
-def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
-    if last_term > LARGEST_MANIFOLD_ERROR:
-        days = 2 * np.pi / abs(spin_rate) / DAY
-        raise UndefinedError(
-            f"a spin of {days:.3g} d is too slow for the figure axis to follow the angular "
-            f"momentum (slow manifold off by {last_term / ARCSEC * 1e3:.2g} mas, allowed "
-            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); ask for the whole attitude instead: "
-            f"earthspin.rotation, or compute = 'rotation'"
-        )
-
-
-def _fast(
-    forces: Forces, windows: Windows, tensor: FloatArray, axis: FloatArray, tilt: FloatArray
-) -> ComplexArray | None:
-    figure = forces.figure
-    if figure.triaxiality == 0:
-        return None
-    amplitudes = semidiurnal_amplitudes(
-        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.tau
-    )
-    return np.asarray(windows.coefficients(amplitudes))
-
-
-def _fast_tail(fast: ComplexArray | None) -> float:
-    """What the last quarter of the Legendre terms of the semidiurnal amplitudes comes to, rad.
-
-    Two terms of fourteen are too few: at a spin of 1.9 d they came to half the error measured.
-    """
-    if fast is None:
-        return 0.0
-    last = max(1, fast.shape[-1] // 4)
-    return float(np.max(np.sum(np.abs(fast[..., -last:]), axis=-1)))
-
-
-def _tail(series: FloatArray, windows: Windows) -> float:
-    """What the last two Legendre terms of the rate displace the axis by inside a window, rad.
-
-    Over whole windows the error is far smaller: Gauss's rule is exact to twice the degree.
-    """
-    last = np.max(np.abs(series[..., -2:]), axis=(0, 2))
-    return float(np.max(last * windows.half[:, 0]) / (2 * windows.order))
-
-
 def _joined(pieces: list[ComplexArray]) -> ComplexArray | None:
     return np.concatenate(pieces, axis=1) if pieces else None
 
 
-def _rounding(segments: list[_Segment]) -> float:
+def _rounding(segments: list[Segment]) -> float:
     """What rounding adds, rad: it grows with the number of windows as a random walk does."""
     return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

@@ -103,7 +103,7 @@ def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(forces_module, "zonal_law", never)
     monkeypatch.setattr("earthspin.motion.effects.geodesic.geodesic_rate", never)
-    monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
+    monkeypatch.setattr("earthspin.motion.segment.semidiurnal_amplitudes", never)
     axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
     zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
     with pytest.raises(AssertionError):

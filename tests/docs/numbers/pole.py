@@ -11,8 +11,9 @@ import pytest
 import earthspin
 from earthspin import EARTH
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
-from earthspin.motion.axes import LARGEST_MANIFOLD_ERROR, ORDER, WINDOW
+from earthspin.motion.axes import ORDER, WINDOW
 from earthspin.motion.effects import RIGID
+from earthspin.motion.segment import LARGEST_MANIFOLD_ERROR
 from earthspin.sky.ephemeris import open_ephemeris
 from tests.benchmarks.pole import Thirty
 from tests.docs.numbers.answers import (
