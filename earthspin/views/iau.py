@@ -173,7 +173,7 @@ def core(tree: Result) -> Table:
             ),
             (
                 "quality factor",
-                f"{float(of.core_nutation_quality):.0f}",
+                f"{float(of.core_nutation_quality):,.0f}",
                 f"{CORE_NUTATION_QUALITY.value:,.0f}",
             ),
             *(
