@@ -22,8 +22,6 @@ from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-#: One for all axes, or one each.
-Share = float | FloatArray
 
 #: Sweeps that solve the linear equations of windows, and the size at which they will not.
 MOST_SWEEPS, DIVERGED = 40, 1e6
@@ -121,7 +119,7 @@ def moved(
 
 
 def step(
-    windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: Share = 1e-3
+    windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """One step of Newton's method: new values at the nodes, and the largest change of each axis.
 
@@ -138,7 +136,7 @@ def step(
         Longitude and height.
     state : ndarray, shape (2, ...)
         At the start of the first window.
-    left : float or ndarray, shape (...)
+    left : ndarray, shape (...)
         Share of the change that may be left to the next step.
 
     Returns
@@ -159,7 +157,7 @@ def step(
 
 
 def _linear(
-    windows: Windows, at: Slope, sides: FloatArray, left: Share
+    windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Solve d = c + S J d in every window for several c at once, shape (2, k, ..., w, n).
 

@@ -4,10 +4,10 @@ Mars from many starts
 
 The obliquity of Mars swings by tens of degrees, because its axis precesses nearly as slowly as its
 orbit turns. Forty members of one ensemble start within a degree of where the axis is today, and are
-followed side by side on one orbit. For five million years into the past they stay within a few
-degrees of one another; then the axis crosses a resonance with the orbit, some starts are caught
-by it, and what two degrees were become twenty. The motion is chaotic, even on an orbit that is
-given (Laskar & Robutel 1993): no error bar that grows evenly would tell it.
+followed side by side on one orbit. For five million years into the past they swing together, half
+of the time within four degrees of one another and never more than thirteen; then they part into two
+bands, and what two degrees were becomes more than thirty. The motion is chaotic, even on an orbit
+that is given (Laskar & Robutel 1993): no error bar that grows evenly would tell it.
 
 *Next:* starts that are turned about the normal of the orbit, ``longitude_shift``.
 """
