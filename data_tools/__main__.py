@@ -9,6 +9,7 @@ from data_tools import (
     accuracy_pages,
     cf,
     core_resonance,
+    coverage,
     error_models,
     free_wobble,
     hashes,
@@ -36,6 +37,10 @@ VERBS = {
         accuracy_pages.main,
         "measure error against run time, for docs/work_precision.md",
     ),
+    "coverage": (
+        coverage.main,
+        "measure how often claimed errors contain independent results, for docs/coverage.md",
+    ),
     "free-wobble": (
         free_wobble.main,
         "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
@@ -54,7 +59,11 @@ VERBS = {
 #: Verbs that compare with a kernel.
 WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
 #: Verbs that do several things, of which some may be named.
-OF_SEVERAL = {"accuracy-pages": tuple(QUANTITIES), "references": tuple(references.MAKERS)}
+OF_SEVERAL = {
+    "accuracy-pages": tuple(QUANTITIES),
+    "references": tuple(references.MAKERS),
+    "coverage": coverage.TOPICS,
+}
 
 
 def main(words: list[str] | None = None) -> int:

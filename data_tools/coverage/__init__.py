@@ -1,0 +1,72 @@
+"""Coverage of the claimed errors: the share of independent counterparts inside the half-widths.
+
+Each module of this package measures one topic: its function `rows` compares what public calls
+return, as returned, with independent counterparts. `python -m data_tools coverage` writes one table
+for each topic, for docs/coverage.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+#: Topics, each a module of this package.
+TOPICS: tuple[str, ...] = ()
+FOLDER = Path(__file__).parents[2] / "docs" / "measured"
+HEAD = """| quantity | span or case | compared with | largest ratio | inside | cases |
+|---|---|---|---:|---:|---:|
+"""
+
+
+@dataclass(frozen=True)
+class Row:
+    """Coverage of one quantity over one span.
+
+    Attributes
+    ----------
+    quantity, span, counterpart : str
+        What is compared, over which span or in which case, and with what.
+    ratio : float
+        Largest difference over claimed half-width.
+    inside : float
+        Share of cases with a difference of at most the claimed half-width.
+    count : int
+        Number of cases.
+    """
+
+    quantity: str
+    span: str
+    counterpart: str
+    ratio: float
+    inside: float
+    count: int
+
+    def line(self) -> str:
+        """Return the row as a line of a Markdown table."""
+        columns = (
+            self.quantity,
+            self.span,
+            self.counterpart,
+            f"{self.ratio:.2g}",
+            f"{100 * self.inside:.0f} %",
+            f"{self.count}",
+        )
+        return f"| {' | '.join(columns)} |\n"
+
+
+def table(rows: Iterable[Row]) -> str:
+    """Return the table of a topic in Markdown."""
+    return HEAD + "".join(row.line() for row in rows)
+
+
+def main(given: argparse.Namespace) -> int:
+    """Measure all topics, or the one that was named, and write their tables."""
+    for topic in (given.only,) if given.only else TOPICS:
+        rows = importlib.import_module(f"data_tools.coverage.{topic}").rows()
+        path = FOLDER / f"coverage-{topic.replace('_', '-')}.inc"
+        path.write_text(table(rows), encoding="utf-8")
+        print(f"wrote {path.name}")
+    return 0
