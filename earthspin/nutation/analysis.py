@@ -83,9 +83,9 @@ class PoleAnalysis:
 
 
 def shifted_start(
-    start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray
+    start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
-    """Axis to start with so that the slow part of our pole meets another's at J2000.0.
+    """Axis to start with so that the slow part of our pole meets another's at the start.
 
     Parameters
     ----------
@@ -93,8 +93,11 @@ def shifted_start(
         Axis that was started with.
     ours, wanted : Secular
     ecliptic : ndarray, shape (3, 3)
+    epoch : float
+        Time of the start, Julian centuries from J2000.0.
     """
     psi, omega = on_fixed_ecliptic(start[np.newaxis], ecliptic)[0]
-    psi += wanted.psi[0] - ours.psi[0]
-    omega += wanted.omega[0] - ours.omega[0]
-    return np.asarray(pole_from(np.atleast_1d(psi), np.atleast_1d(omega))[0] @ ecliptic)
+    our_psi, our_omega = ours.at(np.array([epoch]))
+    wanted_psi, wanted_omega = wanted.at(np.array([epoch]))
+    pole = pole_from(psi + wanted_psi - our_psi, omega + wanted_omega - our_omega)
+    return np.asarray(pole[0] @ ecliptic)

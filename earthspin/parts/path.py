@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import DAY
+from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.motion.effects import GEODESIC, NONRIGID
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 #: Half of the stretch about J2000.0 that is analysed, as far as the kernel has it: four turns of
 #: the node each way, in which slow changes are a short polynomial.
 HALF_SPAN = 27200.0  # d
+#: Shortest stretch that is analysed. Paths with the fitted response depart from IAU 2006/2000A by
+#: 0.7 mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
+SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 
 #: Times at which errors are looked at at once.
@@ -46,15 +50,18 @@ def axis_path(
     effects: tuple[str, ...],
     accuracy: float | None,
     chosen_windows: list[Choice[PoleWindows]] | None = None,
+    interior_shift: Shift | None = None,
 ) -> AxisPath:
     """The axes from J2000.0 to the times wanted: Picard iteration on Gauss windows.
 
-    The windows that were chosen are taken if they will do, the finest otherwise.
+    The windows that were chosen are taken if they will do, the finest otherwise. With the response
+    of the interior the rigid axes start where their mean pole meets that of the IAU.
     """
+    start = None if interior_shift is None else interior_shift.start
     tried: list[AxisPath] = []
     for choice in (*(chosen_windows or ()), None):
         try:
-            path = _follow(body, pulls, effects, epochs, choice)
+            path = _follow(body, pulls, effects, epochs, choice, start)
         except UndefinedError:
             if choice is None and not tried:
                 raise
@@ -73,34 +80,48 @@ class Errors:
 
     Attributes
     ----------
-    method, given, kernel : ndarray, shape (t,)
-        From the integration, from the uncertainty of H, from the positions of the bodies.
+    method, given, kernel, response : ndarray, shape (t,)
+        From the integration, from the uncertainty of H, from the positions of the bodies, from the
+        response of the interior (0 for a rigid body).
     """
 
     method: FloatArray
     given: FloatArray
     kernel: FloatArray
+    response: FloatArray
 
     @property
     def total(self) -> FloatArray:
-        """All three together."""
-        return np.asarray(np.sqrt(self.method**2 + self.given**2 + self.kernel**2))
+        """Root sum of squares of all shares."""
+        return np.asarray(
+            np.sqrt(self.method**2 + self.given**2 + self.kernel**2 + self.response**2)
+        )
 
 
 def errors_of(
-    path: AxisPath, figure: FloatArray, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
+    path: AxisPath,
+    days: FloatArray,
+    figure: FloatArray,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    pulls: Pulls,
+    shift: Shift | None,
 ) -> Errors:
     """Errors of some directions of a series.
 
     Parameters
     ----------
     path : AxisPath
+    days : ndarray, shape (t,)
+        Some of the times, from J2000.0.
     figure : ndarray, shape (t, 3)
-        Figure axis at some of the times.
+        Figure axis at these times.
     epochs : TimeGrid or TimeList
         All times of the series: how well the sky is known depends on the farthest.
     body : Body
     pulls : Pulls
+    shift : Shift or None
+        Response of the interior, if it is switched on.
     """
     from earthspin.motion.axes import error_of_input
 
@@ -109,6 +130,7 @@ def errors_of(
         method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
         given=error_of_input(path, figure, u_h),
         kernel=_error_of_sky(path, figure, epochs, body, pulls),
+        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
     )
 
 
@@ -130,35 +152,40 @@ class Largest:
 
 @part(unless=no_accuracy)
 def largest_error(
-    axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
+    axis_path: AxisPath,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    pulls: Pulls,
+    interior_shift: Shift | None = None,
 ) -> Largest:
     """The largest error of the whole series, before the first of its stretches is written."""
-    method, given, kernel = _largest_shares(axis_path, epochs, body, pulls)[1:]
-    shares = {
-        "the sky is no better known that far from J2000.0": kernel,
-        "stay nearer to J2000.0 or give the body a better known H": given,
-        "the integration takes the finest windows": method,
+    remedies = {
+        "kernel": "the sky is no better known that far from J2000.0",
+        "given": "stay nearer to J2000.0 or give the body a better known H",
+        "response": "the response of the interior is known no better; leave nonrigid out",
+        "method": "the integration takes the finest windows",
     }
-    return Largest(
-        _largest(axis_path, epochs, body, pulls), max(shares, key=lambda why: shares[why])
-    )
+    shares = _largest_shares(axis_path, epochs, body, pulls, interior_shift)
+    return Largest(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
 
 
 def _largest(path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls) -> float:
-    return _largest_shares(path, epochs, body, pulls)[0]
+    """Largest error that windows decide on: the response has none."""
+    return _largest_shares(path, epochs, body, pulls, None)["total"]
 
 
 def _largest_shares(
-    path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
-) -> tuple[float, float, float, float]:
-    """Largest error of a direction at the times wanted, and of each share, rad."""
-    largest = np.zeros(4)
+    path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls, shift: Shift | None
+) -> dict[str, float]:
+    """Largest error of a direction at the times wanted, total and by share, rad."""
+    largest: dict[str, float] = {}
     for first in range(0, epochs.size, _AT_ONCE):
-        now = epochs.days(first, min(first + _AT_ONCE, epochs.size))
-        of = errors_of(path, path.at(now * DAY)["figure"], epochs, body, pulls)
-        largest = np.maximum(largest, [one.max() for one in (of.total, *vars(of).values())])
-    total, method, given, kernel = map(float, largest)
-    return total, method, given, kernel
+        days = epochs.days(first, min(first + _AT_ONCE, epochs.size))
+        figure = path.at(days * DAY)["figure"]
+        errors = errors_of(path, days, figure, epochs, body, pulls, shift)
+        for name, share in {"total": errors.total, **vars(errors)}.items():
+            largest[name] = float(np.maximum(largest.get(name, 0.0), share.max()))
+    return largest
 
 
 @dataclass(frozen=True)
@@ -221,12 +248,14 @@ def _follow(
     effects: Sequence[str],
     epochs: TimeGrid | TimeList,
     choice: Choice[PoleWindows] | None,
+    start: FloatArray | None,
 ) -> AxisPath:
-    """Integrate on chosen windows, or on the finest."""
+    """Integrate on chosen windows, or on the finest, from the body's own pole or another start."""
     from earthspin.motion.axes import WINDOW, axis_path, window_count
 
     pulls.sky.check_times(epochs.span(), pulls.targets)
-    axis, epoch = start_of(body, pulls)
+    own, epoch = start_of(body, pulls)
+    axis = own if start is None else start
     first, last = epochs.span()
     span = first * DAY, last * DAY
     settings = {} if choice is None else vars(choice.settings)
@@ -262,6 +291,8 @@ class Analysed:
     analysis : PoleAnalysis
     ours, theirs : Secular
     our_circles, their_circles : Circles
+    difference : ndarray, shape (t,), complex
+        Our rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
     """
 
     days: NDArray[np.float64]
@@ -272,6 +303,7 @@ class Analysed:
     theirs: Secular
     our_circles: Circles
     their_circles: Circles
+    difference: NDArray[np.complex128]
 
     def pole(
         self, path: AxisPath, days: NDArray[np.float64], axis: str = "figure"
@@ -303,13 +335,19 @@ def rigid(effects: Sequence[str]) -> list[str]:
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
-    from earthspin.nutation.analysis import PoleAnalysis, shifted_start
+    from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
     from earthspin.nutation.nutation import complex_nutation
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
     days = np.arange(max(low, -HALF_SPAN), min(high, HALF_SPAN), SAMPLING)
-    start, _ = start_of(body, pulls)
+    if (covered := days.size * SAMPLING) < SHORTEST_SPAN:
+        raise UndefinedError(
+            f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
+            f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
+            "ephemeris, or leave the effect nonrigid out"
+        )
+    start, epoch = start_of(body, pulls)
 
     def follow(start: NDArray[np.float64]) -> tuple[AxisPath, NDArray[np.float64]]:
         path = path_over(body, pulls, effects, start, days)
@@ -320,14 +358,18 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
             days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
         )
         advance(1)
-        theirs = analysis.secular(iau.true_pole(days))
+        true_pole = iau.true_pole(days)
+        theirs = analysis.secular(true_pole)
         advance(1)
         _, pole = follow(start)
-        start = shifted_start(start, analysis.secular(pole), theirs, analysis.ecliptic)
+        start = shifted_start(
+            start, analysis.secular(pole), theirs, analysis.ecliptic, epoch / CENTURY
+        )
         path, pole = follow(start)
         advance(1)
         their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
         advance(1)
+    eta = complex_nutation(iau.nutation_of(pole, days))
     return Analysed(
         days=days,
         start=start,
@@ -335,8 +377,9 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
         analysis=analysis,
         ours=analysis.secular(pole),
         theirs=theirs,
-        our_circles=analysis.circles(complex_nutation(iau.nutation_of(pole, days))),
+        our_circles=analysis.circles(eta),
         their_circles=their_circles,
+        difference=eta - complex_nutation(iau.nutation_of(true_pole, days)),
     )
 
 
@@ -417,42 +460,87 @@ def response_apart(
 
 @dataclass(frozen=True)
 class Shift:
-    """What the non-rigid response adds to the figure and rotation axes.
+    """What the non-rigid response adds to the axes of a rigid body.
 
     Attributes
     ----------
+    start : ndarray, shape (3,)
+        Axis with which the rigid path starts: its mean pole then meets that of the IAU.
     circles : Circles
         Non-rigid less rigid nutation, as a sum of circles.
+    rate : float
+        Published contribution to the rate of precession, times sin(eps0), rad/s.
+    closure : float
+        Rate at which the path departs from IAU 2006/2000A, rad/s.
+    residual : float
+        Half-width that, with the departure, contains 95 % of the distances from it, rad.
     """
 
+    start: NDArray[np.float64]
     circles: Circles
+    rate: float
+    closure: float
+    residual: float
 
     def eta(self, days: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Shift as dpsi sin(eps0) + i deps, rad."""
+        """Shift in nutation as dpsi sin(eps0) + i deps, rad."""
         from earthspin.sky import iau
 
         return self.circles.at(iau.delaunay_arguments(days))
 
     def apply(self, axes: dict[str, NDArray[np.float64]], days: NDArray[np.float64]) -> None:
-        """Move the axes of the mantle in place; the angular momentum is not changed."""
+        """Move the axes in place: all of them precess, those of the mantle also nutate."""
         from earthspin.sky.iau import moved_by_nutation
 
-        eta = self.eta(days)
-        for name in ("rotation", "figure"):
-            axes[name] = moved_by_nutation(axes[name], eta, days)
+        precession, nutation = self.rate * days * DAY, self.eta(days)
+        for name in axes:
+            of_mantle = 0.0 if name == "angular_momentum" else 1.0
+            axes[name] = moved_by_nutation(axes[name], precession + of_mantle * nutation, days)
+
+    def half_width(self, days: NDArray[np.float64]) -> NDArray[np.float64]:
+        """95 % half-width of the direction, from the response and the closure of the rates, rad."""
+        return np.hypot(self.residual, self.closure * days * DAY)
+
+
+def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Sequence[str]) -> Shift:
+    """Shift by circles of given amplitudes, and what it leaves of the distance from the IAU."""
+    from earthspin.nutation.budget import published_effects
+    from earthspin.sky import iau
+
+    circles = replace(analysed.our_circles, amplitude=amplitude)
+    published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
+    # Effects that are switched off are neglected, with their published rates: no error.
+    off = sum(rate for name, rate in published.items() if name not in rigid(effects))
+    days = analysed.days
+    difference = analysed.difference + circles.at(iau.delaunay_arguments(days))
+    difference += off * sine * days * DAY
+    pair = np.stack([difference.real, difference.imag], axis=1)
+    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(days * DAY, pair, 1)[1]))
+    remainder = np.abs(difference) ** 2 - (closure * days * DAY) ** 2
+    return Shift(
+        analysed.start,
+        circles,
+        rate=published[NONRIGID.name] * sine,
+        closure=closure,
+        residual=math.sqrt(max(0.0, float(np.quantile(remainder, 0.95)))),
+    )
 
 
 @part
-def nonrigid_shift(pole_analysis: Analysed, response_apart: Apart) -> Shift:
-    """What the fluid core, the yielding mantle, sea and air add to the rigid nutations."""
-    circles, apart = pole_analysis.our_circles, response_apart
-    factor = apart.response.transfer(circles.frequency) - 1
-    return Shift(replace(circles, amplitude=apart.rigid * factor + apart.added))
+def nonrigid_shift(
+    pole_analysis: Analysed, response_apart: Apart, effects: tuple[str, ...]
+) -> Shift:
+    """What core, mantle, oceans and atmosphere add to rigid nutation, fitted to IAU 2000A."""
+    factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
+    amplitude = response_apart.rigid * factor + response_apart.added
+    return _shift(pole_analysis, amplitude, effects)
 
 
 @part(unless=no_layers)
-def predicted_shift(pole_analysis: Analysed, prediction: Prediction) -> Shift:
-    """What the inside adds to the rigid nutations as its layers predict it."""
+def predicted_shift(
+    pole_analysis: Analysed, prediction: Prediction, effects: tuple[str, ...]
+) -> Shift:
+    """What the interior adds to the rigid nutations, predicted from its layers."""
     circles = pole_analysis.our_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
-    return Shift(replace(circles, amplitude=circles.amplitude * factor))
+    return _shift(pole_analysis, circles.amplitude * factor, effects)

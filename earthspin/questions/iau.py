@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
+from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Schema, Variable, build, with_error
@@ -31,7 +31,7 @@ from earthspin.parts.path import (
     rigid,
 )
 from earthspin.parts.predicted import prediction
-from earthspin.parts.pulls import Moved, Pulls, pulls
+from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
 from earthspin.parts.sky import places, sky, unmeasured
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.progress import progress
@@ -232,7 +232,9 @@ class Differences:
     chosen : int
         The model that the effects which are switched on stand for.
     error : float
-        95 % half-width of either angle: the integration, and H in the nutation.
+        95 % half-width of either angle after the fit: the integration, and H in the nutation.
+    error_unfitted : float
+        The same without a fit, root mean square over the times: the precession depends on H, too.
     """
 
     days: NDArray[np.float64]
@@ -241,6 +243,7 @@ class Differences:
     fitted: NDArray[np.float64]
     chosen: int
     error: float
+    error_unfitted: float
 
 
 @part
@@ -254,6 +257,7 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Computed pole minus the IAU's in time, for each model."""
+    from earthspin.motion.axes import error_of_input
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -267,28 +271,38 @@ def differences(
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
 
-    def eta_of(on: list[str], axis: str) -> NDArray[np.complex128]:
-        path = path_over(body, pulls, on, done.start, ends)
-        return complex_nutation(iau.nutation_of(done.pole(path, days, axis), days))
+    own_start, _ = start_of(body, pulls)
 
-    ours = eta_of(rigid(effects), "figure")
+    def axes_of(on: list[str], start: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
+
+    def eta_of(pole: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return complex_nutation(iau.nutation_of(pole, days))
+
+    # Each model as `pole` returns it, start included.
     models = {
-        "first-order": eta_of([], "angular_momentum"),
-        "rigid": ours,
-        "nonrigid": ours + nonrigid_shift.eta(days),
+        "first-order": eta_of(axes_of([], own_start)["angular_momentum"]),
+        "rigid": eta_of(axes_of(rigid(effects), own_start)["figure"]),
     }
-    if predicted_shift is not None:
-        models["predicted"] = ours + predicted_shift.eta(days)
+    from_mean_pole = axes_of(rigid(effects), done.start)
+    for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
+        if shift is not None:
+            shifted = dict(from_mean_pole)
+            shift.apply(shifted, days)
+            models[name] = eta_of(shifted["figure"])
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
+    error = math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta))))
+    precession = error_of_input(done.path, done.path.at(days * DAY)["figure"], u_h)
     return Differences(
         days=days,
         models=tuple(models),
         plain=plain,
         fitted=without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID.name in effects else 1,
-        error=math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta)))),
+        error=error,
+        error_unfitted=math.hypot(error, float(np.sqrt(np.mean(precession**2)))),
     )
 
 
@@ -369,9 +383,15 @@ RESIDUAL_SIZES = {
         _SIZE, "mas", "largest after removal of a constant and a rate", error="residual_size_error"
     ),
     "residual_rms_unfitted": Variable(
-        _SIZE, "mas", "root mean square without a fit", error="residual_size_error"
+        _SIZE,
+        "mas",
+        "root mean square of the poles as `pole` returns them, without a fit",
+        error="residual_rms_unfitted_error",
     ),
     "residual_size_error": _HALF_WIDTH,
+    "residual_rms_unfitted_error": Variable(
+        (), "mas", "95 % half-width of a residual without a fit, from H and integration"
+    ),
 }
 
 
@@ -386,6 +406,7 @@ def residual_sizes(differences: Differences) -> xr.Dataset:
             "residual_maximum": np.max(np.abs(fitted), axis=0),
             "residual_rms_unfitted": np.sqrt(np.mean(plain**2, axis=0)),
             "residual_size_error": differences.error,
+            "residual_rms_unfitted_error": differences.error_unfitted,
         },
         coords={"model": list(differences.models), "direction": ["dpsi_sineps", "deps"]},
     )

@@ -126,6 +126,19 @@ def as_predicted(predicted_shift: Shift) -> Shift:
     return predicted_shift
 
 
+def not_nonrigid(effects: tuple[str, ...]) -> str | None:
+    """Leave the response of the interior out of a rigid body."""
+    return None if NONRIGID.name in effects else "the non-rigid response is switched off"
+
+
+@part(unless=not_nonrigid)
+def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
+    """What the response of the interior adds to the path of the rigid axes."""
+    shift = as_fitted or as_predicted
+    assert shift is not None
+    return shift
+
+
 _AXES = ("time", "axis")
 DIRECTIONS = covered_by(
     "direction_error",
@@ -134,7 +147,7 @@ DIRECTIONS = covered_by(
         "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
         "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
         "direction_error": Variable(
-            ("time",), "uas", "95 % half-width of the directions, from all three shares"
+            ("time",), "uas", "95 % half-width of the directions, from all shares"
         ),
         "direction_error_method": Variable(
             ("time",), "uas", "share of direction_error from the integration"
@@ -157,8 +170,7 @@ def axes(
     body: Body,
     accuracy: float | None,
     largest_error: Largest | None = None,
-    as_fitted: Shift | None = None,
-    as_predicted: Shift | None = None,
+    interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> xr.Dataset:
     """Directions of angular-momentum, rotation and figure axis at every time."""
@@ -168,9 +180,9 @@ def axes(
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = _days(epochs, block)
     found = axis_path.at(now * DAY)
-    errors = errors_of(axis_path, found["figure"], epochs, body, pulls)
-    if (moved := as_fitted or as_predicted) is not None:
-        moved.apply(found, now)
+    errors = errors_of(axis_path, now, found["figure"], epochs, body, pulls, interior_shift)
+    if interior_shift is not None:
+        interior_shift.apply(found, now)
     vectors = np.stack([found[axis] for axis in AXES], axis=1)
     result = build(
         DIRECTIONS,
@@ -194,6 +206,28 @@ def axes(
         "evaluations": axis_path.evaluations,
     }
     return result
+
+
+RESPONSE = covered_by(
+    "direction_error",
+    {
+        "direction_error_response": Variable(
+            ("time",),
+            "uas",
+            "share of direction_error from the response of the interior: its residual, and the "
+            "closure of the rates, against IAU 2006/2000A",
+        ),
+    },
+)
+
+
+@part(gives=RESPONSE, unless=not_nonrigid)
+def response_error(
+    axes: xr.Dataset, interior_shift: Shift, epochs: TimeGrid | TimeList, block: Block | None = None
+) -> xr.Dataset:
+    """Share of the direction's error that the response of the interior leaves."""
+    half_width = interior_shift.half_width(_days(epochs, block))
+    return build(RESPONSE, {"direction_error_response": half_width}, coords={"time": axes.time})
 
 
 def _days(epochs: TimeGrid | TimeList, block: Block | None) -> FloatArray:
@@ -282,12 +316,12 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
 
 made_of(
     Pole,
-    answer=(axes, pole_angles, pole_accuracy),
+    answer=(axes, response_error, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
     parts=(
         places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
         pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift,
-        as_fitted, as_predicted,
+        as_fitted, as_predicted, interior_shift,
     ),
 )  # fmt: skip
 

@@ -75,4 +75,4 @@ def test_a_path_says_what_it_leaves_out() -> None:
     for effect in told.effect.values:
         size = EFFECTS[str(effect)].size_at(3652.0) / MAS
         assert float(told.sel(effect=effect)) == pytest.approx(size, rel=1e-12, abs=0)
-    assert tree.attrs["neglected"].startswith("geodesic: 76.5 mas")
+    assert tree.attrs["neglected"].startswith("nonrigid: 85.6 mas")

@@ -164,7 +164,8 @@ def test_the_comparison_shows_both_responses() -> None:
     assert list(sizes.model.values)[-2:] == ["nonrigid", "predicted"]
     for direction in ("dpsi_sineps", "deps"):
         found = sizes.residual_rms.sel(model="predicted", direction=direction)
-        assert np.isclose(found, ladder[f"rms_{direction}"], rtol=1e-9, atol=0)
+        # 8e-5 measured: one moves the pole and reads its angles, the other adds angles
+        assert np.isclose(found, ladder[f"rms_{direction}"], rtol=3e-4, atol=0)
 
 
 def test_a_body_without_layers_is_refused() -> None:

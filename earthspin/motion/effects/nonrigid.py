@@ -1,4 +1,8 @@
-"""The response of the inside to nutation, which is added to the path of the rigid body."""
+"""Response of the interior to nutation, added to the path of the rigid body.
+
+Its size includes the start: the rigid path starts at the true pole of IAU 2006/2000A, the path with
+the response where the mean poles meet, 30 mas away.
+"""
 
 from __future__ import annotations
 
@@ -10,4 +14,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return forces
 
 
-NONRIGID = Effect("nonrigid", _switch_on, Growth(57.5))
+NONRIGID = Effect("nonrigid", _switch_on, Growth(84.4, 0.116))
