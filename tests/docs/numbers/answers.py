@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import earthspin
 from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.motion.effects import EFFECTS
 from earthspin.sky.iau import Nutation
 from tests import shipped
 
@@ -92,3 +93,22 @@ def fitted(of: xr.Dataset, method: str) -> list[float]:
 def of_c04(method: str) -> list[float]:
     """The same of C04."""
     return fitted(observed(), method)
+
+
+@cache
+def from_the_iau(*effects: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Distance of the pole from IAU 2006/2000A, mas, and its claimed error, 1950 to 2050."""
+    days = np.arange(-18262.0, 18262.0 + 1, 10.0)
+    times = np.datetime64("2000-01-01T12:00") + (days * 86400).astype("timedelta64[s]")
+    path = earthspin.pole(times=times, effects=effects)
+    axis = path.sel(axis="figure")
+    vectors = np.stack([axis.X, axis.Y, axis.Z], axis=-1)
+    off = (vectors - erfa.pnm06a(J2000_JD, days)[:, 2]) / ARCSEC * 1e3
+    return np.linalg.norm(off, axis=1), path.direction_error.values / 1e3
+
+
+def at_j2000_with_response() -> float:
+    """Distance of the pole with all effects from IAU 2006/2000A at J2000.0, mas."""
+    path = earthspin.pole(times=["2000-01-01T12:00"], effects=tuple(EFFECTS)).sel(axis="figure")
+    off = np.stack([path.X, path.Y, path.Z], axis=-1) - erfa.pnm06a(J2000_JD, 0.0)[2]
+    return float(np.linalg.norm(off)) / ARCSEC * 1e3

@@ -192,6 +192,11 @@ REN = "published: Souchay et al. 1999"
 
 
 MEASURED = [
+    Sentence(
+        PAGE,
+        "the uncertainty of $H$ makes {} mas of that column",
+        lambda: float(iau()["residual_sizes"].residual_rms_unfitted_error),
+    ),
     Sentence(PAGE, "| planets | +31.326 | {} | +31.367", partial(budget, "planets")),
     Sentence(PAGE, "| J4 | +2.521 | {} | +2.60", partial(budget, "j4")),
     Sentence(PAGE, "| geodesic | -1919.841 | {} | -1919.883", partial(budget, "geodesic")),
