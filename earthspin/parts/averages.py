@@ -76,10 +76,10 @@ def torque_samples(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
-    """Torque of each perturber through the window that converges fastest."""
+    """Torque of each perturber, from its declination, through the window that converges fastest."""
     from earthspin.sky.equator import angle, rotate
     from earthspin.torque.average import best_window, precessing_torque
-    from earthspin.torque.gravity import torque_from_position
+    from earthspin.torque.gravity import torque_from_declination
 
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
@@ -90,24 +90,26 @@ def torque_samples(
     times = window.sample_times(step)
     days = times / DAY
 
-    equator, normal = sky.equator(body, days), pole.orbit_normal(orbit)
-    axis = equator[..., 2, :]
-    axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :]
-    _refuse_locked(sky, body, window.centre, axis_at_epoch.reshape(3))
-    positions = sky.positions(days)
+    normal = pole.orbit_normal(orbit)
+    axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :].reshape(3)
+    _refuse_locked(sky, body, window.centre, axis_at_epoch)
+    seen = sky.radec(body, days)
     strength = _strengths(perturbers)
     torques = [
-        torque_from_position(p.gm if strength is None else 1.0, 1.0, positions[p.name], axis)
+        torque_from_declination(p.gm if strength is None else 1.0, 1.0, *seen[p.name])
         for p in perturbers
     ]
+    # In the axes of the equator of date the figure axis is z, and the orbit's normal moves.
+    axis = np.array([0.0, 0.0, 1.0])
+    normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
     names = [p.name for p in perturbers]
     return Samples(
         times=times,
         labels=names + ["total"] * (len(names) > 1),
-        precessing=np.stack([precessing_torque(t, axis, normal) for t in torques], axis=1),
-        torque=np.stack([rotate(equator, t) for t in torques], axis=1),
+        precessing=np.stack([precessing_torque(t, axis, normals) for t in torques], axis=1),
+        torque=np.stack(torques, axis=1),
         window=window,
-        obliquity=angle(axis_at_epoch.reshape(3), normal),
+        obliquity=angle(axis_at_epoch, normal),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,

@@ -66,6 +66,11 @@ class KernelName:
         return value
 
 
+SOURCE_DOC = (
+    "library that reads the positions: jplephem, which is fast, or Skyfield by its public calls"
+)
+
+
 class Pulled(Question):
     """Keys of every question about a body that others pull on."""
 
@@ -76,11 +81,7 @@ class Pulled(Question):
     ephemeris: Annotated[str, KernelName()] = key(
         "de421", doc="kernel with the positions of the bodies"
     )
-    source: SourceName = key(
-        "jplephem",
-        doc="library that reads the positions: jplephem, which is fast, or Skyfield, called in "
-        "its usual way",
-    )
+    source: SourceName = key("jplephem", doc=SOURCE_DOC)
 
     #: What the question needs to know of the body, beside its mass.
     needs: ClassVar[tuple[str, ...]] = (
@@ -300,7 +301,7 @@ class Sky:
         """
         pole: Pole = body.needed("pole")
         if isinstance(self.source, OfDate) and pole.of_the_iau:
-            return self.source.equator(days, true=False)
+            return self.source.equator(days)
         return pole.equator(body.orbit_pole, days)
 
     def radec(
@@ -325,18 +326,26 @@ class Sky:
         true : bool
             At the true equator; the mean one by default.
         nutation : Nutation, optional
-            That leads there, for a source without an equator of its own.
+            Interpolated nutation, for the fast reader.
         """
         from earthspin.sky.equator import rotate, spherical
 
         pole: Pole = body.needed("pole")
-        if isinstance(self.source, OfDate) and pole.of_the_iau:
+
+        def equator(days: FloatArray) -> FloatArray:
+            return pole.equator(body.orbit_pole, days, nutation)
+
+        if isinstance(self.source, OfDate):
+            from earthspin.sky.iau import true_equator
+
             targets = self.targets if targets is None else targets
-            found = self.source.radec(targets, self.centre, days, true=true)
-            for name, (_, _, distance) in found.items():
+            earths = true_equator if true else None
+            frame = earths if pole.of_the_iau else equator
+            seen = self.source.radec(targets, self.centre, days, frame)
+            for name, (_, _, distance) in seen.items():
                 self._refuse_inside(name, distance * distance)
-            return found
-        axes = pole.equator(body.orbit_pole, days, nutation)
+            return seen
+        axes = equator(days)
         positions = self.positions(days, targets)
         return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
 

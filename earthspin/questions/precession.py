@@ -28,7 +28,8 @@ from earthspin.parts.reasons import (
     not_sun_and_moon,
     not_the_iaus_earth,
 )
-from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.parts.sky import SOURCE_DOC, Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.sky.sources import SourceName
 from earthspin.units import Relative
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class Precession(Pulled, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
+    source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
         None, doc="first and last date of the average; all that the kernel covers if not given"
     )

@@ -131,6 +131,7 @@ class Ephemeris:
         return {
             "ephemeris": self.name,
             "ephemeris_sha256": self.sha256,
+            "ephemeris_reader": "jplephem",
             "jplephem_version": version("jplephem"),
         }
 

@@ -99,6 +99,16 @@ def mean_longitude_of_node(days: FloatArray) -> FloatArray:
     return np.asarray(erfa.faom03(days / DAYS_PER_CENTURY))
 
 
+def true_equator(days: FloatArray) -> FloatArray:
+    """Matrices from the GCRS to the true equator and equinox of IAU 2006/2000A, shape (n, 3, 3).
+
+    Parameters
+    ----------
+    days : ndarray, shape (n,)
+    """
+    return np.asarray(erfa.pnm06a(J2000_JD, days))
+
+
 def true_pole(days: FloatArray) -> FloatArray:
     """Celestial intermediate pole of IAU 2006/2000A in the GCRS, bias included, shape (n, 3).
 
@@ -106,7 +116,7 @@ def true_pole(days: FloatArray) -> FloatArray:
     ----------
     days : ndarray, shape (n,)
     """
-    return np.asarray(erfa.pnm06a(J2000_JD, days)[..., 2, :])
+    return true_equator(days)[..., 2, :]
 
 
 def nutation_2000a(days: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ which.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 
 from earthspin.errors import UndefinedError
@@ -108,15 +108,23 @@ class Source(Protocol):
 
 @runtime_checkable
 class OfDate(Protocol):
-    """A source that has an equator and equinox of date of its own, the Earth's by IAU 2006."""
+    """A source that measures right ascension and declination itself."""
 
-    def equator(self, days: FloatArray, /, *, true: bool) -> FloatArray:
-        """Matrices from the ICRF to the mean or true equator of date, shape (n, 3, 3)."""
+    def equator(self, days: FloatArray, /) -> FloatArray:
+        """Matrices from the ICRF to the Earth's mean equator of date, shape (n, 3, 3)."""
 
     def radec(
-        self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /, *, true: bool
+        self,
+        targets: Mapping[str, Place],
+        centre: Place,
+        days: FloatArray,
+        equator: Callable[[FloatArray], FloatArray] | None,
+        /,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension, declination (rad) and distance (m) at that equator, shape (n,) each."""
+        """Right ascension, declination (rad) and distance (m), shape (n,) each.
+
+        They refer to an equator given by its matrices, or to the Earth's mean equator of date.
+        """
 
 
 def measured_code(place: Place) -> int | None:

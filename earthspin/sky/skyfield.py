@@ -1,41 +1,51 @@
-"""Positions by Skyfield, read the obvious way: ``(body - earth).at(t).radec(epoch="date")``.
+"""Positions, right ascensions and declinations by Skyfield's public calls.
 
-A source beside the fast reader, slower and as exact, and the way to read the method. Three things
-are worth knowing:
-
-- ``at(t)`` is geometric: gravity pulls from where a body is, not from where its light left it.
-- ``radec(epoch="date")`` refers to the *true* equator of date. A time without nutation refers it
-  to the mean one; Skyfield's own way to say that is to set the angles of nutation of the time.
-- Skyfield adds up IAU 2000A as it was published. IAU 2006 changed it a little (`SCALE_2006`,
-  `J2_RATE_2006`): 4e-11 rad by 2030, 1.3e-10 rad in 1900. With that change, declinations are those
-  of the fast reader and ERFA to 5e-12 rad (the mean ones to 2e-12), over all that DE421 covers.
+The chain is ``(body - earth).at(t).frame_latlon(mean_equator_and_equinox_of_date)``: `at(t)` is
+geometric, because gravity pulls from where a body is, not from where its light left it. Skyfield's
+mean equator of date differs from that of ERFA by 1.5e-12 rad. Its true equator is that of IAU 2000A
+without the adjustment to IAU 2006 (1.3e-10 rad in 1900), so the true equator, like the equator of
+any other body, is given to Skyfield as a frame.
 """
 
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from skyfield.framelib import mean_equator_and_equinox_of_date
 from skyfield.jpllib import SpiceKernel
-from skyfield.nutationlib import iau2000a_radians
 from skyfield.timelib import Time
 from skyfield.vectorlib import VectorFunction
 
 from earthspin._version import version
-from earthspin.constants import DAYS_PER_CENTURY, J2000_JD
+from earthspin.constants import J2000_JD
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.protocol import Place, checked
 from earthspin.sky.vector_functions import at, blocks_of_times, function_of
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
-#: What IAU 2006 changes in the nutation of IAU 2000A: the scale of the longitude, for the
-#: obliquity that it starts from, and the rate of J2 per century in both (Wallace & Capitaine 2006,
-#: Astron. Astrophys. 459, 981, eq. 5).
-SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
+
+@dataclass(frozen=True)
+class EquatorOfDate:
+    """A frame for Skyfield, from matrices by day.
+
+    Attributes
+    ----------
+    matrices : callable
+        Days from J2000.0 TDB, shape (n,), to matrices from the ICRF, shape (n, 3, 3) or (3, 3).
+    """
+
+    matrices: Callable[[FloatArray], FloatArray]
+
+    def rotation_at(self, t: Time) -> FloatArray:
+        """Matrices as Skyfield multiplies them, shape (3, 3, n) or (3, 3)."""
+        matrices = self.matrices((t.whole - J2000_JD) + t.tdb_fraction)
+        return matrices if matrices.ndim == 2 else np.moveaxis(matrices, 0, -1)
 
 
 class Skyfield:
@@ -55,7 +65,10 @@ class Skyfield:
     @property
     def provenance(self) -> dict[str, str]:
         """Kernel and reader, for the attributes of an answer."""
-        return self.file.provenance | {"skyfield_version": version("skyfield")}
+        return self.file.provenance | {
+            "ephemeris_reader": "Skyfield",
+            "skyfield_version": version("skyfield"),
+        }
 
     def code(self, codes: Iterable[int], name: str) -> int:
         """First of a body's NAIF codes that the kernel holds; KernelError if there is none."""
@@ -106,44 +119,51 @@ class Skyfield:
                 found[name][block] = checked(there, place, days[block])
         return found
 
-    def equator(self, days: FloatArray, *, true: bool) -> FloatArray:
-        """What ``radec(epoch="date")`` turns a position by, ``t.M``, shape (n, 3, 3).
+    def equator(self, days: FloatArray) -> FloatArray:
+        """Matrices from the ICRF to Skyfield's mean equator and equinox of date.
 
         Parameters
         ----------
         days : ndarray, shape (n,)
             Days from J2000.0 TDB.
-        true : bool
-            With nutation, or without.
+
+        Returns
+        -------
+        ndarray, shape (n, 3, 3)
         """
         matrices = np.empty((days.size, 3, 3))
         for block, t in blocks_of_times(days):
-            matrices[block] = np.moveaxis(_with_equator(t, true=true).M, -1, 0)
+            matrices[block] = np.moveaxis(mean_equator_and_equinox_of_date.rotation_at(t), -1, 0)
         return matrices
 
     def radec(
-        self, targets: Mapping[str, Place], centre: Place, days: FloatArray, *, true: bool
+        self,
+        targets: Mapping[str, Place],
+        centre: Place,
+        days: FloatArray,
+        equator: Callable[[FloatArray], FloatArray] | None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """``(body - centre).at(t).radec(epoch="date")``: rad, rad and m, shape (n,) each.
+        """``(body - centre).at(t).frame_latlon(equator)``: rad, rad and m, shape (n,) each.
 
         Parameters
         ----------
         targets, centre, days
             As `positions` takes them.
-        true : bool
-            At the true equator and equinox of date, or at the mean ones.
+        equator : callable or None
+            Matrices from the ICRF to the equator of date at days from J2000.0 TDB; None for
+            Skyfield's mean equator and equinox of date.
         """
         self.check_times(days, {*targets.values(), centre})
         self.file.check_records(days, {*targets.values(), centre})
-        found = {name: np.empty((3, days.size)) for name in targets}
+        frame = mean_equator_and_equinox_of_date if equator is None else EquatorOfDate(equator)
+        angles = {name: np.empty((3, days.size)) for name in targets}
         for block, t in blocks_of_times(days):
-            t = _with_equator(t, true=true)
             for name, place in targets.items():
-                there = at(self._seen_from(place, centre), t)
-                checked(there.position.m.T, place, days[block])
-                ra, dec, distance = there.radec(epoch="date")
-                found[name][:, block] = ra.radians, dec.radians, distance.m
-        return {name: (ra, dec, distance) for name, (ra, dec, distance) in found.items()}
+                position = at(self._seen_from(place, centre), t)
+                checked(position.position.m.T, place, days[block])
+                declination, right_ascension, distance = position.frame_latlon(frame)
+                angles[name][:, block] = right_ascension.radians, declination.radians, distance.m
+        return {name: (ra, dec, distance) for name, (ra, dec, distance) in angles.items()}
 
     def _seen_from(self, target: Place, centre: Place) -> VectorFunction:
         """Vector function from one body to another."""
@@ -156,15 +176,3 @@ class Skyfield:
             return self.kernel[place]
         own = function_of(place)
         return own if place.centre == 0 else self.kernel[place.centre] + own
-
-
-def _with_equator(t: Time, *, true: bool) -> Time:
-    """A time whose equator of date is that of IAU 2006, with the nutation 2000A or without."""
-    if true:
-        longitude, obliquity = iau2000a_radians(t)
-        of_j2 = J2_RATE_2006 * (t.tt - J2000_JD) / DAYS_PER_CENTURY
-        angles = longitude * (1 + SCALE_2006 + of_j2), obliquity * (1 + of_j2)
-    else:
-        angles = np.zeros_like(t.tt), np.zeros_like(t.tt)
-    t._nutation_angles_radians = angles  # what Skyfield computes when it is first asked
-    return t

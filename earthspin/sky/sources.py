@@ -12,7 +12,7 @@ from earthspin.sky.protocol import Place, Source, Trajectory, words
 if TYPE_CHECKING:
     from skyfield.vectorlib import VectorFunction
 
-#: Who reads the kernel: jplephem, fast; or Skyfield, step by step as one would write it.
+#: Reader of the kernel: jplephem, which is fast, or Skyfield by its public calls.
 SourceName = Literal["jplephem", "skyfield"]
 #: Sources with an equator of date of their own.
 OF_DATE = ("skyfield",)
@@ -50,7 +50,8 @@ def describe_source(word: SourceName, ephemeris: object) -> str:
     """Say for people where the positions come from."""
     how = {
         "jplephem": f"read from {ephemeris} with jplephem",
-        "skyfield": f"read from {ephemeris} by Skyfield as (body - centre).at(t)",
+        "skyfield": f"and directions by Skyfield from {ephemeris}: "
+        "(body - centre).at(t).frame_latlon(equator)",
     }
     return how[word]
 

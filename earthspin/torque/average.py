@@ -267,8 +267,8 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
         N m, or per unit of C - A, s-2.
     axis : ndarray, shape (3,) or (n, 3)
         Unit vector of the spin axis k.
-    normal : ndarray, shape (3,)
-        Unit normal n of the orbit.
+    normal : ndarray, shape (3,) or (n, 3)
+        Unit normal n of the orbit, in the axes of the torque.
 
     Returns
     -------

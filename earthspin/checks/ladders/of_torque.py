@@ -184,7 +184,7 @@ def _skyfield_source(days: FloatArray) -> Callable[[], tuple[Any, int]]:
     source = Skyfield(kernel())
 
     def run() -> tuple[Any, int]:
-        seen = source.radec(CODES, CENTRE, days, true=True).values()
+        seen = source.radec(CODES, CENTRE, days, iau.true_equator).values()
         return np.stack([unit_vectors(ra, dec) for ra, dec, _ in seen]), days.size
 
     return run
