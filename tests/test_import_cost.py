@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from earthspin.scenes import shipped_scenes
+from earthspin.scenes import load_scene, shipped_scenes
 
 #: What costs a second or more to load, and what stands on it.
 HEAVY = {
@@ -53,14 +53,58 @@ def test_the_observed_pole_needs_no_kernel() -> None:
     assert not loaded & {"skyfield", "jplephem", "numba", "matplotlib", "erfa", "rich"}
 
 
-@pytest.mark.parametrize("scene", ["precession", "sun-only", "torque"])
-def test_a_scene_draws_nothing(scene: str) -> None:
+#: Heavy modules that the answer to each question uses, beside numpy and xarray.
+KERNEL = {"jplephem", "erfa"}
+LEAST_SQUARES = {"scipy.linalg", "scipy.sparse"}
+USED = {
+    "precession": {*KERNEL, "skyfield"},
+    "torque": KERNEL,
+    "pole": KERNEL,
+    "long-term": KERNEL,
+    "iau": KERNEL | LEAST_SQUARES,
+    "nutation": KERNEL | LEAST_SQUARES,
+    "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
+    "polar-motion": {"scipy.special"},
+    "free-rotor": {"scipy.special"},
+    "top": {"scipy.special"},
+    "spheroid": {"scipy.special"},
+}
+#: What costs a tenth of a second or more, or belongs to drawing, files and workers.
+WATCHED = {
+    *("scipy.fft", "scipy.integrate", "scipy.interpolate", "scipy.linalg", "scipy.optimize"),
+    *("scipy.signal", "scipy.sparse", "scipy.spatial", "scipy.special", "scipy.stats"),
+    *("astropy", "skyfield", "jplephem", "erfa", "matplotlib", "netCDF4", "zarr", "distributed"),
+    *("numba", "jinja2", "rich"),
+}
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_a_scene_loads_the_heavy_modules_that_it_uses(scene: str) -> None:
+    """And no other, in a fresh process."""
     # xarray loads dask where it is installed: here as if it were not
-    without = "import sys; sys.modules['dask'] = None; "
-    loaded = modules_after(f"{without}import earthspin; earthspin.run({scene!r})") - {"dask"}
-    drawn = {"matplotlib", "numba", "skyfield", "jinja2", "zarr", "distributed", "rich"}
-    assert not loaded & drawn
-    assert "jplephem" in loaded
+    program = f"import sys; sys.modules['dask'] = None; import earthspin; earthspin.run({scene!r})"
+    listing = "\nprint(' '.join(sorted(sys.modules)))"
+    out = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program + listing],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    question = type(load_scene(scene)).word
+    assert set(out.splitlines()[-1].split()) & WATCHED == USED.get(question, set())
+
+
+def test_run_times_leave_imports_out() -> None:
+    """A part that is the first to need scipy is not charged for it: 0.2 ms, and 200 for imports."""
+    program = """
+import earthspin
+first = earthspin.run_tree("spheroid", ()).children["plan"].to_dataset()
+again = earthspin.run_tree("spheroid", ()).children["plan"].to_dataset()
+time = lambda plan: float(plan.run_time.where(plan.part != "imports").sum())
+assert float(first.run_time.sel(part="imports")) > 10 * float(again.run_time.sel(part="imports"))
+assert time(first) < 0.5 * float(first.run_time.sel(part="imports"))
+"""
+    modules_after(program)
 
 
 def test_skyfield_is_loaded_where_it_is_asked_for() -> None:

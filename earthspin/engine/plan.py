@@ -13,6 +13,8 @@ from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import SceneError, nearest
 
 ALL = "all"
+#: Line of the run times for the time spent in importing modules, which no part is charged for.
+IMPORTS = "imports"
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ class Plan:
     left_out : dict of str to str
         Reason by title, for the other parts of the question and its sections.
     seconds : mapping of str to float
-        By name of the part, once it has run.
+        By name of the part, once it has run, without imports; these are under `IMPORTS`.
     """
 
     question: Question
@@ -60,6 +62,9 @@ class Plan:
         rows = [
             Row(one.title, status, one.told(keys), self.seconds.get(one.name)) for one in self.parts
         ]
+        if IMPORTS in self.seconds:
+            words = "modules loaded on first use, once in each process"
+            rows.append(Row(IMPORTS, status, words, self.seconds[IMPORTS]))
         return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
 
     def to_frame(self) -> Any:

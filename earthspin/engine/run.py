@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from earthspin._version import __version__, version
+from earthspin.engine.imports import import_clock
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.plan import Plan, plan
+from earthspin.engine.plan import IMPORTS, Plan, plan
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import UndefinedError
 
@@ -127,15 +128,18 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
     """Run what has not been given yet."""
     values = planned.question.keys() | dict(given or {})
     seconds: dict[str, float] = {}
-    for one in planned.parts:
-        if one.name in values:
-            continue
-        inputs = {name: values[name] for name in one.needs}
-        inputs |= {name: values[name] for name in one.uses if name in values}
-        begun = time.perf_counter()
-        with in_range(one.name):
-            values[one.name] = one(**inputs)
-        seconds[one.name] = time.perf_counter() - begun
+    with import_clock() as imports:
+        before = imports.seconds
+        for one in planned.parts:
+            if one.name in values:
+                continue
+            inputs = {name: values[name] for name in one.needs}
+            inputs |= {name: values[name] for name in one.uses if name in values}
+            begun = time.perf_counter() - imports.seconds
+            with in_range(one.name):
+                values[one.name] = one(**inputs)
+            seconds[one.name] = time.perf_counter() - imports.seconds - begun
+        seconds[IMPORTS] = imports.seconds - before
     return Ran(replace(planned, seconds=seconds), values)
 
 

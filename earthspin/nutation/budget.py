@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from earthspin.constants import (
     ARCSEC,
@@ -18,7 +18,9 @@ from earthspin.constants import (
     PUBLISHED_EFFECTS,
     TIDES_IN_OBLIQUITY,
 )
-from earthspin.nutation.analysis import Secular
+
+if TYPE_CHECKING:
+    from earthspin.nutation.analysis import Secular
 
 Numeric = Any
 

@@ -14,7 +14,6 @@ from typing import NamedTuple
 import erfa
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD
 
@@ -237,6 +236,8 @@ class Nutation:
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
         if size is None or size > count:
+            from scipy.interpolate import make_interp_spline
+
             nodes = start - margin + spacing * np.arange(count)
             self.angles = make_interp_spline(nodes, exact(np.asarray(nodes)), k=_SPLINE_DEGREE)
 
