@@ -1,36 +1,46 @@
-"""The pull of the Sun on the Earth's bulge in plain Skyfield, and the same from the library."""
+"""Precession from declinations in plain Skyfield, and the same from the library."""
 
 import numpy as np
 import xarray as xr
 from skyfield.api import load, load_file
-from skyfield.timelib import Time
+from skyfield.framelib import mean_equator_and_equinox_of_date
 
 import earthspin
-from earthspin import EARTH, SUN
+from earthspin import EARTH, MOON, SUN
 from earthspin.sky.ephemeris import find_kernel
 
+OBLIQUITY = np.radians(23.439279)  # of J2000.0
 
-def plain_skyfield(t: Time) -> tuple[np.ndarray, np.ndarray]:
-    """Declination of the Sun (deg) and its torque on the bulge (N m), by (I.8.7)."""
+
+def plain_skyfield() -> dict[str, float]:
+    """Rate of precession in longitude by perturber, arcsec a year."""
     kernel = load_file(str(find_kernel("de421")))  # or load("de421.bsp")
-    sun, earth = kernel["sun"], kernel["earth"]
-    ra, dec, distance = (sun - earth).at(t).radec(epoch="date")
+    days = np.arange(-16_996.0, 16_997.0)  # five turns of the Moon's node, about J2000.0
+    t = load.timescale(builtin=True).tdb_jd(2451545.0 + days)
+    rates = {}
+    for name, body in (("sun", SUN), ("moon", MOON)):
+        position = (kernel[name] - kernel["earth"]).at(t)
+        declination, right_ascension, distance = position.frame_latlon(
+            mean_equator_and_equinox_of_date
+        )
+        alpha, delta, b = right_ascension.radians, declination.radians, distance.m
+        # torque along the equinox over C - A (I.8.7), its average, and the rate that follows
+        torque = 3 * body.gm / b**3 * np.sin(delta) * np.cos(delta) * np.sin(alpha)
+        mean = np.average(torque, weights=np.cos(np.pi * days / (2 * 16_997)) ** 4)
+        rate = EARTH.dynamical_flattening / EARTH.spin_rate * mean / np.sin(OBLIQUITY)
+        rates[name] = np.degrees(rate) * 3600 * 365.25 * 86400
     kernel.close()
-    bulge = EARTH.j2 * EARTH.mass * EARTH.radius**2  # C - A
-    strength = 3 * SUN.gm * bulge / distance.m**3
-    torque = strength * np.sin(dec.radians) * np.cos(dec.radians)
-    along = np.stack([np.sin(ra.radians), -np.cos(ra.radians), 0 * torque])
-    return dec.degrees, (torque * along).T
+    return rates
 
 
-def with_earthspin(t: Time) -> xr.Dataset:
+def with_earthspin() -> xr.Dataset:
     """The same in one call, with the errors."""
-    return earthspin.torque_series(times=t, perturbers="sun", equator="true", source="skyfield")
+    return earthspin.precession()
 
 
 if __name__ == "__main__":
-    t = load.timescale(builtin=True).tdb(2026, range(1, 13), 1)
-    declination, torque = plain_skyfield(t)
-    ours = with_earthspin(t).sel(perturber="sun")
-    print(np.abs(ours.declination.values - declination).max(), "deg apart")
-    print(np.abs(ours.torque.values - torque).max() / np.abs(torque).max(), "of the largest torque")
+    rates = plain_skyfield()
+    answer = with_earthspin()
+    for name, rate in rates.items():
+        print(name, rate, "and", answer.precession_rate.sel(perturber=name).item(), "arcsec/yr")
+    print("period", 360 * 3600 / sum(rates.values()), "years")

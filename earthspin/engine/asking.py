@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -97,7 +98,17 @@ def docstring_of(question: type[Question]) -> str:
         lines.append(f"{name} : {one.kind.words}{optional}")
         sentence = f"{one.doc[:1].upper()}{one.doc[1:]}.{default}"
         lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
-    return "\n".join([*lines, rest.rstrip(), ""])
+    notes = ["", "Notes", "-----", *SOURCE_TEXT] if _NUMBERED.search(head + rest) else []
+    before, heading, after = rest.rstrip().partition("\nExamples\n")
+    return "\n".join([*lines, before.rstrip(), *notes, f"{heading}{after}", ""])
+
+
+#: Said in a docstring that cites an equation of the source text by its number.
+SOURCE_TEXT = (
+    "Numbers such as I.8.7 are equations and sections of the source text, Appendix I,",
+    '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
+)
+_NUMBERED = re.compile(r"\bI\.\d")
 
 
 _END = {

@@ -15,6 +15,11 @@ from earthspin.constants import DAY, JULIAN_YEAR
 
 Numeric = Any
 
+#: Years in which the Gregorian calendar drops one leap day: three in 400 years (I.8).
+DROPPED_LEAP_DAY = 400 / 3
+#: Mean Gregorian year: 97 leap days in 400 years, s.
+GREGORIAN_YEAR = (365 + 97 / 400) * DAY
+
 
 def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Numeric:
     """General precession in longitude, rad/s: lunisolar precession less the motion of the ecliptic.
@@ -51,12 +56,14 @@ def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
     return 2 * math.pi / (2 * math.pi / sidereal_year + rate)
 
 
-def time_per_day_of_drift(tropical: Numeric) -> Numeric:
-    """Time in which a calendar of 365.25 days drifts by one day against the seasons, s.
+def time_per_day_of_drift(tropical: Numeric, calendar: float = JULIAN_YEAR) -> Numeric:
+    """Time in which a calendar drifts by one day against the seasons, s.
 
     Parameters
     ----------
     tropical : float
         Tropical year, s.
+    calendar : float
+        Mean year of the calendar, s: the Julian one, 365.25 days, by default.
     """
-    return DAY / (JULIAN_YEAR - tropical) * JULIAN_YEAR
+    return DAY / (calendar - tropical) * JULIAN_YEAR

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.choosing.promises import promise, refuse_unkept, report
-from earthspin.constants import DAY, PUBLISHED_EFFECTS
+from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error, without_error
@@ -345,7 +345,11 @@ SEASONS = without_error(
     {
         **with_error(
             "general_precession",
-            Variable((), "arcsec/yr", "motion of the equinox along the moving ecliptic"),
+            Variable(
+                (),
+                "arcsec/yr",
+                "general precession in longitude: motion of the equinox along the moving ecliptic",
+            ),
         ),
         **with_error(
             "general_precession_period",
@@ -356,22 +360,36 @@ SEASONS = without_error(
         "time_per_day_of_drift": Variable(
             (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
         ),
+        "time_per_dropped_leap_day": Variable(
+            (), "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
+        ),
+        "time_per_day_of_gregorian_drift": Variable(
+            (), "yr", "time in which Gregorian years drift by a day against the seasons"
+        ),
     },
 )
 
 
 @part(gives=SEASONS, unless=not_sun_and_moon)
-def seasons(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> xr.Dataset:
-    """General precession, years per degree, drift of the calendar."""
+def seasons(
+    mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
+) -> xr.Dataset:
+    """General precession, years per degree, drift of the calendar.
+
+    For the Earth as it is, the published effects that the rate leaves out are included.
+    """
     from earthspin.nutation import seasons as s
+    from earthspin.nutation.budget import published_effects
     from earthspin.sky.iau import precession_rates
     from earthspin.torque import rates
 
     rate, error = mean_rates.total()
+    another = not_the_iaus_earth(body, perturbers)
+    published = 0.0 if another else sum(published_effects().values())
     chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
-    general = s.general_precession(rate, chi_rate, mean_torques.obliquity)
+    general = s.general_precession(rate + published, chi_rate, mean_torques.obliquity)
     year = s.tropical_year(general, body.needed("orbital_period"))
-    return build(
+    result = build(
         SEASONS,
         {
             "general_precession": general,
@@ -381,9 +399,17 @@ def seasons(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> xr.
             "time_per_degree": s.time_per_degree(general),
             "tropical_year": year,
             "time_per_day_of_drift": s.time_per_day_of_drift(year),
+            "time_per_dropped_leap_day": s.DROPPED_LEAP_DAY * JULIAN_YEAR,
+            "time_per_day_of_gregorian_drift": s.time_per_day_of_drift(year, s.GREGORIAN_YEAR),
         },
         no_error=mean_rates.no_error,
     )
+    result["general_precession"].attrs["effects"] = (
+        f"torques of Sun and Moon alone; no published effects apply: {another}"
+        if another
+        else "torques of Sun and Moon, and the published effects that their mean leaves out"
+    )
+    return result
 
 
 IAU_2006 = {

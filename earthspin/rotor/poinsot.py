@@ -23,7 +23,7 @@ from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
 from earthspin.numerics.double_double import TWO_PI
 from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
-from earthspin.rotor.moments import Moments, finite
+from earthspin.rotor.moments import Moments, finite, principal_moments
 from earthspin.rotor.triaxial import Phase, momentum_frame, phase_at, to_body
 
 FloatArray = NDArray[np.float64]
@@ -84,6 +84,24 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
     """
     motion = jacobi_motion(moments, omega)
     return np.sqrt(motion.twice_energy[..., np.newaxis] / motion.moments.values)
+
+
+def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
+    """Semi-axes of the inertia ellipsoid of rho = omega/sqrt(2T), 1/sqrt(I), kg-1/2 m-1 (I.5.1).
+
+    Goldstein's form, rho . I rho = 1: it belongs to the body alone, whatever its motion.
+
+    Parameters
+    ----------
+    moments : sequence of three numbers, mapping or PrincipalMoments
+        As for `principal_moments`, kg m2.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Along x, y, z of the body.
+    """
+    return np.asarray(1 / np.sqrt(principal_moments(moments).values))
 
 
 def momentum_ellipsoid(moments: Moments, omega: Any) -> FloatArray:

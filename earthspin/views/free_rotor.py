@@ -146,7 +146,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
 
 def solids(tree: Result) -> list[Solid]:
     """Poinsot's pictures of one free rotor."""
-    makers = (ellipsoids_with_polhodes, rolling_ellipsoid)
+    makers = (ellipsoids_with_polhodes, polhode_with_sphere, rolling_ellipsoid)
     return [solid for make in makers for solid in of_sections(tree, {"poinsot": make})]
 
 
@@ -169,6 +169,31 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
             moving_arrow(answer.omega_body.values, GREEN, "ω"),
         ],
         radius=float(1.15 * max(inertia.max(), momentum.max())),
+        times=answer.time.values,
+        attitude=[[1.0, 0.0, 0.0, 0.0]] * answer.time.size,
+    )
+
+
+def polhode_with_sphere(tree: Result) -> Solid:
+    """Polhode on the inertia ellipsoid, and a sphere of the mean speed that it crosses (I.5.4)."""
+    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    inertia, polhode = poinsot.inertia_ellipsoid.values, poinsot.polhode.values
+    speed = np.linalg.norm(polhode, axis=1)
+    mean = float(speed.mean())
+    return Solid(
+        title="A polhode is not on a sphere",
+        caption="The inertia ellipsoid (blue), a polhode (heavy line) and a sphere whose radius is "
+        "the mean angular speed on that polhode (green). The curve lies outside the sphere where "
+        f"the body rotates faster than the mean and inside where it rotates slower: the speed "
+        f"varies from {speed.min():.4g} to {speed.max():.4g} rad/s. No sphere contains the curve, "
+        "so the angular speed of a free body is not constant in general.",
+        items=[
+            mesh(ellipsoid(inertia), BLUE, opacity=0.1),
+            mesh(ellipsoid((mean, mean, mean)), GREEN, opacity=0.25),
+            line(polhode, BLACK, width=3),
+            moving_arrow(answer.omega_body.values, RED, "ω"),
+        ],
+        radius=float(1.15 * max(inertia.max(), mean)),
         times=answer.time.values,
         attitude=[[1.0, 0.0, 0.0, 0.0]] * answer.time.size,
     )

@@ -15,15 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from earthspin._version import __version__
-from earthspin.bodies import EARTH, MOON, SUN
-from earthspin.bodies.mean_orbits import (
-    MOON_DISTANCE,
-    MOON_ECCENTRICITY,
-    MOON_INCLINATION,
-    SUN_DISTANCE,
-    SUN_ECCENTRICITY,
-)
-from earthspin.constants import ARCSEC, DAY, EPSILON_0
+from earthspin.bodies import EARTH, MOON, SUN, Body
+from earthspin.bodies.mean_orbits import MOON_ECCENTRICITY, MOON_INCLINATION, SUN_ECCENTRICITY
+from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.engine import drafts
 from earthspin.errors import SceneError
 
@@ -58,23 +52,31 @@ class Play:
 
 
 def _sky() -> dict[str, object]:
-    """What pulls on the Earth, and the Earth."""
+    """The Earth, and Sun and Moon on ellipses with the mean torques of the report."""
+    from earthspin.scenes import run
+
+    answer = run("precession")
+    flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
+    obliquity = math.radians(float(answer.obliquity))
+
+    def ellipse(body: Body, eccentricity: float, inclination: float) -> dict[str, object]:
+        rate = float(answer.precession_rate.sel(perturber=body.name)) * ARCSEC_PER_YEAR
+        # the closed form of the page, solved for the distance
+        tilt = math.cos(obliquity) * (1 - 1.5 * math.sin(inclination) ** 2)
+        pull = 1.5 * flattening / spin * body.number("gm") / (1 - eccentricity**2) ** 1.5
+        return {
+            "gm": body.number("gm"),
+            "distance": (pull * tilt / rate) ** (1 / 3),
+            "eccentricity": eccentricity,
+            "inclination": inclination,
+        }
+
     return {
-        "flattening": EARTH.dynamical_flattening,
-        "spin": 2 * math.pi / EARTH_TURNS,
-        "obliquity": EPSILON_0.value * ARCSEC,
-        "sun": {
-            "gm": SUN.gm,
-            "distance": SUN_DISTANCE.value,
-            "eccentricity": SUN_ECCENTRICITY.value,
-            "inclination": 0.0,
-        },
-        "moon": {
-            "gm": MOON.gm,
-            "distance": MOON_DISTANCE.value,
-            "eccentricity": MOON_ECCENTRICITY.value,
-            "inclination": math.radians(MOON_INCLINATION.value),
-        },
+        "flattening": flattening,
+        "spin": spin,
+        "obliquity": obliquity,
+        "sun": ellipse(SUN, SUN_ECCENTRICITY.value, 0.0),
+        "moon": ellipse(MOON, MOON_ECCENTRICITY.value, math.radians(MOON_INCLINATION.value)),
     }
 
 
@@ -122,10 +124,10 @@ PLAYS = {
         "A spinning planet with its axis, the circle that its pole describes about the pole of the "
         "ecliptic, and the Moon on its way round.",
         (
-            "The rate is that of mean Keplerian orbits, with the node of the Moon averaged, and "
-            "comes out half a per cent above that of the report, which takes the Moon from an "
-            "ephemeris. Spin and month are slowed down so that "
-            "one sees them; the flattening of the planet is exaggerated.",
+            "The rate is that of Keplerian orbits, with the node of the Moon averaged. The "
+            "distances are those that give the mean torques of the report, which takes Sun and "
+            "Moon from an ephemeris, so the page starts at the period of the report. Spin and "
+            "month are slowed down to be visible; the flattening of the planet is exaggerated.",
             "A Moon of another mass or distance would change the spin and the obliquity in the "
             "long run; here each can be set by itself.",
         ),

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
+from earthspin.views import torque
 from earthspin.views.drawing import (
     CYCLE,
     NARROW,
@@ -17,7 +18,10 @@ from earthspin.views.drawing import (
     Drawing,
     axes,
     drawn,
+    empty,
+    few_dates,
     for_phone,
+    legend_above,
     note,
     style,
 )
@@ -45,6 +49,7 @@ from earthspin.views.table import BRACKETS, Table, along, date, measured, two_di
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 FloatArray = NDArray[np.float64]
 
@@ -71,12 +76,27 @@ def lead(tree: Result) -> str:
     once = f"The axis of {body_of(answer)} goes once round in"
     if known is None:
         return f"{once} {alone} in this model: {pull}, and nothing else."
-    rate, iau = float(known.iau_rate + known.closure), float(known.iau_rate)
-    error = float(known.closure_error) * FULL_TURN / rate**2
+    known_effects, iau = _period_with_known_effects(known), FULL_TURN / float(known.iau_rate)
     return (
-        f"{once} {with_error(FULL_TURN / rate, error)} years by all known effects together; IAU "
-        f"2006 has {FULL_TURN / iau:.3f}. The model of this page, {pull}, gives {alone} by itself."
+        f"{once} {known_effects} years by all known effects together; IAU 2006 has {iau:,.3f}. "
+        f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
+        f"{_left_out(answer, known):.2f} years."
     )
+
+
+def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
+    """Period with all published effects, and its half-width, yr."""
+    rate = float(known.iau_rate + known.closure)
+    return FULL_TURN / rate, float(known.closure_error) * FULL_TURN / rate**2
+
+
+def _period_with_known_effects(known: xr.Dataset) -> str:
+    return with_error(*_with_known_effects(known))
+
+
+def _left_out(answer: xr.Dataset, known: xr.Dataset) -> float:
+    """Years that the published effects add to the period of the model."""
+    return _with_known_effects(known)[0] - float(answer.precession_period[-1])
 
 
 # --- tables --------------------------------------------------------------------------------------
@@ -85,13 +105,51 @@ def lead(tree: Result) -> str:
 def tables(tree: Result) -> list[Table]:
     """Rates, and a table for each section that is there."""
     makers = {
+        "iau_2006": iau,
         "seasons": sky_and_calendar,
         "figure_models": models,
         "free_wobble": free_wobble,
-        "iau_2006": iau,
         "standstills": standstills,
     }
-    return [rates(tree), *of_sections(tree, makers)]
+    box = [periods(tree)] if section(tree, "iau_2006") and section(tree, "seasons") else []
+    return [*box, rates(tree), *of_sections(tree, makers)]
+
+
+def periods(tree: Result) -> Table:
+    """The three periods of precession, and which one to quote."""
+    answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
+    iau, iau_general = FULL_TURN / float(known.iau_rate), FULL_TURN / P_A_RATE.value
+    unexplained = _with_known_effects(known)[0] - iau
+    return Table(
+        "Which period to quote",
+        ("period", "years", "not included", "quote it for"),
+        [
+            (
+                "Sun and Moon, fixed ecliptic",
+                measured(answer.isel(perturber=-1), "precession_period"),
+                f"known effects: {_left_out(answer, known):+.2f} yr",
+                "the torque of Sun and Moon",
+            ),
+            (
+                "with all known effects",
+                _period_with_known_effects(known),
+                f"unexplained: {-unexplained:+.3f} yr",
+                f"the equator; IAU 2006: {iau:.3f}",
+            ),
+            (
+                "general precession, moving ecliptic",
+                measured(seasons, "general_precession_period"),
+                f"unexplained: {-unexplained:+.3f} yr",
+                f"equinox, seasons; IAU 2006: {iau_general:.3f}",
+            ),
+        ],
+        "The textbooks' 25,800 years are the general precession in longitude. The unexplained "
+        f"part is {abs(float(known.closure / known.iau_rate)) * 1e6:.1f} millionths of the rate, "
+        f"{abs(float(known.closure / known.closure_error)):.1f} half-widths: the half-widths "
+        "contain the uncertainties of H, of the masses and of the average, and the published "
+        "sizes of the known effects have none.",
+        words=(0, 2, 3),
+    )
 
 
 def rates(tree: Result) -> Table:
@@ -143,9 +201,20 @@ def sky_and_calendar(tree: Result) -> Table:
                 f"{float(of.time_per_day_of_drift):.2f}",
                 "129.4 (source text, I.8)",
             ),
+            (
+                "years per dropped leap day, Gregorian",
+                f"{float(of.time_per_dropped_leap_day):.2f}",
+                "400/3 (source text, I.8)",
+            ),
+            (
+                "years per day of Gregorian drift",
+                f"{float(of.time_per_day_of_gregorian_drift):,.0f}",
+                "",
+            ),
         ],
-        "General precession is the precession of the equator computed here minus the motion of "
-        "the ecliptic, which is taken from IAU 2006. A calendar of 365.25 days drifts against the "
+        "General precession is the precession of the equator, with the published effects that the "
+        "torques of Sun and Moon leave out, minus the motion of the ecliptic, which is taken from "
+        "IAU 2006. A calendar of 365.25 days drifts against the "
         "tropical year, which already contains the precession; the source text has 129.4 years and "
         'does not say from what. I.8 is a section of the source text, Appendix I, "Rigid Body '
         'Dynamics".',
@@ -253,6 +322,50 @@ def standstills(tree: Result) -> Table:
 def drawings(tree: Result) -> list[Drawing]:
     """For the Earth, the circle of the pole among the stars; convergence of the average."""
     return of_sections(tree, {"seasons": circle_of_pole, "convergence": convergence})
+
+
+@style()
+def chain(tree: Result, year: Result) -> Drawing:
+    """The method in one figure: declination, torque, average, period."""
+    return Drawing(
+        "From declination to the period of precession",
+        "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
+        "the component of the torque towards the equinox that follows (I.8.7); dashed: its mean. "
+        "Bottom: the rate of precession from the torque averaged over longer and longer windows, "
+        "and the period that follows.",
+        plot_chain(tree, year),
+    )
+
+
+def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) -> Figure:
+    """Declination and torque in time, the averaged rate, and the period of precession.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``precession``; without the section ``convergence`` it is run again.
+    year : Dataset or DataTree
+        Of the question ``torque``.
+    figure : Figure, optional
+        A figure of its own by default.
+    """
+    figure = empty(8, 6.6) if figure is None else figure
+    upper, middle, lower = figure.subplots(3, 1)
+    torque.plot_declination(year, ax=upper)
+    torque.plot_torque(year, ax=middle)
+    for ax in (upper, middle):
+        few_dates(ax)
+    total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
+    for colour, (window, one) in zip(CYCLE, along(curve, "window"), strict=False):
+        lower.plot(curve.window_length, one.rate_by_window, color=colour, lw=1.1, label=window)
+    rate = float(total.precession_rate)
+    lower.axhline(rate, color="0.3", lw=0.8, ls="--")
+    words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):,.0f} years"
+    note(lower, words, (float(curve.window_length[-1]), rate), (0, -12), ha="right", color="0.2")
+    lower.set_xlabel("length of the averaging window (yr)")
+    lower.set_ylabel("averaged rate\n(arcsec per year)")
+    legend_above(lower)
+    return figure
 
 
 @style()

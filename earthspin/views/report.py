@@ -14,7 +14,7 @@ from earthspin.engine import drafts, store
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
-from earthspin.views import free_rotor, top, torque
+from earthspin.views import free_rotor, precession, top, torque
 from earthspin.views.of_question import drawings_for, page_of
 from earthspin.views.page import page
 from earthspin.views.reading import answer_of, body_of, needed
@@ -69,7 +69,10 @@ def write_report(
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
         advance(1)
-        drawings = drawings_for(tree) + _torques(tree, advance) if figures else []
+        drawings = []
+        if figures:
+            circle, *others = drawings_for(tree)
+            drawings = [circle, *_torques(tree, advance), *others]
         title = answer_of(tree).attrs["title"]
         links = [("Rotors and tops, to turn and to play", "rotors.html")] if figures else []
         pages = {"index.html": page_of(tree, title=title, drawings=drawings, links=links)}
@@ -82,17 +85,18 @@ def write_report(
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
     """Torques through a year and through a turn of the Moon's node, about the reference epoch."""
     epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
-    kernel = load_scene(tree).keys()["ephemeris"]
+    keys = load_scene(tree).keys()
+    positions = {"ephemeris": keys["ephemeris"], "source": keys["source"]}
 
     def series(half_span: np.timedelta64, step: str) -> xr.Dataset:
         # Inside the window that has just been averaged over, so the kernel has it.
         span = str(epoch - half_span), str(epoch + half_span)
-        return run(load_scene("torque", {"ephemeris": kernel, "span": span, "step": step}))
+        return run(load_scene("torque", {**positions, "span": span, "step": step}))
 
     year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
     drawings = [
-        torque.through(year, "Declination and torque through a year"),
+        precession.chain(tree, year),
         torque.through(
             cycle, "Declination and torque through a cycle of the Moon's node", smooth_days=MONTH
         ),

@@ -12,7 +12,7 @@ MAP = tomllib.loads((ROOT / "docs" / "equations.toml").read_text(encoding="utf-8
 
 #: Highest number of each section of the source; equations and figures count through together.
 LAST = {"I.1": 9, "I.2": 7, "I.3": 1, "I.4": 4, "I.5": 9, "I.6": 32, "I.7": 20, "I.8": 7, "I.9": 52}
-LETTERED = {"I.1.10a", "I.1.10b", "I.1.10c"}
+LETTERED = {"I.1.10a", "I.1.10b", "I.1.10c", "I.5.1 rescaled"}
 EXERCISES = {
     "I.1 exercise: I.1.5",
     "I.1 exercise: (I)' = R I R^-1",

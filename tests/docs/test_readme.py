@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from earthspin.views.precession import rates
+from earthspin.views.precession import periods, rates
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 
@@ -17,6 +17,13 @@ def test_the_table_is_the_one_that_is_printed(precession_result: xr.Dataset) -> 
     for row in rates(precession_result).rows:
         for cell in row:
             assert cell in README, cell
+
+
+def test_the_box_of_periods_is_the_one_that_is_printed(precession_tree: xr.DataTree) -> None:
+    first_page = (Path(__file__).parents[2] / "docs" / "index.md").read_text(encoding="utf-8")
+    for row in periods(precession_tree).rows:
+        assert " | ".join(row) in README
+        assert " | ".join(row) in first_page
 
 
 def test_the_python_runs_and_gives_the_same_numbers() -> None:

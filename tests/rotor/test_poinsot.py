@@ -21,6 +21,7 @@ from earthspin.rotor.poinsot import (
     momentum_ellipsoid,
     nearest_closure,
     polhode,
+    rescaled_inertia_ellipsoid,
 )
 from earthspin.rotor.triaxial import free_rotation
 from tests.rotor.families import cases
@@ -44,6 +45,15 @@ def test_ellipsoids_of_one_body() -> None:
     assert invariable_plane_distance(moments, omega) == pytest.approx(
         18 / np.sqrt(72), rel=3e-16, abs=0
     )
+
+
+@STARTS
+def test_the_rescaled_ellipsoid_is_that_of_the_body_alone(omega: Any) -> None:
+    """rho = omega/sqrt(2T) stays on it, and rho . I rho = 1, on the whole polhode."""
+    rho = polhode(BODY, omega, 50).omega / np.sqrt(np.sum(BODY * np.square(omega)))
+    axes = rescaled_inertia_ellipsoid(BODY)
+    np.testing.assert_allclose(np.sum((rho / axes) ** 2, axis=-1), 1, rtol=3e-15)
+    np.testing.assert_allclose(np.sum(BODY * rho**2, axis=-1), 1, rtol=3e-15)
 
 
 @STARTS

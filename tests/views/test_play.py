@@ -17,6 +17,7 @@ from earthspin.interior.love import softening
 from earthspin.interior.prem import PREM
 from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
+from earthspin.scenes import run
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
@@ -272,6 +273,8 @@ def expected(name: str) -> Iterator[float]:
     given = PLAYS[name].given()
     if name == "precession":
         pulls = [given["sun"], given["moon"]]
+        period = 2 * np.pi / averaged_rate({**given, "pulls": pulls}) / JULIAN_YEAR
+        assert period == pytest.approx(float(run("precession").precession_period[-1]), rel=1e-12)
         for some in (pulls, pulls[:1]):
             yield 2 * np.pi / averaged_rate({**given, "pulls": some}) / JULIAN_YEAR
     elif name == "rotor":

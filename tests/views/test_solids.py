@@ -36,6 +36,17 @@ def test_the_polhode_lies_on_both_ellipsoids(poinsot: xr.DataTree) -> None:
         assert np.allclose(on, 1.0, rtol=0, atol=1e-13)
 
 
+def test_a_polhode_crosses_the_sphere_of_its_mean_speed(poinsot: xr.DataTree) -> None:
+    """I.5.4: the speed varies, by what energy and momentum allow, so no sphere holds the curve."""
+    solid = free_rotor.polhode_with_sphere(poinsot)
+    sphere, curve = (np.asarray(item["points"]).reshape(-1, 3) for item in solid.items[1:3])
+    radius = np.linalg.norm(sphere, axis=1)
+    assert np.ptp(radius) < 1e-12 * radius[0]
+    speed = np.linalg.norm(curve, axis=1)
+    assert speed.min() < 0.99 * radius[0]
+    assert speed.max() > 1.01 * radius[0]
+
+
 def test_the_rolling_ellipsoid_touches_the_plane(poinsot: xr.DataTree) -> None:
     """At every time the highest point of the ellipsoid is the tip of omega, on the plane."""
     solid = free_rotor.rolling_ellipsoid(poinsot)

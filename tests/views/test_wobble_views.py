@@ -40,6 +40,23 @@ def test_tables_of_the_ladder(ladder: xr.DataTree) -> None:
     assert "has no ocean" in words(earthspin.wobble_ladder(body="mars"))
 
 
+def test_the_observed_polhode_is_drawn_as_published(pole: xr.DataTree) -> None:
+    """I.6.32: the curve is that of the table of the IERS, in milliarcseconds and metres."""
+    from astropy.utils.iers import IERS_B
+
+    table = IERS_B.open()
+    ax = polar_motion.plot_polhode(pole, years=None)
+    y, x = ax.lines[0].get_data()
+    first = table["MJD"].value >= 37665
+    np.testing.assert_allclose(x, table["PM_x"].to_value("mas")[first][: x.size], atol=1e-9)
+    np.testing.assert_allclose(y, table["PM_y"].to_value("mas")[first][: y.size], atol=1e-9)
+    # 1 mas is 3.08 cm at the pole, 6,357 km from the centre
+    ax.figure.draw_without_rendering()
+    low, high = ax.get_ylim()
+    (axis,) = (child for child in ax.child_axes if child.get_ylabel() == "x (m)")
+    assert np.ptp(axis.get_ylim()) == pytest.approx((high - low) * 6356752 * MAS, rel=1e-6)
+
+
 def test_tables_of_the_pole(pole: xr.DataTree) -> None:
     text = words(pole)
     assert "period, d 433.0(3.9)" in text

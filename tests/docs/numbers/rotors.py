@@ -201,6 +201,14 @@ MEASURED = [
     ),
     Sentence(
         THEORY,
+        "one in 400/3 = {}\nyears, and so drifts by a day in {} years",
+        lambda: [
+            value("precession", "seasons", "time_per_dropped_leap_day"),
+            value("precession", "seasons", "time_per_day_of_gregorian_drift"),
+        ],
+    ),
+    Sentence(
+        THEORY,
         "the right one both give {} or {}.",
         lambda: sorted(rate_about(0, taper, 4) for taper in ("hann", "sin4")),
         slow=True,

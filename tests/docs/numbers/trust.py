@@ -17,6 +17,7 @@ import earthspin
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.sky import orbit_table
+from tests import shipped
 from tests.docs.numbers.answers import value
 from tests.docs.numbers.sentence import ROOT, Part, Sentence, Told
 
@@ -115,6 +116,12 @@ def tally() -> Sequence[float]:
     return [verdict.size, int(must.sum()), *counts]
 
 
+def unexplained() -> float:
+    """Closure of the rate of precession, millionths."""
+    known = shipped.tree("precession")["iau_2006"]
+    return 1e6 * abs(float(known.closure / known.iau_rate))
+
+
 MEASURED = [
     *(
         Sentence(STABILITY, text, partial(over_days, name), slow=True)
@@ -176,6 +183,7 @@ MEASURED = [
         tolerances_not_named,
     ),
     Sentence(FIRST, "once round in {} years", period, 0.5),
+    Sentence(FIRST, "The unexplained part is {} millionths of the rate", unexplained),
     Sentence(QUICK, '"torque.zarr")  # {} million epochs', epochs_of_the_example),
     Sentence(
         STABILITY,
@@ -185,7 +193,23 @@ MEASURED = [
     ),
 ]
 ERROR = "what an error is, by definition"
+BOX = "held by tests/docs/test_readme.py"
 TOLD: list[Told | Part] = [
+    *(
+        Told(page, text, BOX)
+        for page in ("README.md", FIRST)
+        for text in (
+            "| Sun and Moon, fixed ecliptic | {}(17) | known effects: {} yr |",
+            "| with all known effects | {}(17) | unexplained: {} yr | the equator; IAU 2006: {} |",
+            "moving ecliptic | {}(17) | unexplained: {} yr | equinox, seasons; IAU 2006: {} |",
+        )
+    ),
+    *(
+        Told(page, 'The "{} years" of textbooks', "the source text, I.8")
+        for page in ("README.md", FIRST)
+    ),
+    Told(FIRST, "Figures in brackets are {} % half-widths", ERROR),
+    Told("docs/gallery/precession/plot_chain.py", "and read off {} years", "rounded; a suggestion"),
     Told(STABILITY, "published size, ${}$ arcsec/yr", "published: Capitaine et al. 2003, table 3"),
     Told(FILES, "h5py (HDF5 {})", "the version of a library"),
     Told(TESTING, "calls and answers from fixed seeds ({} s;", "run time: tests/fuzz"),
