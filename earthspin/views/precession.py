@@ -161,11 +161,15 @@ def rates(tree: Result) -> Table:
     )
     return Table(
         "Precession",
-        ("pulled by", "rate, arcsec/yr", "period, yr", "mean torque, N m", f"rate / {first}"),
+        (
+            *("pulled by", "rate, arcsec/yr", "left out, arcsec/yr", "period, yr"),
+            *("mean torque, N m", f"rate / {first}"),
+        ),
         [
             (
                 label,
                 measured(of, "precession_rate"),
+                _largest_left_out(answer) if label == str(answer.perturber.values[-1]) else "",
                 measured(of, "precession_period"),
                 measured(of, "mean_torque"),
                 f"{float(of.rate_ratio):.5f}",
@@ -178,6 +182,13 @@ def rates(tree: Result) -> Table:
         f"error of the last rate, {method} arcsec/yr are due to averaging and {given} arcsec/yr to "
         f"the given numbers. {BRACKETS}",
     )
+
+
+def _largest_left_out(answer: xr.Dataset) -> str:
+    """Largest effect on the rate that the model leaves out; its size may be unknown."""
+    name, _, size = answer.attrs["neglected"].partition(": ")
+    size, unit, _ = size.partition(" arcsec/yr")
+    return f"{size} ({name})" if unit else "size unknown"
 
 
 def sky_and_calendar(tree: Result) -> Table:
@@ -361,7 +372,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
     words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):,.0f} years"
-    note(lower, words, (float(curve.window_length[-1]), rate), (0, -12), ha="right", color="0.2")
+    note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
     lower.set_xlabel("length of the averaging window (yr)")
     lower.set_ylabel("averaged rate\n(arcsec per year)")
     legend_above(lower)

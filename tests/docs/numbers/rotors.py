@@ -201,7 +201,7 @@ MEASURED = [
     ),
     Sentence(
         THEORY,
-        "one in 400/3 = {}\nyears, and so drifts by a day in {} years",
+        "one in 400/3 = {}\nyears, and so departs from the seasons by a day in {} years",
         lambda: [
             value("precession", "seasons", "time_per_dropped_leap_day"),
             value("precession", "seasons", "time_per_day_of_gregorian_drift"),
