@@ -1,10 +1,10 @@
 """Cassini state of the Moon on its real orbit: what `cassini_states` leaves out, measured.
 
-The energy of the Moon's figure in the pull of the Earth, and of the Sun, is averaged over four turns
-of the node with positions of a kernel, for a rigid body that turns evenly with the mean longitude
-and whose axis leans from the ecliptic's pole, opposite to the normal of the orbit. A steadily
-precessing rigid body has the angular momentum C (n + nu), n the mean motion and nu the rate at
-which the node regresses: its turns count from the node.
+The energy of the Moon's figure in the pull of the Earth, and of the Sun, is averaged over four
+turns of the node with positions of a kernel, for a rigid body that turns evenly with the mean
+longitude and whose axis leans from the ecliptic's pole, opposite to the normal of the orbit. A
+steadily precessing rigid body has the angular momentum C (n + nu), n the mean motion and nu the
+rate at which the node regresses: its turns count from the node.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ _LUNAR_STATE = "data_tools/lunar_state.py, means over the orbit of DE421"
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     MOON.name: {
         "the Sun in the orbit": Constant(-0.0227, "deg", None, _LUNAR_STATE),
-        "spin counted from the node": Constant(-0.0082, "deg", None, _LUNAR_STATE),
+        "spin counted from the node": Constant(-0.0080, "deg", None, _LUNAR_STATE),
         "pull of the Sun": Constant(0.0022, "deg", None, _LUNAR_STATE),
         "mean inclination": Constant(
             -0.0115, "deg", None, "5.145 deg, with which the observed one is made, less that of ELP"

@@ -49,15 +49,6 @@ class Neglected:
         )
 
     @property
-    def total(self) -> float | None:
-        """Sum of the sizes without their signs, SI; None if no size is known.
-
-        Sizes are systematic, so that they add up: where a result stands beside an observation, its
-        uncertainty is the half-width plus this sum.
-        """
-        return sum(map(abs, self.sizes.values())) if self.sizes else None
-
-    @property
     def largest(self) -> str:
         """Name of the largest effect with its size, for the answer's attributes."""
         if not self.sizes:

@@ -194,9 +194,11 @@ def free_wobble(tree: Result) -> Table:
     """Period of the rigid wobble, and the observed one if this body was observed."""
     of = needed(tree, "free_wobble")
     sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
-    period, error = of.free_wobble_period, of.free_wobble_period_error
-    rows = [("rigid body, A/(C-A)", beside_observed(period, error, None), sidereal)]
+    rigid = measured(of, "free_wobble_period")
     notes = ["The formula holds for a rigid body; a real body deforms."]
+    if "observed_period" in of:
+        rigid = beside_observed(of.free_wobble_period, of.free_wobble_period_error, None)
+    rows = [("rigid body, A/(C-A)", rigid, sidereal)]
     if "observed_period" in of:
         rows.append(("observed", measured(of, "observed_period"), ""))
         notes.append(f"Source of the observed period: {of.observed_period.attrs['references']}.")
@@ -228,7 +230,8 @@ def iau(tree: Result) -> Table:
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
-        "not the theory. Errors hold the uncertainty of the input numbers only. The difference that remains is "
+        "not the theory. Errors hold the uncertainty of the input numbers only. The "
+        "difference that remains is "
         f"{abs(float(of.closure / of.iau_rate)) * 1e6:.1f} millionths of the rate.",
     )
 

@@ -113,8 +113,8 @@ def beside_observed(
     value, error : float
         The half-width holds the input numbers only.
     left_out : Dataset or None
-        The section `neglected` in the same unit: its sizes are added to the half-width. Without
-        sizes the value is followed by "numbers only".
+        The section `neglected` in the same unit: its sizes, which are systematic, are added to the
+        half-width. Without sizes the value is followed by "numbers only".
     unit : str
         Written after the numbers.
     """
