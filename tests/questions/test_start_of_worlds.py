@@ -1,32 +1,20 @@
 """The pole that a motion starts from: which one it is, how well it is known, what errors say."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
 
 import earthspin
+from data_tools.coverage.worlds import LA2004_RATE, LA2004_START, la2004, like_la2004, vector
 from earthspin import BODIES, EARTH, MARS, BodyError, SceneError
 from earthspin.constants import ARCSEC, NORMAL_95
 from earthspin.questions.long_term import LongTerm
 from earthspin.questions.pole import Pole
 from earthspin.sky.moving_pole import MovingPole
 
-#: Obliquity of Mars over a million years (La2004): kyr from J2000.0, rad.
-LA2004 = np.loadtxt(Path(__file__).parents[1] / "data" / "la2004-mars-excerpt.txt")
-#: Obliquity that La2004 starts with, deg, and the rate of precession that it then has, arcsec/yr:
-#: fitted, for 7.597 are stated; geodesic precession, 0.00675, is counted twice in the difference.
-LA2004_START, LA2004_RATE = 25.189417, 7.58347
 #: Pole of Mars at J2000.0 without nutation: IAU 2009 (Archinal et al. 2011), and of Konopliv et al.
 #: 2016 (Icarus 274, 253), right ascension and declination, deg.
 OTHER_POLES = {"IAU 2009": (317.68143, 52.88650), "Konopliv 2016": (317.68111502, 52.88635278)}
-
-
-def vector(angles: tuple[float, float]) -> np.ndarray:
-    """Unit vector of a right ascension and declination, deg."""
-    ra, dec = np.radians(angles)
-    return np.array([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)])
 
 
 @pytest.fixture(scope="module")
@@ -48,31 +36,18 @@ def test_the_half_width_of_the_start_of_mars_holds_other_poles(
 def test_mars_starts_without_nutation(mars: xr.Dataset) -> None:
     """The mean obliquity of 1980 by the Viking landers (Yoder & Standish 1997, JGR 102, 4065)."""
     then = mars.isel(epoch=0)
-    # 2 sigma of theirs is 0.0001 deg; measured: 2e-7 deg, beside 1.7e-4 with nutation
+    # 2 sigma of theirs is 0.0001 deg; measured: 8e-6 deg, beside 1.8e-4 with nutation
     assert float(then.obliquity) == pytest.approx(25.1894, rel=0, abs=1e-4)
     # with which La2004 starts, as if it were that of J2000.0
     assert float(then.obliquity) == pytest.approx(LA2004_START, rel=0, abs=5e-5)
-    assert np.degrees(LA2004[0, 1]) == pytest.approx(LA2004_START, rel=0, abs=1e-7)
+    assert la2004()[0] == pytest.approx(LA2004_START, rel=0, abs=1e-7)
 
 
 def test_two_constants_are_all_that_separates_la2004_from_ours() -> None:
-    ours = earthspin.long_term(times=["0 kyr"], body="mars")
-    rate, torques = float(ours.precession_rate[-1, 0]), float(ours.precession_rate[0, 0])
-    h = MARS.number("dynamical_flattening") * (1 + (LA2004_RATE - rate) / torques)
-    shift = LA2004_START - float(ours.obliquity[0])
-    theirs = earthspin.long_term(
-        "-1 Myr",
-        "0 kyr",
-        "10 kyr",
-        body=MARS.replace(dynamical_flattening=h),
-        obliquity_shift=f"{shift} deg",
-    )
-    difference = theirs.obliquity.values[::-1] - np.degrees(LA2004[:, 1])
-    assert np.abs(difference).max() < 2.5e-3  # 1.3e-3 measured
+    theirs = like_la2004(LA2004_START, LA2004_RATE)
+    assert np.abs(theirs.obliquity.values - la2004()).max() < 2.5e-3  # 1.2e-3 measured
     # as they stand, the two are apart by more than either says
-    own = earthspin.long_term("-1 Myr", "0 kyr", "10 kyr", body="mars")
-    apart = own.obliquity.values[::-1] - np.degrees(LA2004[:, 1])
-    assert np.abs(apart).max() > 0.5
+    assert np.abs(like_la2004().obliquity.values - la2004()).max() > 0.5
 
 
 def test_a_pole_without_an_uncertainty_has_no_error() -> None:
