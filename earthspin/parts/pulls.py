@@ -185,4 +185,6 @@ def start_note(body: Body) -> dict[str, str]:
 
 def start_error(body: Body) -> float | None:
     """Half-width of 95 % of the direction of the pole at J2000.0, rad; None if it is not known."""
-    return None if body.pole_uncertainty is None else NORMAL_95 * body.pole_uncertainty
+    if body.pole_uncertainty is None:
+        return None
+    return NORMAL_95 * body.number("pole_uncertainty")
