@@ -79,7 +79,8 @@ class Body(FromMass):
         Of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right ascension
         and a declination may be given (ICRF, J2000.0, rad).
     pole_uncertainty : float or None
-        One standard deviation of the direction of `pole` at J2000.0, rad; None if it is not known.
+        One standard deviation of `pole` at J2000.0 in each of two directions, rad; None if it is
+        not known.
     orbit_pole : Direction or None
         Right ascension and declination of the orbit's normal (ICRF, rad); not used with
         `IAU_2006`, which brings its own ecliptic.

@@ -249,11 +249,22 @@ def solved(
     causes = budget.changes(
         setting,
         constant=relative_error,
-        pole=start_error(body),
+        pole=_half_widths_of_start(body),
         earth=strength.node_rate < math.inf,
         error=orbit_table.error,
     )
     return budget.solved(setting, span, causes)
+
+
+def _half_widths_of_start(body: Body) -> tuple[float, ...]:
+    """Half-widths of the start as `budget.changes` takes them, rad.
+
+    Of the IAU's pole that of the obliquity: longitudes count from it.
+    """
+    half = start_error(body)
+    if half is None:
+        return ()
+    return (half,) if body.needed("pole").of_the_iau else (half, half)
 
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:

@@ -8,7 +8,7 @@ Earth itself: how its tides and its figure were in the past.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -122,16 +122,26 @@ def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
     return Changed(orbit, change)
 
 
-def tilted(setting: Setting, angle: float) -> FloatArray:
-    """Return the start tilted by an angle (rad) from the normal of the orbit, same shape."""
+def leaning(setting: Setting, angle: float, way: int) -> FloatArray:
+    """Return the start moved by an angle, same shape.
+
+    Parameters
+    ----------
+    setting : Setting
+    angle : float
+        rad.
+    way : int
+        0 or 1: towards the normal of the orbit or away from it, or across.
+    """
     start = setting.start.reshape(3, -1)
-    across = cross(cross(setting.orbit.at(np.zeros(1))[0], start), start)
-    tilted = start + angle * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
-    return np.asarray((tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape))
+    across = cross(setting.orbit.at(np.zeros(1))[0], start)
+    direction = across if way else cross(across, start)
+    other = start + angle * direction / np.maximum(np.sqrt(dot(direction, direction)), 1e-300)
+    return np.asarray((other / np.sqrt(dot(other, other))).reshape(setting.start.shape))
 
 
 def changes(
-    setting: Setting, *, constant: Numeric, pole: float | None, earth: bool, error: HalfWidths
+    setting: Setting, *, constant: Numeric, pole: Sequence[float], earth: bool, error: HalfWidths
 ) -> tuple[tuple[str, Setting], ...]:
     """What each cause makes of a setting; the orbit is moved two ways.
 
@@ -140,9 +150,9 @@ def changes(
     setting : Setting
     constant : float
         Relative half-width of the constant of precession.
-    pole : float or None
-        Half-width of the direction of the pole at J2000.0, rad: the start is tilted by it. None if
-        it is not known; the start is then no cause.
+    pole : sequence of float
+        Half-widths of the start, rad: towards the normal of the orbit, and across if there are two.
+        If it is empty, the start is no cause.
     earth : bool
         Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
     error : callable
@@ -159,7 +169,10 @@ def changes(
                 ),
             ),
         ),
-        *([] if pole is None else [("start", replace(setting, start=tilted(setting, pole)))]),
+        *(
+            ("start", replace(setting, start=leaning(setting, angle, way)))
+            for way, angle in enumerate(pole)
+        ),
         *(("orbit", replace(setting, orbit=moved(setting.orbit, error, way))) for way in (0, 1)),
     ]
     if earth:

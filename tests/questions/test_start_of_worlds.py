@@ -29,7 +29,7 @@ def test_the_half_width_of_the_start_of_mars_holds_other_poles(
     """Measured: 0.895 and 0.030 arcsec."""
     now = mars.isel(epoch=1)
     off = float(np.linalg.norm(now.pole.values - vector(OTHER_POLES[name]))) / ARCSEC
-    assert off < float(now.pole_error) < 1.0
+    assert off < float(now.pole_error) < 1.5
     assert off < bound
 
 
@@ -71,9 +71,26 @@ def test_a_pole_without_an_uncertainty_has_no_error() -> None:
 def test_an_uncertainty_that_is_given_is_that_of_the_start() -> None:
     body = MARS.replace(pole=MARS.pole, pole_uncertainty="2 arcsec")
     found = earthspin.long_term(times=["0 kyr"], body=body)
-    assert float(found.pole_error[0]) == pytest.approx(2 * NORMAL_95, rel=1e-6, abs=0)
+    both = 2 * NORMAL_95 * np.sqrt(2.0)
+    assert float(found.pole_error[0]) == pytest.approx(both, rel=1e-6, abs=0)
     with pytest.raises(BodyError, match="zero or more"):
         MARS.replace(pole_uncertainty=-1e-6)
+
+
+@pytest.mark.parametrize("angle", [0, 45, 90, 135])
+def test_the_share_of_the_start_holds_another_start(angle: float) -> None:
+    """Moved by 0.89 arcsec in any direction, as far as the pole of IAU 2009 lies."""
+    span = {"body": "mars", "span": ("-1 Myr", "1 Myr"), "step": "20 kyr"}
+    tree = earthspin.run_tree(LongTerm(**span), ["budget"])
+    tilt, turn = 0.89 * np.cos(np.radians(angle)), 0.89 * np.sin(np.radians(angle))
+    turn /= np.sin(np.radians(25.19))
+    shifts = {"obliquity_shift": f"{tilt} arcsec", "longitude_shift": f"{turn} arcsec"}
+    moved = earthspin.run(LongTerm(**span, **shifts))
+    share = tree["budget"].sel(cause="start")
+    off = np.linalg.norm(tree.pole.values - moved.pole.values, axis=-1) / ARCSEC
+    assert np.mean(off <= 1.001 * share.pole_share.values) > 0.95
+    off = 3600 * np.abs(tree.obliquity.values - moved.obliquity.values)
+    assert np.mean(off <= 1.001 * share.obliquity_share.values) > 0.95
 
 
 def test_worlds_that_know_their_pole() -> None:
