@@ -93,6 +93,13 @@ def test_the_share_of_the_start_holds_another_start(angle: float) -> None:
     assert np.mean(off <= 1.001 * share.obliquity_share.values) > 0.95
 
 
+def test_the_flattening_of_mars_is_as_uncertain_as_published() -> None:
+    """H of Baland et al. 2020 (BMAN20): 0.00538017 +- 0.00000148."""
+    h, share = MARS.number("dynamical_flattening"), MARS.relative_uncertainty
+    assert h == pytest.approx(0.00538017, rel=0, abs=1e-8)
+    assert h * share["dynamical_flattening"] == pytest.approx(1.48e-6, rel=0.01, abs=0)
+
+
 def test_worlds_that_know_their_pole() -> None:
     known = {name for name, body in BODIES.items() if body.pole_uncertainty is not None}
     assert known == {"mercury", "earth", "mars", "saturn"}
