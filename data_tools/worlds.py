@@ -7,6 +7,9 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+import xarray as xr
+
 import earthspin
 from data_tools.stability import with_tables
 from earthspin.bodies import BODIES, PLANETS, proper
@@ -17,15 +20,22 @@ from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.constants import PSI_A_RATE, Constant
 from earthspin.errors import EarthspinError
+from earthspin.questions.cassini import CassiniStates
+from earthspin.questions.precession import Precession
+from earthspin.views.table import NUMBERS_ONLY
 
 #: Signs of units; smaller obliquities stand in minutes of arc, deg.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
 PAGE = Path(__file__).parents[1] / "docs" / "worlds.md"
 
 
+#: Said of a comparison with the observation that the body's own numbers come from.
+CIRCULAR = "circular: "
+
+
 @dataclass(frozen=True)
 class Published:
-    """A published rate, and why ours is another.
+    """A published rate, and the reason for the difference from ours.
 
     Attributes
     ----------
@@ -34,7 +44,7 @@ class Published:
     of_constant : bool
         Whether it is the rate over the cosine of the obliquity.
     why : str
-        What parts the two.
+        Reason for the difference; `CIRCULAR` first where ours comes from the same observation.
     """
 
     rate: Constant
@@ -43,11 +53,24 @@ class Published:
 
 
 PUBLISHED = {
-    "venus": Published(VENUS_PRECESSION, False, "the moment was inferred from this rate"),
-    "earth": Published(PSI_A_RATE, False, "geodesic precession and other effects left out"),
-    "mars": Published(MARS_PRECESSION, False, "within its error"),
-    "jupiter": Published(JUPITER_CONSTANT, True, "theirs is known here to two digits"),
-    "saturn": Published(SATURN_CONSTANT, True, "Iapetus, outside, is carried in part by theirs"),
+    "venus": Published(
+        VENUS_PRECESSION, False, f"{CIRCULAR}the moment was inferred from this rate"
+    ),
+    "earth": Published(
+        PSI_A_RATE,
+        False,
+        f"{CIRCULAR}$H$ comes from observed precession; geodesic precession and other effects "
+        "are left out",
+    ),
+    "mars": Published(
+        MARS_PRECESSION,
+        False,
+        f"{CIRCULAR}the moment was inferred from this rate; geodesic precession is left out",
+    ),
+    "jupiter": Published(JUPITER_CONSTANT, True, "the published value has two digits"),
+    "saturn": Published(
+        SATURN_CONSTANT, True, "Iapetus is left out here and carried in part by the published one"
+    ),
 }
 
 
@@ -61,7 +84,9 @@ class World:
     obliquity : float
         To the orbit, degrees.
     rate, error : float
-        Size of the rate of precession and its 95 % half-width, arcsec/yr.
+        Size of the rate of precession and its 95 % half-width from the input numbers, arcsec/yr.
+    left_out : float
+        Sum of the sizes of what the model leaves out, arcsec/yr; NaN if they are not known.
     period, period_error : float
         Years.
     published : float
@@ -74,6 +99,7 @@ class World:
     obliquity: float = math.nan
     rate: float = math.nan
     error: float = math.nan
+    left_out: float = math.nan
     period: float = math.nan
     period_error: float = math.nan
     published: float = math.nan
@@ -83,9 +109,10 @@ class World:
 def world(name: str) -> World:
     """Row of a body, pulled on by what pulls on it."""
     try:
-        found = earthspin.precession(body=name).isel(perturber=-1)
+        tree = earthspin.run_tree(Precession(body=name), ["neglected"])
     except EarthspinError as error:
         return World(name, refused=str(error))
+    found = tree.to_dataset().isel(perturber=-1)
     obliquity = float(found.obliquity)
     published = PUBLISHED[name]
     along = math.cos(math.radians(obliquity)) if published.of_constant else 1.0
@@ -94,10 +121,22 @@ def world(name: str) -> World:
         obliquity,
         abs(float(found.precession_rate)),
         float(found.precession_rate_error),
+        left_out(tree),
         float(found.precession_period),
         float(found.precession_period_error),
         abs(published.rate.value) * along,
     )
+
+
+def left_out(tree: xr.DataTree) -> float:
+    """Sum of the sizes of what a model leaves out, in the unit of its section; NaN if not known."""
+    sizes = tree["neglected"].neglected_effect.values
+    return float(np.abs(sizes).sum()) if sizes.size else math.nan
+
+
+def in_all(error: float, left_out: float, sign: str = "") -> str:
+    """Write a half-width plus the sizes of what is left out; say so if these are not known."""
+    return NUMBERS_ONLY if math.isnan(left_out) else f"{error + left_out:.2g}{sign}"
 
 
 def worlds() -> list[World]:
@@ -108,8 +147,9 @@ def worlds() -> list[World]:
 def table(rows: list[World]) -> str:
     """The rows in Markdown: first those that precess, then those that are refused."""
     lines = [
-        "| world | obliquity (°) | rate (″/yr) | ± | period (yr) | published (″/yr) | ± | source |",
-        "|---|---:|---:|---:|---:|---:|---:|---|",
+        "| world | obliquity (°) | rate (″/yr) | ± input numbers | ± in all | period (yr) "
+        "| published (″/yr) | ± | source |",
+        "|---|---:|---:|---:|---:|---:|---:|---:|---|",
     ]
     for row in rows:
         if row.refused:
@@ -118,10 +158,10 @@ def table(rows: list[World]) -> str:
         error = "" if of.uncertainty is None else f"{1.96 * of.uncertainty:.2g}"
         lines.append(
             f"| {proper(row.name)} | {row.obliquity:.2f} | {_to(row.error, row.rate)} "
-            f"| {row.error:.2g} | {_to(row.period_error, row.period)} | {row.published:.4g} "
-            f"| {error} | {of.source} |"
+            f"| {row.error:.2g} | {in_all(row.error, row.left_out)} "
+            f"| {_to(row.period_error, row.period)} | {row.published:.4g} | {error} | {of.source} |"
         )
-    lines += ["", "| world | parts ours from the published one |", "|---|---|"]
+    lines += ["", "| world | reason for the difference |", "|---|---|"]
     lines += [f"| {proper(name)} | {one.why} |" for name, one in PUBLISHED.items()]
     lines += ["", "| world | why there is no rate |", "|---|---|"]
     lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
@@ -130,14 +170,15 @@ def table(rows: list[World]) -> str:
 
 @dataclass(frozen=True)
 class Observed:
-    """Where an axis is observed to stand, and why ours is elsewhere.
+    """Where an axis is observed to stand, and the reason for the difference from ours.
 
     Attributes
     ----------
     obliquity : Constant or None
         To its own orbit, arcmin or deg; None if it is not known here.
     why : str
-        What parts the two, or what is missing.
+        Reason for the difference, `CIRCULAR` first where ours comes from the same observation; or
+        what is missing.
     """
 
     obliquity: Constant | None
@@ -145,8 +186,14 @@ class Observed:
 
 
 OBSERVED = {
-    "mercury": Observed(MERCURY_OBLIQUITY, "the moment was inferred from this obliquity"),
-    "moon": Observed(MOON_OBLIQUITY, "a solid body on a mean ellipse"),
+    "mercury": Observed(
+        MERCURY_OBLIQUITY, f"{CIRCULAR}the moment was inferred from this obliquity"
+    ),
+    "moon": Observed(
+        MOON_OBLIQUITY,
+        "a solid body on a mean ellipse: the Sun disturbs the orbit (0.023°), another mean "
+        "inclination is in use (0.012°), turns count from the node (0.008°)",
+    ),
     "titan": Observed(
         TITAN_OBLIQUITY,
         f"a solid body: for one {TITAN_OBLIQUITY_IF_SOLID.value:g}° are published "
@@ -166,7 +213,10 @@ class Locked:
     ----------
     name : str
     obliquity, error : float
-        To its own orbit, of the lowest upright Cassini state, and half-width, deg.
+        To its own orbit, of the lowest upright Cassini state, and half-width from the input
+        numbers, deg.
+    left_out : float
+        Sum of the sizes of what the model leaves out, deg; NaN if they are not known.
     refused : str
         Why there is none; empty if there is.
     """
@@ -174,17 +224,18 @@ class Locked:
     name: str
     obliquity: float = math.nan
     error: float = math.nan
+    left_out: float = math.nan
     refused: str = ""
 
 
 def locked_spin(name: str) -> Locked:
     """Row of a body in the Cassini state that it is in."""
     try:
-        states = earthspin.cassini_states(name)
+        tree = earthspin.run_tree(CassiniStates(body=name), ["neglected"])
     except EarthspinError as error:
         return Locked(name, refused=str(error))
-    first = states.isel(state=0)  # for the Moon state 2, the only upright one
-    return Locked(name, float(first.obliquity), float(first.obliquity_error))
+    first = tree.to_dataset().isel(state=0)  # for the Moon state 2, the only upright one
+    return Locked(name, float(first.obliquity), float(first.obliquity_error), left_out(tree))
 
 
 def locked() -> list[Locked]:
@@ -195,8 +246,9 @@ def locked() -> list[Locked]:
 def table_of_locked(rows: list[Locked]) -> str:
     """The locked spins in Markdown: those that have states, then those that are refused."""
     lines = [
-        "| locked spin | obliquity to its orbit | ± | observed | ± | source |",
-        "|---|---:|---:|---:|---:|---|",
+        "| locked spin | obliquity to its orbit | ± input numbers | ± in all | observed | ± "
+        "| source |",
+        "|---|---:|---:|---:|---:|---:|---|",
     ]
     for row in rows:
         if row.refused:
@@ -207,13 +259,13 @@ def table_of_locked(rows: list[Locked]) -> str:
         error = f"{factor * row.error:.2g}{sign}" if row.error else ""
         theirs = ["", "", ""]
         if of is not None:
-            half = "" if of.uncertainty is None else f"{of.uncertainty:g}{UNITS[of.unit]}"
+            half = "" if of.uncertainty is None else f"{1.96 * of.uncertainty:.2g}{UNITS[of.unit]}"
             theirs = [f"{of.value:g}{UNITS[of.unit]}", half, of.source]
         lines.append(
             f"| {proper(row.name)} | {factor * row.obliquity:.3g}{sign} | {error} "
-            f"| {' | '.join(theirs)} |"
+            f"| {in_all(factor * row.error, factor * row.left_out, sign)} | {' | '.join(theirs)} |"
         )
-    lines += ["", "| locked spin | what parts ours from the observed one |", "|---|---|"]
+    lines += ["", "| locked spin | reason for the difference |", "|---|---|"]
     lines += [f"| {proper(row.name)} | {OBSERVED[row.name].why} |" for row in rows]
     lines += ["", "| locked spin | why there is no state |", "|---|---|"]
     lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]

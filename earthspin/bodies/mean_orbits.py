@@ -7,6 +7,7 @@ import math
 from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
 from earthspin.bodies.moon import MOON
 from earthspin.bodies.moons import ORBITS as OF_MOONS
+from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
 from earthspin.constants import AU, DAY, DAYS_PER_CENTURY, SIDEREAL_MONTH, SIDEREAL_YEAR, Constant
@@ -64,3 +65,29 @@ MEAN_MOON = MOON.replace(
 )
 #: Orbits on the planes that they precess on, by the name of the body.
 PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT} | OF_MOONS
+
+_LUNAR_STATE = "data_tools/lunar_state.py, means over the orbit of DE421"
+#: What the equation of Cassini states leaves out, as a change of the obliquity in the upright
+#: state, by the name of the body.
+LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
+    MOON.name: {
+        "the Sun in the orbit": Constant(-0.0227, "deg", None, _LUNAR_STATE),
+        "spin counted from the node": Constant(-0.0080, "deg", None, _LUNAR_STATE),
+        "pull of the Sun": Constant(0.0022, "deg", None, _LUNAR_STATE),
+        "mean inclination": Constant(
+            -0.0115, "deg", None, "5.145 deg, with which the observed one is made, less that of ELP"
+        ),
+        "fluid core and inner core": Constant(
+            0.003, "deg", None, "a few thousandths of a degree: arXiv:2201.00803"
+        ),
+    },
+    "titan": {
+        "ocean under the shell": Constant(
+            TITAN_OBLIQUITY.value - TITAN_OBLIQUITY_IF_SOLID.value,
+            "deg",
+            None,
+            f"observed, {TITAN_OBLIQUITY.source}, less that of a solid body, "
+            f"{TITAN_OBLIQUITY_IF_SOLID.source}",
+        )
+    },
+}

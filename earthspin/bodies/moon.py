@@ -12,7 +12,9 @@ from earthspin.sky.poles import Direction
 _GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging), as recalled"
 
 #: Obliquity to its own orbit, as observed.
-OBLIQUITY = Constant(6.69, "deg", None, "1.54 to the ecliptic and 5.15 of the orbit, as recalled")
+OBLIQUITY = Constant(
+    6.688, "deg", None, "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit"
+)
 #: (C - A)/B and (B - A)/C.
 BETA = Constant(6.310213e-4, "", 6e-11, _GRAIL)
 GAMMA = Constant(2.277317e-4, "", 1e-10, _GRAIL)

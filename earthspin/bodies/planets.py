@@ -6,14 +6,27 @@ from earthspin.bodies.body import BODIES, Body
 from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
 from earthspin.bodies.inner import MERCURY, VENUS
 from earthspin.bodies.moons import ORBITS as OF_MOONS
+from earthspin.constants import Constant
 
 __all__ = [
-    "JUPITER", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
+    "JUPITER", "LEFT_OUT_OF_RATES", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
     "on_its_orbit", "pulled_by",
 ]  # fmt: skip
 
 #: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
 PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
+
+#: What torques on the bulge leave out of the rate of precession, by planet and effect.
+LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
+    "mars": {
+        "geodesic": Constant(-6.754e-3, "arcsec/yr", None, "Baland et al. 2023, A&A 670, A29"),
+    },
+    "saturn": {
+        "iapetus": Constant(
+            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2"
+        ),
+    },
+}
 
 _SUN_AND_MOON = ("sun", "moon")
 _OTHERS = (

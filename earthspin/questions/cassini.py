@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.bodies import BODIES, MOON, SUN, Body
+from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.constants import NORMAL_95
 from earthspin.engine.asking import ask
@@ -190,11 +190,16 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
 
 
 @part
-def neglected() -> Neglected:
-    """What averages over spin, orbit and pericentre leave out."""
+def neglected(body: Body, own_orbit: Orbit) -> Neglected:
+    """Sizes of what averages over spin, orbit and pericentre leave out, where they are known."""
+    from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
+
+    sizes = LEFT_OUT_OF_STATES.get(body.name, {})
+    if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
+        return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
         what="libration, pulls beside that of the primary, a core that does not follow, and terms "
-        "that turn with the pericentre: not measured in general; together 0.04 deg for the Moon"
+        f"that turn with the pericentre: not measured for {in_a_sentence(body.name)}"
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
+from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.choosing.promises import promise, refuse_unkept, report
 from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
@@ -492,6 +493,9 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
 def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
     unknown = not_the_iaus_earth(body, perturbers)
+    if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
+        what = "contribution to the rate that the model leaves out; others were not measured"
+        return Neglected.cited(LEFT_OUT_OF_RATES[body.name], what)
     if unknown:
         return Neglected(what=f"effects whose published sizes do not apply: {unknown}")
     from earthspin.nutation.budget import published_effects

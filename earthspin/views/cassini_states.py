@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin.views.drawing import BLUE, GREY, RED, Drawing, axes, drawn, style
-from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Table, with_error
+from earthspin.views.reading import Result, answer_of, needed
+from earthspin.views.table import Table, beside_observed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,21 +16,25 @@ if TYPE_CHECKING:
 
 def tables(tree: Result) -> list[Table]:
     """Each state, with its obliquity."""
-    answer = answer_of(tree)
+    answer, left_out = answer_of(tree), needed(tree, "neglected")
     rows = [
         (
             f"{int(of.state)}",
-            with_error(float(of.obliquity), float(of.obliquity_error)),
-            with_error(float(of.tilt), float(of.tilt_error)),
+            # sizes of what is left out are those in the upright state, the first
+            beside_observed(of.obliquity, of.obliquity_error, None if place else left_out),
+            beside_observed(of.tilt, of.tilt_error, None if place else left_out),
             "stable" if bool(of.stable) else "unstable",
         )
-        for of in (answer.isel(state=place) for place in range(answer.sizes["state"]))
+        for place, of in (
+            (place, answer.isel(state=place)) for place in range(answer.sizes["state"])
+        )
     ]
     heads = ("state", "obliquity, deg", "tilt, deg", "beside it")
     note = (
         "Obliquity is counted from the normal of the orbit, tilt from the pole that this normal "
-        f"goes round. The spin is {answer.obliquity.attrs['spin']}. Errors are those of the "
-        "body's numbers, where they are known."
+        f"goes round. The spin is {answer.obliquity.attrs['spin']}. Errors hold the uncertainty of "
+        "the body's numbers and the sizes of what the model leaves out; where these are not known, "
+        "the table says numbers only."
     )
     return [Table("Cassini states", heads, rows, note)]
 

@@ -116,7 +116,8 @@ def terms(tree: Result) -> Table:
             )
             for term, of in along(last, "term")
         ],
-        "Circular amplitudes are in mas; a negative period is retrograde.",
+        "Circular amplitudes are in mas; a negative period is retrograde. The errors hold the "
+        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out.",
     )
 
 

@@ -44,7 +44,16 @@ from earthspin.views.stars import (
     star_vectors,
     year_words,
 )
-from earthspin.views.table import BRACKETS, Table, along, date, measured, two_digits, with_error
+from earthspin.views.table import (
+    BRACKETS,
+    Table,
+    along,
+    beside_observed,
+    date,
+    measured,
+    two_digits,
+    with_error,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -265,8 +274,11 @@ def free_wobble(tree: Result) -> Table:
     """Period of the rigid wobble, and the observed one if this body was observed."""
     of = needed(tree, "free_wobble")
     sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
-    rows = [("rigid body, A/(C-A)", measured(of, "free_wobble_period"), sidereal)]
+    rigid = measured(of, "free_wobble_period")
     notes = ["The formula holds for a rigid body; a real body deforms."]
+    if "observed_period" in of:
+        rigid = beside_observed(of.free_wobble_period, of.free_wobble_period_error, None)
+    rows = [("rigid body, A/(C-A)", rigid, sidereal)]
     if "observed_period" in of:
         rows.append(("observed", measured(of, "observed_period"), ""))
         notes.append(f"Source of the observed period: {of.observed_period.attrs['references']}.")
@@ -298,7 +310,8 @@ def iau(tree: Result) -> Table:
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
-        "not the theory. The difference that remains is "
+        "not the theory. Errors hold the uncertainty of the input numbers only. The "
+        "difference that remains is "
         f"{abs(float(of.closure / of.iau_rate)) * 1e6:.1f} millionths of the rate.",
     )
 

@@ -17,8 +17,8 @@ from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import free_rotor, precession, top, torque
 from earthspin.views.of_question import drawings_for, page_of
 from earthspin.views.page import page
-from earthspin.views.reading import answer_of, body_of, needed
-from earthspin.views.table import measured
+from earthspin.views.reading import answer_of, body_of, needed, section
+from earthspin.views.table import beside_observed, measured
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -180,9 +180,9 @@ def write_wobble_report(
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     """The sentence at the head of the wobble report."""
     answer = answer_of(ladder)
-    rigid, last = (
-        measured(of, "period_solar", "days")
-        for of in (answer.sel(rung="rigid"), answer.isel(rung=-1))
+    rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
+    last = beside_observed(
+        top.period_solar, top.period_solar_error, section(ladder, "neglected"), "days"
     )
     *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (

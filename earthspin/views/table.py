@@ -20,6 +20,10 @@ BRACKETS = (
     "last digits."
 )
 
+#: Said of a half-width that holds the uncertainty of the input numbers, and nothing that the model
+#: leaves out.
+NUMBERS_ONLY = "numbers only"
+
 
 @dataclass(frozen=True)
 class Table:
@@ -97,6 +101,27 @@ def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, 
     known = float(published)
     over = round(100 * (float(value) / known - 1), 2)
     return short_exponents(f"{known:g}"), f"{over + 0.0:+.2f}"  # no minus before zero
+
+
+def beside_observed(
+    value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
+) -> str:
+    """Write a value that stands beside an observation, with all that is known to be uncertain.
+
+    Parameters
+    ----------
+    value, error : float
+        The half-width holds the input numbers only.
+    left_out : Dataset or None
+        The section `neglected` in the same unit: its sizes, which are systematic, are added to the
+        half-width. Without sizes the value is followed by "numbers only".
+    unit : str
+        Written after the numbers.
+    """
+    if left_out is not None and left_out.sizes["effect"]:
+        return with_error(value, float(error) + float(abs(left_out.neglected_effect).sum()), unit)
+    plain = with_error(value, error, unit)
+    return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:

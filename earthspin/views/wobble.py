@@ -9,7 +9,14 @@ import numpy as np
 
 from earthspin.views.drawing import BLUE, RED, Drawing, axes, drawn, note, style
 from earthspin.views.reading import Result, answer_of, changes_of, needed, of_sections, section
-from earthspin.views.table import Table, along, measured, with_error
+from earthspin.views.table import (
+    NUMBERS_ONLY,
+    Table,
+    along,
+    beside_observed,
+    measured,
+    with_error,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,10 +35,13 @@ def tables(tree: Result) -> list[Table]:
 def ladder(tree: Result) -> Table:
     """Period of the free wobble by a series of models, the rungs of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
+    last, left_out = str(answer.rung.values[-1]), section(tree, "neglected")
     rows = [
         (
             name,
-            measured(of, "period_solar"),
+            beside_observed(of.period_solar, of.period_solar_error, left_out)
+            if observed is not None and name == last
+            else measured(of, "period_solar"),
             f"{float(of.period_sidereal):.3f}",
             f"{float(of.factor):.6f}",
             f"{q:.0f}" if math.isfinite(q := float(of.quality_factor)) else "",
@@ -54,6 +64,11 @@ def ladder(tree: Result) -> Table:
         rows.append(("observed", measured(observed, "observed_period"), "", "", ""))
         source = observed.observed_period.attrs.get("references", "")
         notes.append(f"Source of the observed period: {source}.")
+        notes.append(
+            "The errors hold the uncertainty of the input numbers; that of the last rung, which "
+            "stands beside the observed period, holds the sizes of what it leaves out, too, where "
+            "they are known."
+        )
     return Table(
         "Free wobble, rung by rung",
         ("rung", "days of 86400 s", "sidereal days", "factor", "Q"),
@@ -99,7 +114,7 @@ def drawings(tree: Result) -> list[Drawing]:
     caption = " ".join(
         [
             "Period of the free wobble by a series of models, with 95 % errors from sampled "
-            f"inputs{band}.",
+            f"inputs ({NUMBERS_ONLY}){band}.",
             *changes_of(answer_of(tree), "body"),
         ]
     )

@@ -5,7 +5,8 @@ Where locked axes stand
 An axis that is locked keeps in step with its orbit: to first order it leans by :math:`i/|w - 1|`,
 with :math:`i` the inclination of the orbit and :math:`w` how often the torque would turn the axis
 while the node goes round once (Peale 1969). The Moon's orbit is too fast for it, the others' are
-not. Rings are observed: the shell of Titan slips on an ocean (Baland et al. 2011).
+not. Rings are observed: the shell of Titan slips on an ocean (Baland et al. 2011). The moment of
+Mercury comes from its observed obliquity, so that this comparison is circular.
 
 *Next:* give Iapetus a bulge, ``IAPETUS.replace(j2=..., dynamical_flattening=...)``: none was ever
 measured.

@@ -5,7 +5,7 @@ The wobble ladder
 The free wobble of a rigid Earth (I.6.7) is far too fast. That the Earth yields slows it most, a
 liquid core that stays behind gives a part back, oceans that follow and a mantle that lags take
 the rest. The band is what is observed; the last rung has a free exponent, so it is a check and
-not a prediction.
+not a prediction. Error bars hold the uncertainty of the input numbers only.
 
 *Next:* ``earthspin.wobble_ladder(ocean="global")`` covers the Earth with water.
 """

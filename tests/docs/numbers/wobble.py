@@ -248,7 +248,7 @@ MEASURED = [
     Sentence(
         PAGE, "| $H$ | 0.0032737949 | {} | {} |", partial(sensitivity, "dynamical_flattening")
     ),
-    Sentence(PAGE, "Its computed period is\n{} ± {} days, against", mars),
+    Sentence(PAGE, "Its computed period is\n{} ± {} days (input numbers only), against", mars),
     Sentence(
         PAGE,
         "| rotation and ellipticity in the Love number | {} |",
