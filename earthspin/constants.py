@@ -111,7 +111,8 @@ MARS_POLAR_MOMENT = Constant(
     0.36367,
     "",
     0.00010,
-    "C/(M R2) after the precession observed by landers; as recalled, not seen in a public copy",
+    "C/(M R2) of Baland et al. 2020, Celest. Mech. 132:47 (BMAN20), from the precession observed "
+    "by Konopliv et al. 2016",
 )
 
 # --- the Earth inside ------------------------------------------------------------------------

@@ -78,6 +78,8 @@ class Body(FromMass):
     pole : Pole
         Of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right ascension
         and a declination may be given (ICRF, J2000.0, rad).
+    pole_uncertainty : float or None
+        One standard deviation of the direction of `pole` at J2000.0, rad; None if it is not known.
     orbit_pole : Direction or None
         Right ascension and declination of the orbit's normal (ICRF, rad); not used with
         `IAU_2006`, which brings its own ecliptic.
@@ -135,6 +137,7 @@ class Body(FromMass):
     flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
     pole: Annotated[Pole | None, Angles()] = None
+    pole_uncertainty: Annotated[float | None, Magnitude("rad", "0.5 arcsec")] = None
     orbit_pole: Annotated[Direction | None, Angles()] = None
     orbital_period: Annotated[float | None, Magnitude("s", "365.25 d")] = None
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
@@ -330,7 +333,7 @@ class Body(FromMass):
             value, before = getattr(self, name), getattr(start, name)
             if hasattr(value, "dims"):
                 words.append(f"{name} along {', '.join(map(str, value.dims))}")
-            elif value != before:
+            elif value != before and not (name == "pole_uncertainty" and value is None):
                 unit = self.UNITS.get(name, "")
                 words.append(f"{name} = {value}{unit and ' '}{unit}")
         return "; ".join(words)
@@ -468,6 +471,8 @@ class Body(FromMass):
         if changes.get("orbit") is not None and self.orbit is not None:
             changes = {"orbit_pole": None} | changes  # that of the orbit before
         # A changed number is the user's own: what was known about the old one no longer holds.
+        if "pole" in changes:
+            changes.setdefault("pole_uncertainty", None)
         known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         made = _replace(self, **({"relative_uncertainty": known} | changes))
         if "observed_wobble" in changes or not self._is_another(changes):
@@ -519,7 +524,9 @@ Body.KINDS = {
     if get_origin(hint) is not ClassVar
 }
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
-Body.LABELLED = frozenset(Body.UNITS) - {"meridian", "orbital_period", "cycle", "slow_swing"}
+Body.LABELLED = frozenset(Body.UNITS) - {
+    "meridian", "pole_uncertainty", "orbital_period", "cycle", "slow_swing",
+}  # fmt: skip
 
 #: How all is read that a body can be made or changed by.
 _READ_AS: dict[str, Any] = {

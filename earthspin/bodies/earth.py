@@ -6,9 +6,11 @@ import math
 
 from earthspin.bodies.body import Body
 from earthspin.constants import (
+    ARCSEC,
     DAY,
     DAYS_PER_CENTURY,
     DE440,
+    EPSILON_0,
     IERS_2010,
     P03,
     SIDEREAL_YEAR,
@@ -49,6 +51,9 @@ NUMBERS = {
         "rad",
         1e-4,
         f"{_ROTATION_ANGLE}; {_EGM2008}",
+    ),
+    "pole_uncertainty": Constant(
+        (EPSILON_0.uncertainty or 0.0) * ARCSEC, "rad", None, EPSILON_0.source
     ),
     "flattening": Constant(1 / 298.25642, "", 1.1e-10, IERS_2010 + " (zero-tide)"),
     # one turn relative to the stars

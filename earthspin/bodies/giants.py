@@ -13,7 +13,7 @@ from earthspin.bodies.body import Body
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.satellites import JPL, Satellite, carried
-from earthspin.constants import AU, DAY, DE440, JUPITER_ORBITAL_PERIOD, Constant
+from earthspin.constants import ARCSEC, AU, DAY, DE440, JUPITER_ORBITAL_PERIOD, Constant
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
@@ -140,7 +140,17 @@ JUPITER = Body.cited(
 )
 SATURN = Body.cited(
     "saturn",
-    _SATURN | carried(_SATURN, SATURN_MOMENT, OF_SATURN),
+    _SATURN
+    | carried(_SATURN, SATURN_MOMENT, OF_SATURN)
+    | {
+        "pole_uncertainty": Constant(
+            1.5 * ARCSEC,
+            "rad",
+            None,
+            "poles of IAU 2015 and of Jacobson 2007, BAAS 39, 317, at J2000.0: 2.9 arcsec apart, "
+            "taken as the half-width of 95 %",
+        )
+    },
     naif=(699, 6),
     pole=MovingPole.published((40.589, -0.036), (83.537, -0.004)),
     orbit_pole=_normal("saturn"),

@@ -7,7 +7,7 @@ import math
 from earthspin.bodies.body import Body
 from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.orbit import Orbit
-from earthspin.constants import DAY, DE440, JULIAN_YEAR, Constant
+from earthspin.constants import ARCSEC, DAY, DE440, JULIAN_YEAR, Constant
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, FixedPole
 
@@ -43,6 +43,13 @@ MERCURY = Body.cited(
         "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015),
         "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
+        "pole_uncertainty": Constant(
+            0.085 * 60 * ARCSEC,
+            "rad",
+            None,
+            "obliquity of 2.029 +- 0.085 arcmin: Stark et al. 2015, Geophys. Res. Lett., First "
+            "MESSENGER orbital observations of Mercury's librations",
+        ),
     },
     naif=(199, 1),
     pole=MovingPole.published((281.0103, -0.0328), (61.4155, -0.0049)),

@@ -7,6 +7,7 @@ import math
 from earthspin.bodies.body import Body
 from earthspin.bodies.figure import flattening_of
 from earthspin.constants import (
+    ARCSEC,
     DAY,
     MARS_GM,
     MARS_GRAVITY,
@@ -21,12 +22,17 @@ from earthspin.sky.poles import Direction
 # Normalised coefficients of degree and order 2.
 _C22, _S22 = -8.4636e-5, 4.8935e-5
 
-#: Rate of precession of the spin axis.
-PRECESSION = Constant(
-    -7.576, "arcsec yr-1", 0.035, "Folkner et al. 1997, Science 278, 1749 (Viking and Pathfinder)"
-)
+#: Rate of precession of the spin axis, geodesic precession included.
+PRECESSION = Constant(-7.6083, "arcsec yr-1", 0.0021, "Konopliv et al. 2016, Icarus 274, 253")
 
 NUMBERS = {
+    "pole_uncertainty": Constant(
+        0.46 * ARCSEC,
+        "rad",
+        None,
+        "poles of IAU 2009 and IAU 2015 at J2000.0: 0.89 arcsec apart without nutation, taken as "
+        "the half-width of 95 %",
+    ),
     "gm": MARS_GM,
     "radius": MARS_RADIUS,
     "j2": MARS_J2,
@@ -56,7 +62,7 @@ MARS = Body.cited(
     "mars",
     NUMBERS,
     naif=(499, 4),
-    pole=MovingPole.published(  # Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015), as recalled
+    pole=MovingPole.published(  # Kuchynka et al. 2014, Icarus 229, 340, which is IAU 2015
         (317.269202, -0.10927547),
         (54.432516, -0.05827105),
         [
@@ -64,7 +70,7 @@ MARS = Body.cited(
             (0.000238, 226.292679, 38280.8511281),
             (0.000052, 249.663391, 57420.7251593),
             (0.000009, 266.183510, 76560.6367950),
-            (0.419057, 79.398932, 0.5042615),
+            (0.419057, 79.398797, 0.5042615),
         ],
         [
             (0.000051, 122.433576, 19139.9407476),

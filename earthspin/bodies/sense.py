@@ -37,6 +37,7 @@ _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
         "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
     ),
     ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more"),
+    ("pole_uncertainty", lambda u: u >= 0, "an uncertainty is zero or more"),
     ("slow_swing", lambda swing: swing >= 0, "a swing is zero or more"),
 )
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, Body
-from earthspin.constants import DAY
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import Where
@@ -168,3 +168,21 @@ def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:
     """Figure axis to start with, and when (s): J2000.0, or as near as the kernel reaches."""
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
     return body.needed("pole").true(epoch / DAY), epoch
+
+
+def start_note(body: Body) -> dict[str, str]:
+    """Attribute of an error that does not hold the uncertainty of the pole at the start.
+
+    Empty for the pole of the IAU's models.
+    """
+    if body.needed("pole").of_the_iau:
+        return {}
+    half = start_error(body)
+    known = "is not known" if half is None else f"is {half / ARCSEC:.2g} arcsec (95 % half-width)"
+    name = bodies.in_a_sentence(body.name)
+    return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {known}"}
+
+
+def start_error(body: Body) -> float | None:
+    """Half-width of 95 % of the direction of the pole at J2000.0, rad; None if it is not known."""
+    return None if body.pole_uncertainty is None else NORMAL_95 * body.pole_uncertainty

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import MOON, SUN, Body, Numeric
+from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import ask
@@ -19,6 +19,7 @@ from earthspin.engine.question import key, made_of
 from earthspin.errors import Where
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
 from earthspin.parts.orbits import OrbitChoice, orbit_table
+from earthspin.parts.pulls import start_error
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
@@ -41,10 +42,10 @@ Shift = Annotated[float, Number("rad", "0.1 deg")]
 class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", "stop", "step")):
     """Obliquity, precession and eccentricity from the averaged torque on a changing orbit.
 
-    The spin axis starts at J2000.0 from the mean pole of the body. Averaged torques of Sun and Moon
-    (those of `precession`, with the published contributions that they leave out), geodesic
-    precession, tides, and a rate of J2 that fades turn it about the normal of an orbit that comes
-    as a table.
+    The spin axis starts at J2000.0 from the mean pole of the body, without nutation. Errors need
+    the body's `pole_uncertainty`. Averaged torques of Sun and Moon (those of `precession`, with the
+    published contributions that they leave out), geodesic precession, tides, and a rate of J2 that
+    fades turn it about the normal of an orbit that comes as a table.
 
     Returns
     -------
@@ -112,6 +113,29 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
                 names,
                 "over millennia it is the Sun, or Sun and Moon; give no others",
             )
+        if self.accuracy is not None and self.body.pole_uncertainty is None:
+            raise self.error(
+                "accuracy", f"{self.accuracy / ARCSEC:.4g} arcsec", _unknown_start(self.body)
+            )
+
+
+def _unknown_start(body: Body) -> str:
+    """Words for a body whose pole has no uncertainty."""
+    return (
+        f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
+        "body a pole_uncertainty"
+    )
+
+
+def _without_errors(result: xr.Dataset, body: Body) -> xr.Dataset:
+    """Claim no error of what depends on the start if the pole of the body has no uncertainty."""
+    if body.pole_uncertainty is not None:
+        return result
+    for name, error in result.data_vars.items():
+        if "_error" in str(name) and not str(name).startswith(("eccentricity_", "ecliptic_pole_")):
+            error[...] = np.nan
+            error.attrs["no_error"] = f"NaN, not given: {_unknown_start(body)}"
+    return result
 
 
 @part
@@ -225,6 +249,7 @@ def solved(
     causes = budget.changes(
         setting,
         constant=relative_error,
+        pole=start_error(body),
         earth=strength.node_rate < math.inf,
         error=orbit_table.error,
     )
@@ -236,7 +261,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
     from earthspin.secular.angles import leaning
 
     now = np.zeros(1)
-    pole = np.asarray(body.needed("pole").mean(now)[0])
+    pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
     more, turned = (np.asarray(numbers.numbers[f"{of}_shift"]) for of in ("obliquity", "longitude"))
     leant = leaning(pole, orbit_table.at(now)[0][:, 0], more, turned)
     as_it_is = np.multiply.outer(pole, np.ones(more.shape))
@@ -248,7 +273,7 @@ def readings(solved: Solved, wanted: FloatArray, body: Body) -> Readings:
     """What is read off the axis, and off it with each cause changed."""
     from earthspin.secular import reading
 
-    fixed = body.needed("pole").orbit_axes(body.orbit_pole)
+    fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
 
@@ -301,6 +326,7 @@ def series(
     wanted: FloatArray,
     solved: Solved,
     orbit_table: OrbitTable,
+    body: Body,
     accuracy: float | None,
 ) -> xr.Dataset:
     """Angles, eccentricity, poles and rates at every epoch, each with its error."""
@@ -352,7 +378,7 @@ def series(
         f"{np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR:.0f} yr",
         "evaluations": solved.steps,
     }
-    return result
+    return _without_errors(result, body)
 
 
 PROMISE = promise("arcsec", "in direction")
@@ -413,14 +439,14 @@ MATRICES = covered_by(
 
 
 @part(gives=MATRICES)
-def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Dataset:
+def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset, body: Body) -> xr.Dataset:
     """Precession matrices to mean equator and equinox of date."""
     from earthspin.secular.angles import equator_and_equinox
     from earthspin.secular.reading import together
 
     mine, lay = readings.mine, numbers.lay
     matrix = equator_and_equinox(mine.pole, mine.normal)
-    return build(
+    result = build(
         MATRICES,
         {
             "matrix": lay(matrix, *MATRICES["matrix"].dims),
@@ -432,6 +458,7 @@ def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.
             "component": ["x", "y", "z"],
         },
     )
+    return _without_errors(result, body)
 
 
 @part

@@ -31,7 +31,7 @@ from earthspin.parts.path import (
     turns_of,
 )
 from earthspin.parts.predicted import no_layers, prediction
-from earthspin.parts.pulls import Moved, Pulls, pulls
+from earthspin.parts.pulls import Moved, Pulls, pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
@@ -192,7 +192,7 @@ def axes(
     result["direction_error"].attrs |= {
         "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
         "evaluations": axis_path.evaluations,
-    }
+    } | start_note(body)
     return result
 
 
@@ -270,7 +270,11 @@ def pole_accuracy(axes: xr.Dataset, largest_error: Largest, accuracy: float | No
 def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
-        return Neglected(what=f"effects whose sizes were not measured for this {proper(body.name)}")
+        half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
+        if half is None or body.needed("pole").of_the_iau:
+            return Neglected(what=unknown)
+        what = f"half-width of the direction at the start; {unknown}"
+        return Neglected({"start": half}, "mas", what)
     reach = max(abs(day) for day in epochs.span())
     return Neglected(
         {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},

@@ -18,7 +18,15 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
 from earthspin.motion.effects import NONRIGID
 from earthspin.parts.own_torque import OwnTorque
-from earthspin.parts.pulls import Moved, Pulls, figure_of, forces_of, pulls, switched_on
+from earthspin.parts.pulls import (
+    Moved,
+    Pulls,
+    figure_of,
+    forces_of,
+    pulls,
+    start_note,
+    switched_on,
+)
 from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
@@ -311,6 +319,8 @@ def turning(
     motion: Motion,
     rotor: Rotor,
     epochs: TimeGrid | TimeList,
+    body: Body,
+    start_attitude: FloatArray | None,
     accuracy: float | None,
     block: Block | None = None,
 ) -> xr.Dataset:
@@ -358,7 +368,7 @@ def turning(
     result["attitude_error"].attrs |= {
         "method": f"Gauss windows of {motion.order} nodes, in two forms",
         "evaluations": motion.evaluations,
-    }
+    } | ({} if start_attitude is not None else start_note(body))
     return result
 
 

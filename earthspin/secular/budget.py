@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import ARCSEC, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.constants import JULIAN_YEAR
 from earthspin.secular.orbit import Changed, Orbit, Shape, reference_axes
 from earthspin.secular.strength import Numeric, Strength, Tides
 from earthspin.secular.trajectory import Trajectory, solve
@@ -26,8 +26,6 @@ FloatArray = NDArray[np.float64]
 #: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
 HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"
 
-#: Half-width of the start, rad: that of the mean obliquity at J2000.0.
-START = NORMAL_95 * (EPSILON_0.uncertainty or 0.0) * ARCSEC
 #: Share of today's tides by which their mean over the past may differ: an assumption. People sweep
 #: factors of 0 to 1.2; 0.2 is the distance of today's from that end.
 TIDES_SHARE = 0.2
@@ -124,8 +122,16 @@ def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
     return Changed(orbit, change)
 
 
+def tilted(setting: Setting, angle: float) -> FloatArray:
+    """Return the start tilted by an angle (rad) from the normal of the orbit, same shape."""
+    start = setting.start.reshape(3, -1)
+    across = cross(cross(setting.orbit.at(np.zeros(1))[0], start), start)
+    tilted = start + angle * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
+    return np.asarray((tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape))
+
+
 def changes(
-    setting: Setting, *, constant: Numeric, earth: bool, error: HalfWidths
+    setting: Setting, *, constant: Numeric, pole: float | None, earth: bool, error: HalfWidths
 ) -> tuple[tuple[str, Setting], ...]:
     """What each cause makes of a setting; the orbit is moved two ways.
 
@@ -134,15 +140,15 @@ def changes(
     setting : Setting
     constant : float
         Relative half-width of the constant of precession.
+    pole : float or None
+        Half-width of the direction of the pole at J2000.0, rad: the start is tilted by it. None if
+        it is not known; the start is then no cause.
     earth : bool
         Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
     error : callable
         Half-widths of the orbit's normal (rad) and eccentricity at times, s, shape (2, n).
     """
-    strength, start = setting.strength, setting.start.reshape(3, -1)
-    across = cross(cross(setting.orbit.at(np.zeros(1))[0], start), start)
-    tilted = start + START * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
-    tilted = (tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape)
+    strength = setting.strength
     found = [
         (
             "constant",
@@ -153,7 +159,7 @@ def changes(
                 ),
             ),
         ),
-        ("start", replace(setting, start=tilted)),
+        *([] if pole is None else [("start", replace(setting, start=tilted(setting, pole)))]),
         *(("orbit", replace(setting, orbit=moved(setting.orbit, error, way))) for way in (0, 1)),
     ]
     if earth:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 _CENTURY = DAYS_PER_CENTURY * DAY
+#: Periodic terms of a pole that repeat within this time, s, are nutation: torques that are averaged
+#: over the turns of orbits and of their nodes do not make them.
+LONGEST_NUTATION = 100 * _CENTURY
 
 
 class Swing(NamedTuple):
@@ -146,6 +149,18 @@ class MovingPole:
             dec = dec + size * np.cos(phase + rate * time)
         level = np.cos(dec)
         return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
+
+    def without_nutation(self) -> Self:
+        """Return the pole without the periodic terms that repeat within `LONGEST_NUTATION`."""
+
+        def slow(swings: tuple[Swing, ...]) -> tuple[Swing, ...]:
+            return tuple(s for s in swings if abs(s.rate) * LONGEST_NUTATION < math.tau)
+
+        return replace(
+            self,
+            right_ascension_swings=slow(self.right_ascension_swings),
+            declination_swings=slow(self.declination_swings),
+        )
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the axis on a day, shape (3,)."""

@@ -106,6 +106,9 @@ class Pole(Protocol):
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the axis without nutation, shape (n, 3)."""
 
+    def without_nutation(self) -> Pole:
+        """The axis whose `mean` has no periodic terms that repeat within millennia."""
+
     def true(self, day: float) -> FloatArray:
         """Unit vector of the axis, nutation included, shape (3,)."""
 
@@ -161,6 +164,10 @@ class FixedPole(Direction):
 
         return np.broadcast_to(self.vector(), (days.size, 3))
 
+    def without_nutation(self) -> Self:
+        """Return the pole itself: it does not move."""
+        return self
+
     def true(self, day: float) -> FloatArray:
         """Give the direction: it has no nutation."""
         return self.vector()
@@ -209,6 +216,10 @@ class IAU2006Pole:
         from earthspin.sky import iau
 
         return np.asarray(iau.mean_equator(days)[..., 2, :])
+
+    def without_nutation(self) -> Self:
+        """Return the pole itself: its `mean` has no nutation."""
+        return self
 
     def true(self, day: float) -> FloatArray:
         """Celestial intermediate pole, frame bias included."""

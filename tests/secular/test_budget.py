@@ -11,25 +11,30 @@ from earthspin.secular.trajectory import solve
 from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 
 SETTING = Setting(earths(), EARTHS, POLE)
+TILT = NORMAL_95 * 0.001 * ARCSEC
 
 
-def causes(constant: float = 1e-6, earth: bool = True) -> dict[str, Setting]:
+def causes(
+    constant: float = 1e-6, earth: bool = True, pole: float | None = TILT
+) -> dict[str, Setting]:
     """By cause; of the orbit's two ways the second."""
-    return dict(changes(SETTING, constant=constant, earth=earth, error=EARTHS.error))
+    return dict(changes(SETTING, constant=constant, pole=pole, earth=earth, error=EARTHS.error))
 
 
 def test_what_is_known_of_the_earth_alone_is_left_out_elsewhere() -> None:
     assert set(causes(earth=False)) == {"constant", "start", "orbit"}
+    assert set(causes(earth=False, pole=None)) == {"constant", "orbit"}
     assert set(causes()) == {"constant", "start", "orbit", "J2 rate", "tides", "ellipticity"}
 
 
-def test_the_start_is_tilted_by_its_half_width_towards_the_orbit_or_away() -> None:
-    start = causes()["start"].start
+@pytest.mark.parametrize("tilt", [TILT, 0.9 * ARCSEC])
+def test_the_start_is_tilted_by_its_half_width_towards_the_orbit_or_away(tilt: float) -> None:
+    start = causes(pole=tilt)["start"].start
     assert np.linalg.norm(start) == pytest.approx(1.0, rel=1e-15, abs=0)
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
     moved = np.arccos(start @ normal) - np.arccos(POLE @ normal)
-    assert abs(moved) / ARCSEC == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)
-    assert arcsec(start, POLE) == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)
+    assert abs(moved) == pytest.approx(tilt, rel=1e-6, abs=0)
+    assert arcsec(start, POLE) * ARCSEC == pytest.approx(tilt, rel=1e-6, abs=0)
 
 
 def test_constant_tides_and_ellipticity_change_by_their_half_widths() -> None:
@@ -72,7 +77,7 @@ def test_a_moved_orbit_is_moved_by_its_error_and_still_an_orbit(way: int) -> Non
 def test_an_orbit_is_moved_in_two_directions_across_one_another() -> None:
     now = np.zeros(1)
     n, e, _ = EARTHS.at(now)
-    found = changes(SETTING, constant=1e-6, earth=True, error=EARTHS.error)
+    found = changes(SETTING, constant=1e-6, pole=TILT, earth=True, error=EARTHS.error)
     (n1, e1, _), (n2, e2, _) = (of.orbit.at(now) for cause, of in found if cause == "orbit")
     by_normal, by_shape = EARTHS.error(now)
     assert abs(np.sum((n1 - n) * (n2 - n))) < 1e-5 * by_normal[0] ** 2
