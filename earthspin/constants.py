@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-
 #: What `Constant.read_in` holds for a number of which no public copy was found.
 UNVERIFIED = "not verified"
 #: What it holds for a number that was chosen or computed for this package.

@@ -7,22 +7,34 @@ import astropy.units as u
 import numpy as np
 import pytest
 
+from data_tools import constants_page
 from earthspin import EARTH, MOON, SUN
 from earthspin import constants as c
-from earthspin.bodies import NUMBERS
 from earthspin.engine.labels import FROM_SI
 
-CONSTANTS = {name: value for name, value in vars(c).items() if isinstance(value, c.Constant)} | {
-    f"{body} {name}": number for body, table in NUMBERS.items() for name, number in table.items()
-}
+CITED = constants_page.cited()
 
 
-@pytest.mark.parametrize("name", CONSTANTS)
-def test_unit_parses_and_source_is_given(name: str) -> None:
-    constant = CONSTANTS[name]
-    u.Unit(constant.unit)
-    assert len(constant.source) > 10
-    assert constant.uncertainty is None or constant.uncertainty >= 0
+@pytest.mark.parametrize("name", CITED)
+def test_each_constant_has_a_source_and_says_where_it_was_read(name: str) -> None:
+    number = CITED[name]
+    assert len(number.source) > 10
+    assert len(number.read_in) > 8
+    if isinstance(number, c.Constant):
+        u.Unit(number.unit)
+        assert number.uncertainty is None or number.uncertainty >= 0
+        assert number.verified == (c.UNVERIFIED not in number.source)
+
+
+def test_an_unverified_number_says_so_in_its_source() -> None:
+    number = c.Constant(1.0, "", None, "a paper", c.UNVERIFIED)
+    assert number.source == f"a paper ({c.UNVERIFIED})"
+    assert not number.verified
+    assert c.Constant(1.0, "", None, "a paper").source == "a paper"
+
+
+def test_the_page_of_constants_is_made_by_the_command() -> None:
+    assert constants_page.PAGE.read_text(encoding="utf-8") == constants_page.page()
 
 
 def test_against_astropy() -> None:

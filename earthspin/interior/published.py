@@ -73,5 +73,5 @@ K_CMB = (
 )
 K_ICB = (
     Constant(1.11e-3, "", 1e-4, _MHB_2, UNVERIFIED),
-    Constant(-7.8e-4, "", 1.3e-4, _MHB_2),
+    Constant(-7.8e-4, "", 1.3e-4, _MHB_2, UNVERIFIED),
 )
