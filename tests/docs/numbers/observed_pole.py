@@ -241,7 +241,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "with {} days it is at most {} d, with {} days\nup to +{} d in {} years and +{} d in {} "
+        "with {} days it is at most {} d, with {} days\nup to {} d in {} years and {} d in {} "
         "years and more, with {} and {} days down to {} d",
         largest_biases_of_likelihood,
     ),
@@ -326,6 +326,7 @@ TOLD = [
     Told(PAGE, "A simulated pole of {} days and", GIVEN),
     Told(PAGE, "with errors of {} mas, is recovered", GIVEN),
     Told(PAGE, "found {} ± {} d, one", "published: Nastula & Gross 2015"),
+    Told("docs/coverage.md", "half-width of a {} % interval", ERROR),
     Told("docs/coverage.md", "$T$ = {} d, $Q$ = 50", GIVEN),
     Told("docs/coverage.md", "excitation with 30 and {} % of", GIVEN),
     Told("docs/coverage.md", "the fitted likelihood has {} d", GIVEN),
