@@ -24,7 +24,7 @@ from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
 # Normalised coefficients of degree and order 2.
-_C22, _S22 = -8.4636e-5, 4.8934e-5
+_C22, _S22 = -8.463591e-5, 4.893449e-5
 
 #: Rate of precession of the spin axis, geodesic precession included.
 PRECESSION = Constant(
