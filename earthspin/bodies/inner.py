@@ -19,7 +19,7 @@ from earthspin.constants import (
     UNVERIFIED,
     Constant,
     Tabulated,
-)  # fmt: skip
+)
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, FixedPole
 
@@ -34,7 +34,7 @@ _MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09"
 _MARGOT_2012_READ = "abstract, doi.org/10.1029/2012JE004161"
 _MARGOT_2021 = "Margot et al. 2021, Nature Astronomy 5, 676"
 _MARGOT_2021_READ = "abstract, arXiv:2103.01504"
-_VERMA = "Verma & Margot 2016, JGR Planets 121, 1627"
+_VERMA = "Verma & Margot 2016, JGR Planets (arXiv:1608.01360)"
 _VERMA_READ = "abstract, arXiv:1608.01360"
 _GRAVITY_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
 

@@ -22,7 +22,7 @@ from earthspin.constants import (
     UNVERIFIED,
     Constant,
     Tabulated,
-)  # fmt: skip
+)
 from earthspin.mass.inertia import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
