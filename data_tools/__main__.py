@@ -8,6 +8,7 @@ import sys
 from data_tools import (
     accuracy_pages,
     cf,
+    constants_page,
     core_resonance,
     coverage,
     error_models,
@@ -38,6 +39,7 @@ VERBS = {
         accuracy_pages.main,
         "measure error against run time, for docs/work_precision.md",
     ),
+    "constants": (constants_page.main, "list every cited number and where it was read"),
     "coverage": (
         coverage.main,
         "measure how often claimed errors contain independent results, for docs/coverage.md",

@@ -1,8 +1,8 @@
 """How well the free wobble is found: simulated poles of known truth, for docs/wobble.md.
 
-Each cell of a grid of quality factors, spans and shares of red excitation is drawn many times with
-fixed seeds, and each method is judged by bias, scatter and how often its 95 % intervals hold the
-truth.
+Each cell of a grid of quality factors, spans, and shares and memories of red excitation is drawn
+many times with fixed seeds, and each method is judged by bias, scatter and how often its 95 %
+intervals hold the truth.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import os
+from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,11 +21,20 @@ from numpy.typing import NDArray
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR
-from earthspin.wobble.simulation import red_share, simulate
+from earthspin.wobble.simulation import RED_MEMORY, red_size, simulate
 
 QUALITY = (50.0, 100.0, 180.0, 400.0)
 YEARS = (25.0, 65.0, 130.0)
-RED = (0.0, 12.0, 25.0)  # mas
+#: Share of red noise in the power of the excitation at the wobble, and its memory in days.
+RED = (
+    (0.0, RED_MEMORY),
+    (0.3, 100.0),
+    (0.3, 500.0),
+    (0.3, 1096.0),
+    (0.3, 1826.0),
+    (0.6, 100.0),
+    (0.6, 1826.0),
+)
 #: Records that are drawn in each cell, by method; their seeds are 0, 1, 2, ...
 DRAWS = {"burg": 400, "likelihood": 60}
 PAGE = Path(__file__).parent.parent / "docs" / "measured" / "free-wobble.inc"
@@ -37,48 +47,59 @@ class Cell:
     method: str
     quality: float
     years: float
-    red: float
+    share: float
+    memory: float
 
     def row(self, draws: int) -> str:
         """A line of the table."""
-        found = np.array([one for seed in range(draws) if (one := self.fitted(seed)) is not None])
-        period, error, quality, low, high = found.T
+        period, error, quality, low, high = self.fits(range(draws)).T
         off = period - NEAR
         columns = (
             f"{self.quality:.0f}",
             f"{self.years:.0f}",
-            f"{red_share(NEAR, self.quality, self.red):.0%}",
+            f"{self.share:.0%}",
+            f"{self.memory:.0f}" if self.share else "",
             f"{off.mean():+.1f} ± {off.std() / np.sqrt(off.size):.1f}",
             f"{off.std():.1f}",
-            share(abs(off) <= error),
+            f"{np.median(error):.1f}",
+            percent(abs(off) <= error),
             f"{np.median(quality):.0f}",
-            share((low <= self.quality) & (self.quality <= high)),
-            share(low > self.quality),
-            share(high < self.quality),
+            percent((low <= self.quality) & (self.quality <= high)),
+            percent(low > self.quality),
+            percent(high < self.quality),
             f"{draws - off.size}",
         )
         return f"| {' | '.join(columns)} |"
 
-    def fitted(self, seed: int) -> tuple[float, ...] | None:
-        """Period, its error, Q and its bounds; None where a wobble is refused."""
-        record = simulate(self.years, NEAR, self.quality, red=self.red, seed=seed)
-        try:
-            found = fit(*record, self.method)
-        except UndefinedError:
-            return None
-        return (found.period, found.period_error, found.quality_factor, *found.quality_bounds)
+    def fits(self, seeds: Iterable[int]) -> NDArray[np.float64]:
+        """Return period, its error, Q and its bounds, a row for each record with a wobble."""
+        red = red_size(NEAR, self.quality, self.share, self.memory)
+        rows = []
+        for seed in seeds:
+            record = simulate(
+                self.years, NEAR, self.quality, red=red, memory=self.memory, seed=seed
+            )
+            try:
+                wobble = fit(*record, self.method)
+            except UndefinedError:
+                continue
+            rows.append(
+                (wobble.period, wobble.period_error, wobble.quality_factor, *wobble.quality_bounds)
+            )
+        return np.array(rows)
 
 
-def share(of: NDArray[np.bool_]) -> str:
-    """Per cent of what is true."""
-    return f"{100 * np.mean(of):.0f}"
+def percent(holds: NDArray[np.bool_]) -> str:
+    """Return the percentage of true elements."""
+    return f"{100 * np.mean(holds):.0f}"
 
 
 HEAD = """
 **`"{method}"`**, {draws} records in each row
 
-| Q | years | red | bias, d | scatter, d | T held | median Q | Q held | below | above | refused |
-|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|
+| Q | years | red | memory, d | bias, d | scatter, d | half-width, d | T held | median Q | Q held \
+| below | above | refused |
+|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|
 """
 
 
@@ -87,7 +108,10 @@ def page(draws: dict[str, int]) -> str:
     text = []
     with ProcessPoolExecutor(os.cpu_count()) as workers:
         for method, count in draws.items():
-            cells = [Cell(method, *one) for one in itertools.product(QUALITY, YEARS, RED)]
+            cells = [
+                Cell(method, quality, years, *red)
+                for quality, years, red in itertools.product(QUALITY, YEARS, RED)
+            ]
             text.append(HEAD.format(method=method, draws=count))
             for row in workers.map(Cell.row, cells, itertools.repeat(count)):
                 print(method, row, flush=True)

@@ -12,25 +12,39 @@ import math
 from earthspin.bodies.body import Body
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import JPL, Satellite, carried
-from earthspin.constants import ARCSEC, AU, DAY, DE440, JUPITER_ORBITAL_PERIOD, Constant
+from earthspin.bodies.satellites import JPL, JPL_READ, Satellite, carried
+from earthspin.constants import (
+    ARCSEC,
+    AU,
+    DAY,
+    DE440,
+    GM_HORIZONS,
+    JUPITER_ORBITAL_PERIOD,
+    PCK11,
+    STANDISH_READ,
+    UNVERIFIED,
+    Constant,
+    Tabulated,
+)  # fmt: skip
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
-ELEMENTS = "Standish & Williams, approximate elements 1800-2050, as recalled"
-_JUNO = "Durante et al. 2020, Geophys. Res. Lett. 47, e2019GL086572 (Juno), as recalled"
-_CASSINI = "Iess et al. 2019, Science 364, eaat2965 (Cassini), as recalled"
-_URANUS = "Jacobson 2014, AJ 148:76, as recalled"
-_NEPTUNE = "Jacobson 2009, AJ 137, 4322, as recalled"
+ELEMENTS = "Standish & Williams, approximate elements 1800-2050"
+_JUNO = "Durante et al. 2020, Geophys. Res. Lett. 47, e2019GL086572 (Juno)"
+_CASSINI = "Iess et al. 2019, Science 364, eaat2965 (Cassini)"
+_URANUS = "Jacobson 2014, AJ 148:76"
+_NEPTUNE = "Jacobson 2009, AJ 137, 4322"
+_CODES = "codes in public repositories that cite the paper: "
+POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
 
 
 def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
     """Satellite by GM (km3 s-2), half axis (km) and period (d)."""
     return Satellite(
         name,
-        Constant(gm * 1e9, "m3 s-2", None, JPL),
-        Constant(a * 1e3, "m", None, JPL),
-        Constant(days * DAY, "s", None, JPL),
+        Constant(gm * 1e9, "m3 s-2", None, JPL, JPL_READ),
+        Constant(a * 1e3, "m", None, JPL, JPL_READ),
+        Constant(days * DAY, "s", None, JPL, JPL_READ),
     )
 
 
@@ -48,20 +62,36 @@ OF_SATURN = (
     _moon("Titan", 8978.14, 1221865.0, 15.945448),
 )
 #: C/(M R2) of the planets alone, from models of the inside.
-JUPITER_MOMENT = Constant(0.2640, "", 0.0010, "Wahl et al. 2017, GRL 44, 4649, as recalled")
+JUPITER_MOMENT = Constant(
+    0.2639,
+    "",
+    0.0008,
+    "Militzer & Hubbard 2023; uncertainty: half of 0.2629 to 0.2645, Helled et al. 2011",
+    "abstracts, arXiv:2308.04986 and arXiv:1109.1627",
+)
 SATURN_MOMENT = Constant(
-    0.2199, "", 0.0020, "French et al. 1993, Icarus 103, 163; spread of models; both as recalled"
+    0.2181,
+    "",
+    0.0020,
+    "Militzer & Hubbard 2023; uncertainty assumed, ten times theirs",
+    "abstract, arXiv:2308.04986",
 )
 #: Rate of precession over the cosine of the obliquity, as published, satellites carried along.
-JUPITER_CONSTANT = Constant(2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91: recalled")
+JUPITER_CONSTANT = Constant(2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91", UNVERIFIED)
 SATURN_CONSTANT = Constant(
-    0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501: recalled"
+    0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501", UNVERIFIED
 )
 
 
 def _year(days: float) -> Constant:
     """Sidereal period of an orbit."""
-    return Constant(days * DAY, "s", None, ELEMENTS)
+    return Constant(
+        days * DAY,
+        "s",
+        None,
+        "mean sidereal period, rounded",
+        "ephemeris codes in public repositories",
+    )
 
 
 def _numbers(
@@ -69,10 +99,10 @@ def _numbers(
 ) -> dict[str, Constant]:
     """Numbers of a giant: GM (km3 s-2), radius (km), spin in degrees a day, period of its orbit."""
     return {
-        "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites"),
-        "radius": Constant(radius * 1e3, "m", None, j2.source),
+        "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites", GM_HORIZONS),
+        "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
         "j2": j2,
-        "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015),
+        "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015, PCK11),
         "orbital_period": orbit,
         "slow_swing": SWING,
     }
@@ -92,6 +122,7 @@ def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: f
     )
 
 
+ELLIPSES = Tabulated("mean orbits of the giant planets", ELEMENTS, STANDISH_READ)
 #: Mean orbits, for averages over years that are too long for a kernel.
 ORBITS = {
     "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
@@ -107,10 +138,18 @@ def _normal(planet: str) -> Direction:
 
 
 _JUPITER = _numbers(
-    126712764.1, 71492.0, Constant(14696.57e-6, "", 1e-8, _JUNO), 870.536, JUPITER_ORBITAL_PERIOD
+    126712764.1,
+    71492.0,
+    Constant(14696.57e-6, "", 1e-8, _JUNO, _CODES + "14696.5735e-6 at 71,492 km"),
+    870.536,
+    JUPITER_ORBITAL_PERIOD,
 )
 _SATURN = _numbers(
-    37940584.8418, 60330.0, Constant(16290.57e-6, "", 3e-8, _CASSINI), 810.7939024, _year(10759.22)
+    37940584.8418,
+    60330.0,
+    Constant(16290.57e-6, "", 3e-8, _CASSINI, _CODES + "16290.573e-6 +- 0.028e-6 at 60,330 km"),
+    810.7939024,
+    _year(10759.22),
 )
 
 JUPITER = Body.cited(
@@ -149,6 +188,7 @@ SATURN = Body.cited(
             None,
             "poles of IAU 2015 and of Jacobson 2007, BAAS 39, 317, at J2000.0: 2.9 arcsec apart, "
             "taken as the half-width of 95 %",
+            f"{PCK11}; abstract of the report",
         )
     },
     naif=(699, 6),
@@ -159,7 +199,11 @@ SATURN = Body.cited(
 URANUS = Body.cited(
     "uranus",
     _numbers(
-        5794556.4, 25559.0, Constant(3510.7e-6, "", 7e-7, _URANUS), -501.1600928, _year(30688.5)
+        5794556.4,
+        25559.0,
+        Constant(3510.7e-6, "", 7e-7, _URANUS, _CODES + "3510.68e-6 at 25,559 km"),
+        -501.1600928,
+        _year(30688.5),
     ),
     naif=(799, 7),
     pole=MovingPole.published((257.311, 0.0), (-15.175, 0.0)),
@@ -169,7 +213,11 @@ URANUS = Body.cited(
 NEPTUNE = Body.cited(
     "neptune",
     _numbers(
-        6836527.10058, 25225.0, Constant(3408.4e-6, "", 5e-6, _NEPTUNE), 541.1397757, _year(60182.0)
+        6836527.10058,
+        25225.0,
+        Constant(3408.4e-6, "", 5e-6, _NEPTUNE, _CODES + "3408.43e-6 +- 4.5e-6 at 25,225 km"),
+        541.1397757,
+        _year(60182.0),
     ),
     naif=(899, 8),
     pole=MovingPole.published(

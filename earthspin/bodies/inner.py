@@ -7,40 +7,69 @@ import math
 from earthspin.bodies.body import Body
 from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.orbit import Orbit
-from earthspin.constants import ARCSEC, DAY, DE440, JULIAN_YEAR, Constant
+from earthspin.constants import (
+    ARCSEC,
+    ASSUMED,
+    DAY,
+    DE440,
+    GM_HORIZONS,
+    JULIAN_YEAR,
+    PCK11,
+    STANDISH_READ,
+    UNVERIFIED,
+    Constant,
+    Tabulated,
+)
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, FixedPole
 
-IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015), as recalled"
+IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)"
 ELEMENTS = "Standish & Williams, approximate elements, sidereal"
+POLES = Tabulated("poles of Mercury and Venus", IAU_2015, PCK11)
+PLANES = Tabulated("planes of the orbits of Mercury and Venus", ELEMENTS, STANDISH_READ)
 #: How far the mean pull of a planet on others swings through centuries, relative.
-SWING = Constant(1e-3, "", None, "a bound for planets: not measured")
+SWING = Constant(1e-3, "", None, "a bound for planets: not measured", ASSUMED)
 
-_MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09, as recalled"
+_MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09"
+_MARGOT_2012_READ = "abstract, doi.org/10.1029/2012JE004161"
 _MARGOT_2021 = "Margot et al. 2021, Nature Astronomy 5, 676"
-_HGM005 = "Mazarico et al. 2014, JGR Planets 119, 2417 (HgM005), as recalled"
+_MARGOT_2021_READ = "abstract, arXiv:2103.01504"
+_VERMA = "Verma & Margot 2016, JGR Planets (arXiv:1608.01360)"
+_VERMA_READ = "abstract, arXiv:1608.01360"
+_GRAVITY_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
 
-_MERCURY_J2 = Constant(5.03e-5, "", 2e-7, _HGM005)
+# J2 = -sqrt(5) C20 and C22 = sqrt(5/12) times the normalised coefficient
+_MERCURY_J2 = Constant(
+    2.25100e-5 * math.sqrt(5.0), "", 1.3e-9 * math.sqrt(5.0), _VERMA, _VERMA_READ
+)
 #: C/(M R2).
-MERCURY_MOMENT = Constant(0.346, "", 0.014, _MARGOT_2012)
-_MERCURY_YEAR = Constant(87.9691 * DAY, "s", None, ELEMENTS + ", as recalled")
-_VENUS_J2 = Constant(4.404e-6, "", None, "Konopliv et al. 1999, Icarus 139, 3 (MGNP180U), rounded")
-VENUS_MOMENT = Constant(0.337, "", 0.024, _MARGOT_2021)
+MERCURY_MOMENT = Constant(0.346, "", 0.014, _MARGOT_2012, _MARGOT_2012_READ)
+_MERCURY_YEAR = Constant(87.96926 * DAY, "s", None, ELEMENTS, STANDISH_READ)
+_VENUS_J2 = Constant(
+    4.404e-6, "", None, "Konopliv et al. 1999, Icarus 139, 3 (MGNP180U), rounded", _GRAVITY_READ
+)
+VENUS_MOMENT = Constant(0.337, "", 0.024, _MARGOT_2021, _MARGOT_2021_READ)
 #: Rate of precession of the spin axis along the orbit, as observed.
-VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021)
+VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021, _MARGOT_2021_READ)
 
 
 MERCURY = Body.cited(
     "mercury",
     {
-        "gm": Constant(22031.868551e9, "m3 s-2", None, DE440),
-        "radius": Constant(2440e3, "m", None, _HGM005),
+        "gm": Constant(22031.868551e9, "m3 s-2", None, DE440, GM_HORIZONS),
+        "radius": Constant(2440e3, "m", None, "reference radius of " + _VERMA, _GRAVITY_READ),
         "j2": _MERCURY_J2,
         "dynamical_flattening": flattening_of(_MERCURY_J2, MERCURY_MOMENT),
         # (B - A)/(M a2) = 4 C22
-        "triaxiality": Constant(4 * 8.04e-6, "", 4 * 8e-8, _HGM005),
+        "triaxiality": Constant(
+            4 * 1.24973e-5 * math.sqrt(5 / 12),
+            "",
+            4 * 1.2e-9 * math.sqrt(5 / 12),
+            _VERMA,
+            _VERMA_READ,
+        ),
         # three turns in two orbits
-        "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015),
+        "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015, PCK11),
         "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
         "pole_uncertainty": Constant(
@@ -49,13 +78,13 @@ MERCURY = Body.cited(
             None,
             "obliquity of 2.029 +- 0.085 arcmin: Stark et al. 2015, Geophys. Res. Lett., First "
             "MESSENGER orbital observations of Mercury's librations",
+            "abstract of the paper",
         ),
     },
     naif=(199, 1),
     pole=MovingPole.published((281.0103, -0.0328), (61.4155, -0.0049)),
-    # Standish & Williams, approximate elements, as recalled
     orbit_pole=Direction.across(math.radians(7.00497902), math.radians(48.33076593)),
-    reference=f"{_MARGOT_2012}; {_HGM005}; {IAU_2015}; DE440",
+    reference=f"{_MARGOT_2012}; {_VERMA}; {IAU_2015}; DE440",
 )
 
 #: Mercury's orbit on the plane that it precesses on; longitudes are not needed and not given.
@@ -65,27 +94,39 @@ MERCURY_ORBIT = Orbit(
     i=math.radians(8.6),
     node_period=-328e3 * JULIAN_YEAR,
     about="sun",
-    reference="Yseboodt & Margot 2006, Icarus 181, 327, as recalled",
+    reference=f"Yseboodt & Margot 2006, Icarus 181, 327 ({UNVERIFIED})",
 )
 #: Obliquity of Mercury to its orbit, as observed.
-MERCURY_OBLIQUITY = Constant(2.04, "arcmin", 0.08, _MARGOT_2012)
+MERCURY_OBLIQUITY = Constant(2.04, "arcmin", 0.08, _MARGOT_2012, _MARGOT_2012_READ)
+MERCURY_PLANE = Tabulated(
+    "plane on which the orbit of Mercury precesses", MERCURY_ORBIT.reference, UNVERIFIED
+)
 
 VENUS = Body.cited(
     "venus",
     {
-        "gm": Constant(324858.592e9, "m3 s-2", None, DE440),
-        "radius": Constant(6051e3, "m", None, "reference radius of Konopliv et al. 1999"),
+        "gm": Constant(324858.592e9, "m3 s-2", None, DE440, GM_HORIZONS),
+        "radius": Constant(
+            6051e3, "m", None, "reference radius of Konopliv et al. 1999", _GRAVITY_READ
+        ),
         "j2": _VENUS_J2,
         "dynamical_flattening": flattening_of(_VENUS_J2, VENUS_MOMENT),
         # retrograde
-        "spin_period": Constant(-243.0226 * DAY, "s", 0.0013 * DAY, _MARGOT_2021),
-        "orbital_period": Constant(224.70079922 * DAY, "s", None, ELEMENTS),
+        "spin_period": Constant(
+            -243.0226 * DAY, "s", 0.0013 * DAY, _MARGOT_2021, _MARGOT_2021_READ
+        ),
+        "orbital_period": Constant(
+            224.70079922 * DAY,
+            "s",
+            None,
+            "mean sidereal period",
+            "ephemeris codes in public repositories: 224.7008001 d",
+        ),
         "slow_swing": SWING,
     },
     naif=(299, 2),
     # Archinal et al. 2011, Celest. Mech. 109, 101: no rates are given
     pole=FixedPole(math.radians(272.76), math.radians(67.16)),
-    # Standish & Williams, approximate elements
     orbit_pole=Direction.across(math.radians(3.39467605), math.radians(76.67984255)),
     reference=f"{_MARGOT_2021}; Konopliv et al. 1999; Archinal et al. 2011; DE440",
 )

@@ -169,7 +169,7 @@ class CitedPeriod:
 
     def write(self, value: Constant) -> Plain:
         """Give the table of what is known."""
-        return {name: known for name, known in asdict(value).items() if known is not None}
+        return {name: known for name, known in asdict(value).items() if known not in (None, "")}
 
 
 @dataclass(frozen=True)

@@ -14,16 +14,35 @@ from earthspin.constants import (
     MARS_J2,
     MARS_POLAR_MOMENT,
     MARS_RADIUS,
+    PCK11,
+    STANDISH_READ,
+    UNVERIFIED,
     Constant,
+    Tabulated,
 )
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
 # Normalised coefficients of degree and order 2.
-_C22, _S22 = -8.4636e-5, 4.8935e-5
+_C22, _S22 = -8.463591e-5, 4.893449e-5
 
 #: Rate of precession of the spin axis, geodesic precession included.
-PRECESSION = Constant(-7.6083, "arcsec yr-1", 0.0021, "Konopliv et al. 2016, Icarus 274, 253")
+PRECESSION = Constant(
+    -7.6083,
+    "arcsec yr-1",
+    0.0021,
+    "Konopliv et al. 2016, Icarus 274, 253",
+    "abstract, doi.org/10.1016/j.icarus.2016.02.052",
+)
+
+POLE = Tabulated(
+    "pole of Mars",
+    "Kuchynka et al. 2014, Icarus 229, 340; Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)",
+    PCK11,
+)
+ORBIT = Tabulated(
+    "plane of the orbit of Mars", "Standish & Williams, approximate elements", STANDISH_READ
+)
 
 NUMBERS = {
     "pole_uncertainty": Constant(
@@ -32,6 +51,7 @@ NUMBERS = {
         None,
         "poles of IAU 2009 and IAU 2015 at J2000.0: 0.89 arcsec apart without nutation, taken as "
         "the half-width of 95 %",
+        PCK11,
     ),
     "gm": MARS_GM,
     "radius": MARS_RADIUS,
@@ -43,18 +63,24 @@ NUMBERS = {
         "",
         None,
         MARS_GRAVITY + ", degree 2, order 2",
+        MARS_J2.read_in,
     ),
     "flattening": Constant(
         (3396.19 - 3376.20) / 3396.19,
         "",
         4e-5,
         "Archinal et al. 2018, Celest. Mech. 130:22, table 4",
+        PCK11,
     ),
     "spin_period": Constant(
-        360.0 / 350.89198226 * DAY, "s", None, "Archinal et al. 2011, Celest. Mech. 109, 101"
+        360.0 / 350.89198226 * DAY, "s", None, "Archinal et al. 2011, Celest. Mech. 109, 101", PCK11
     ),
     "orbital_period": Constant(
-        686.9798 * DAY, "s", None, "Standish & Williams, approximate elements, sidereal"
+        686.9798 * DAY,
+        "s",
+        None,
+        "mean sidereal period",
+        "ephemeris codes in public repositories: 686.9798519 d",
     ),
 }
 
@@ -84,7 +110,11 @@ MARS = Body.cited(
     orbit_pole=Direction.across(math.radians(1.84969142), math.radians(49.55953891)),
     interior="mars-insight",
     observed_wobble=Constant(
-        206.9, "d", 0.5, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568"
+        206.9,
+        "d",
+        0.5,
+        "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568",
+        f"about 207 d in press reports; the digit {UNVERIFIED}",
     ),
     reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
 )

@@ -10,28 +10,36 @@ from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
-from earthspin.constants import AU, DAY, DAYS_PER_CENTURY, SIDEREAL_MONTH, SIDEREAL_YEAR, Constant
+from earthspin.constants import (
+    AU,
+    DAY,
+    DAYS_PER_CENTURY,
+    SIDEREAL_MONTH,
+    SIDEREAL_YEAR,
+    SIMON_READ,
+    Constant,
+)  # fmt: skip
 
-MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0), as recalled"
-LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342, as recalled"
+MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0)"
+LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342"
 
 #: Half the long axis, eccentricity, inclination to the ecliptic.
-SUN_DISTANCE = Constant(1.000001018 * AU, "m", None, MEAN_ELEMENTS)
-SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS)
+SUN_DISTANCE = Constant(1.000001018 * AU, "m", None, MEAN_ELEMENTS, SIMON_READ)
+SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS, SIMON_READ)
 #: ELP's constant; that of an ellipse with the same month is 384748 km, the mean of 1/r is 1/384400.
-MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS)
-MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS)
-MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS)
+MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS, SIMON_READ)
+MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS, SIMON_READ)
+MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS, SIMON_READ)
 
 #: Longitudes at J2000.0 on the ecliptic and equinox of that date: mean, and of the pericentre.
-SUN_LONGITUDE = Constant(280.46645683, "deg", None, MEAN_ELEMENTS)
-SUN_PERIGEE = Constant(282.93734808, "deg", None, MEAN_ELEMENTS)
-MOON_LONGITUDE = Constant(218.31664563, "deg", None, MEAN_ELEMENTS)
-MOON_PERIGEE = Constant(83.35324312, "deg", None, MEAN_ELEMENTS)
-MOON_NODE = Constant(125.04455501, "deg", None, MEAN_ELEMENTS)
+SUN_LONGITUDE = Constant(280.46645683, "deg", None, MEAN_ELEMENTS, SIMON_READ)
+SUN_PERIGEE = Constant(282.93734808, "deg", None, MEAN_ELEMENTS, SIMON_READ)
+MOON_LONGITUDE = Constant(218.31664563, "deg", None, MEAN_ELEMENTS, SIMON_READ)
+MOON_PERIGEE = Constant(83.35324312, "deg", None, MEAN_ELEMENTS, SIMON_READ)
+MOON_NODE = Constant(125.04455501, "deg", None, MEAN_ELEMENTS, SIMON_READ)
 #: Of the longitudes of the Moon's perigee and node, from the fixed equinox of J2000.0.
-PERIGEE_RATE = Constant(14643420.2632, "arcsec / (100 yr)", None, MEAN_ELEMENTS)
-NODE_RATE = Constant(-6967919.3631, "arcsec / (100 yr)", None, MEAN_ELEMENTS)
+PERIGEE_RATE = Constant(14643420.2669, "0.01 arcsec yr-1", None, MEAN_ELEMENTS, SIMON_READ)
+NODE_RATE = Constant(-6967919.3631, "0.01 arcsec yr-1", None, MEAN_ELEMENTS, SIMON_READ)
 
 _TURN = 1296000.0 * DAYS_PER_CENTURY * DAY  # arcsec s / (100 yr)
 

@@ -5,20 +5,37 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.constants import DAY, DAYS_PER_CENTURY, DE440, SIDEREAL_MONTH, Constant
+from earthspin.constants import (
+    DAY,
+    DAYS_PER_CENTURY,
+    DE440,
+    GM_HORIZONS,
+    PCK11,
+    SHTOOLS,
+    SIDEREAL_MONTH,
+    Constant,
+    Tabulated,
+)  # fmt: skip
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction
 
-_GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging), as recalled"
+_GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging)"
+_GRAIL_READ = SHTOOLS + "Moon.py"
+#: Model of the field of DE430, by degree and order.
+_DE430_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
 
 #: Obliquity to its own orbit, as observed.
 OBLIQUITY = Constant(
-    6.688, "deg", None, "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit"
+    6.688,
+    "deg",
+    None,
+    "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit",
+    "arXiv:2201.00803; page of the Moon of JPL Horizons",
 )
 #: (C - A)/B and (B - A)/C.
-BETA = Constant(6.310213e-4, "", 6e-11, _GRAIL)
-GAMMA = Constant(2.277317e-4, "", 1e-10, _GRAIL)
-J2 = Constant(2.03216e-4, "", 1e-9, _GRAIL + "; rounded")
+BETA = Constant(6.310213e-4, "", 3.1e-9, _GRAIL, _GRAIL_READ)
+GAMMA = Constant(2.277317e-4, "", 4.2e-9, _GRAIL, _GRAIL_READ)
+J2 = Constant(2.03216e-4, "", 2e-9, _GRAIL + "; rounded", f"2.03214e-4 of DE430: {_DE430_READ}")
 
 # with C = 1: A = B - gamma and 1 - A = beta B
 _B = (1 + GAMMA.value) / (1 + BETA.value)
@@ -30,11 +47,14 @@ NUMBERS = {
         "m3 s-2",
         4.2e4,
         DE440 + "; uncertainty: the difference from DE421's 4902.800076",
+        GM_HORIZONS,
     ),
-    "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL),
+    "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL, _DE430_READ),
     "j2": J2,
-    "dynamical_flattening": Constant(_H, "", 1e-10, "from beta and gamma: " + _GRAIL),
-    "triaxiality": Constant(GAMMA.value * J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL),
+    "dynamical_flattening": Constant(_H, "", 4e-9, "from beta and gamma: " + _GRAIL, _GRAIL_READ),
+    "triaxiality": Constant(
+        GAMMA.value * J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL, _GRAIL_READ
+    ),
     # locked: one turn in each month
     "spin_period": SIDEREAL_MONTH,
     "orbital_period": SIDEREAL_MONTH,
@@ -44,9 +64,13 @@ NUMBERS = {
         "s",
         0.0,
         "Simon et al. 1994, A&A 282, 663, sect. 3.5: rate of the mean longitude of the node",
+        "ERFA, eraFaom03",
     ),
 }
 
+POLE = Tabulated(
+    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", PCK11
+)
 #: Terms of the IAU's pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
 _TERMS = {
     1: (125.045, -0.0529921),
@@ -69,7 +93,6 @@ MOON = Body.cited(
     "moon",
     NUMBERS,
     naif=(301,),
-    # Archinal et al. 2018, Celest. Mech. 130:22, as recalled
     pole=MovingPole.published(
         (269.9949, 0.0031),
         (66.5392, 0.0130),

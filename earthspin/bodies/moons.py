@@ -13,38 +13,61 @@ from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.giants import OF_SATURN
 from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import JPL
-from earthspin.constants import DAY, DAYS_PER_CENTURY, JULIAN_YEAR, Constant
+from earthspin.bodies.satellites import JPL, JPL_READ
+from earthspin.constants import (
+    DAY,
+    DAYS_PER_CENTURY,
+    JULIAN_YEAR,
+    PCK11,
+    UNVERIFIED,
+    Constant,
+    Tabulated,
+)
 from earthspin.mass.inertia import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
-_IESS = "Iess et al. 2012, Science 337, 457 (Cassini), as recalled"
+_IESS = f"Iess et al. 2012, Science 337, 457 (Cassini; {UNVERIFIED})"
 #: Semi-axes of Phobos, km.
 _PHOBOS = (13.0, 11.4, 9.1)
 _AXES = f"homogeneous ellipsoid of {' x '.join(map(str, _PHOBOS))} km, {IAU_2015}"
-_IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009), as recalled"
+_IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)"
+POLES = Tabulated("poles of Phobos, Titan and Iapetus", _IAU_2011, PCK11)
 _TITAN = OF_SATURN[-1]
 
-_TITAN_J2 = Constant(33.599e-6, "", 0.332e-6, _IESS)
+_TITAN_J2 = Constant(33.599e-6, "", 0.332e-6, _IESS, UNVERIFIED)
 #: C/(M R2) of Titan in hydrostatic equilibrium.
-TITAN_MOMENT = Constant(0.3414, "", 0.0005, "Iess et al. 2010, Science 327, 1367, as recalled")
+TITAN_MOMENT = Constant(
+    0.3414,
+    "",
+    0.0005,
+    "Iess et al. 2010, Science 327, 1367",
+    f"about 0.34 in the abstract; the further digits {UNVERIFIED}",
+)
 #: Obliquity of Titan to its orbit as observed, and as predicted for a solid body.
-TITAN_OBLIQUITY = Constant(0.32, "deg", None, "Stiles et al. 2008, AJ 135, 1669, as recalled")
+TITAN_OBLIQUITY = Constant(
+    0.31,
+    "deg",
+    None,
+    "Meriggiola et al. 2016, Icarus 275, 183",
+    "abstract, doi.org/10.1016/j.icarus.2016.01.019",
+)
 TITAN_OBLIQUITY_IF_SOLID = Constant(
-    0.113, "deg", None, "Baland et al. 2011, A&A 530, A141, as recalled"
+    0.113, "deg", None, "Baland et al. 2011, A&A 530, A141", UNVERIFIED
 )
 
 
-def _days(days: float, source: str) -> Constant:
+def _days(days: float, source: str, read_in: str) -> Constant:
     """Sidereal period."""
-    return Constant(days * DAY, "s", None, source)
+    return Constant(days * DAY, "s", None, source, read_in)
 
 
-def _locked(gm: Constant, radius: float, period: Constant, source: str) -> dict[str, Constant]:
+def _locked(
+    gm: Constant, radius: float, period: Constant, source: str, read_in: str
+) -> dict[str, Constant]:
     """Numbers of a moon of a radius (km) that turns once in each orbit."""
     return {
         "gm": gm,
-        "radius": Constant(radius * 1e3, "m", None, source),
+        "radius": Constant(radius * 1e3, "m", None, source, read_in),
         "spin_period": period,
         "orbital_period": period,
     }
@@ -53,7 +76,7 @@ def _locked(gm: Constant, radius: float, period: Constant, source: str) -> dict[
 def _of_phobos() -> dict[str, Constant]:
     j2, h, triaxiality = homogeneous_ellipsoid(*_PHOBOS)
     figure = {"j2": j2, "dynamical_flattening": h, "triaxiality": triaxiality}
-    return {name: Constant(value, "", None, _AXES) for name, value in figure.items()}
+    return {name: Constant(value, "", None, _AXES, PCK11) for name, value in figure.items()}
 
 
 #: Phase at J2000.0 (deg) and rate (deg a century) of M1, the node of Phobos.
@@ -61,7 +84,13 @@ _M1 = (169.51, -0.4357640 * DAYS_PER_CENTURY)
 
 PHOBOS = Body.cited(
     "phobos",
-    _locked(Constant(7.087e5, "m3 s-2", None, JPL), _PHOBOS[0], _days(0.31891023, JPL), _AXES)
+    _locked(
+        Constant(7.087e5, "m3 s-2", None, JPL, JPL_READ),
+        _PHOBOS[0],
+        _days(0.31891023, JPL, "asa.hmnao.com, satellite orbital data of 2012"),
+        _AXES,
+        PCK11,
+    )
     | _of_phobos(),
     naif=(401,),
     pole=MovingPole.published((317.68, -0.108), (52.90, -0.061), [(1.79, *_M1)], [(-1.08, *_M1)]),
@@ -69,12 +98,12 @@ PHOBOS = Body.cited(
 )
 TITAN = Body.cited(
     "titan",
-    _locked(_TITAN.gm, 2575.0, _TITAN.period, "reference radius of " + _IESS)
+    _locked(_TITAN.gm, 2575.0, _TITAN.period, "reference radius of " + _IESS, UNVERIFIED)
     | {
         "j2": _TITAN_J2,
         "dynamical_flattening": flattening_of(_TITAN_J2, TITAN_MOMENT),
         # (B - A)/(M a2) = 4 C22
-        "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.029e-6, _IESS),
+        "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.029e-6, _IESS, UNVERIFIED),
     },
     naif=(606,),
     pole=MovingPole.published((39.4827, 0.0), (83.4279, 0.0)),
@@ -82,18 +111,34 @@ TITAN = Body.cited(
 )
 IAPETUS = Body.cited(
     "iapetus",
-    _locked(Constant(120.51e9, "m3 s-2", None, JPL), 734.5, _days(79.3215, JPL), JPL),
+    _locked(
+        Constant(120.51e9, "m3 s-2", None, JPL, "Jacobson et al. 2006 in aanda.org aa21114-13/T1"),
+        734.5,
+        _days(360 / 4.5379572, IAU_2015, PCK11),
+        JPL,
+        "codes in public repositories",
+    ),
     naif=(608,),
     pole=MovingPole.published((318.16, -3.949), (75.03, -1.143)),
     reference=f"{JPL}; pole: {_IAU_2011}",
 )
 TRITON = Body.cited(
     "triton",
-    _locked(Constant(1428.0e9, "m3 s-2", None, JPL), 1352.6, _days(5.876854, JPL), JPL),
+    _locked(
+        Constant(1428.495e9, "m3 s-2", None, JPL, JPL_READ),
+        1352.6,
+        _days(5.876854, IAU_2015, PCK11),
+        IAU_2015,
+        PCK11,
+    ),
     naif=(801,),
     reference=JPL,
 )
 
+ELLIPSES = Tabulated("orbits of Phobos, Iapetus and Triton", JPL, JPL_READ)
+TITAN_ELLIPSE = Tabulated(
+    "orbit of Titan", "Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6)", UNVERIFIED
+)
 #: Orbits on the planes that they precess on; longitudes are not needed and not given.
 ORBITS = {
     PHOBOS.name: Orbit(
@@ -111,13 +156,13 @@ ORBITS = {
         i=math.radians(0.3197),
         node_period=-703.51 * JULIAN_YEAR,
         about="saturn",
-        reference="Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6), as recalled",
+        reference=f"Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6; {UNVERIFIED})",
     ),
     IAPETUS.name: Orbit(
         period=IAPETUS.number("orbital_period"),
-        e=0.0286,
-        i=math.radians(7.489),
-        node_period=-3438.0 * JULIAN_YEAR,
+        e=0.0293,
+        i=math.radians(8.298),
+        node_period=-3438.73 * JULIAN_YEAR,
         about="saturn",
         reference=JPL,
     ),

@@ -2,7 +2,7 @@
 
 A satellite near the equator, inside the radius at which the Sun's pull on its orbit is that of the
 planet's bulge, keeps to the equator while this precesses. Planet and satellites then turn as one
-body (Ward 1975, AJ 80, 64; French et al. 1993, Icarus 103, 163; both as recalled):
+body (Ward 1975, AJ 80, 64; French et al. 1993, Icarus 103, 163):
 
     J2' = J2 + q,   q = (1/2) sum (m/M) (a/R)^2,
     C'  = C + l,    l = sum (m/M) (a/R)^2 (n/Omega),     C in M R^2.
@@ -15,7 +15,11 @@ from dataclasses import dataclass
 
 from earthspin.constants import Constant
 
-JPL = "JPL Solar System Dynamics, mean elements and GM of satellites, as recalled"
+JPL = "JPL Solar System Dynamics, mean elements and GM of satellites"
+JPL_READ = (
+    "tables of ssd.jpl.nasa.gov/?sat_elem (2020) and gm_Horizons.pck in public copies; GM of the "
+    "moons of Jupiter: gm_de431.tpc in mockingbirdnest/Principia"
+)
 
 
 @dataclass(frozen=True)
@@ -79,7 +83,10 @@ def carried(
     u = polar_moment.relative_uncertainty * polar_moment.value / moment
     h = (j2.value + q) / moment
     source = f"{j2.source}; with {names} carried along ({JPL})"
+    read_in = f"{j2.read_in}; {JPL_READ}"
     return {
-        "j2": Constant(j2.value + q, "", j2.uncertainty, source),
-        "dynamical_flattening": Constant(h, "", h * u, f"{source}; {polar_moment.source}"),
+        "j2": Constant(j2.value + q, "", j2.uncertainty, source, read_in),
+        "dynamical_flattening": Constant(
+            h, "", h * u, f"{source}; {polar_moment.source}", f"{read_in}; {polar_moment.read_in}"
+        ),
     }

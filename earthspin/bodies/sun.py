@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from earthspin.bodies.body import Body
-from earthspin.constants import DE440, IERS_2010, Constant
+from earthspin.constants import DE440, GM_HORIZONS, IERS_2010, Constant
 
 NUMBERS = {
     "gm": Constant(
-        132712440041.279419e9, "m3 s-2", 1e10, DE440 + "; uncertainty from " + IERS_2010
+        132712440041.279419e9,
+        "m3 s-2",
+        1e10,
+        DE440 + "; uncertainty from " + IERS_2010,
+        GM_HORIZONS,
     ),
 }
 

@@ -13,19 +13,27 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import IERS, Constant
+from earthspin.constants import IERS, UNVERIFIED, Constant, Tabulated
 
 Array = NDArray[Any]
 
 FES2004_SOURCE = (
     IERS + ", sect. 6.3: FES2004 (Lyard et al. 2006, Ocean Dyn. 56, 394), coefficients of degree "
-    "2 and order 1 as read in a public copy; heights of the equilibrium tide from table 6.5a, that "
-    "of K1 read, those of O1 and Q1 recalled"
+    "2 and order 1; heights of the equilibrium tide from table 6.5a, those of O1 and Q1 "
+    + UNVERIFIED
+)
+FES2004 = Tabulated(
+    "three diurnal waves of the ocean",
+    FES2004_SOURCE,
+    "file fes2004_Cnm-Snm.dat of the Conventions, in a public copy; height of K1 in codes of "
+    f"table 6.5a; heights of O1 and Q1 {UNVERIFIED}",
 )
 #: Normalised coefficient of the potential per metre of equilibrium tide, A_1.
-PER_METRE = Constant(-3.1274e-8, "m-1", None, IERS + ", eq. 6.8d")
-#: Of the coefficients below: as the Conventions have it. The copy that was read says 1e-12; then
-#: the sea would do a tenth of what any tide model has it do.
+PER_METRE = Constant(
+    -3.1274e-8, "m-1", None, IERS + ", eq. 6.8d", "codes of the equation in public repositories"
+)
+#: Of the coefficients below. The file said 1e-12 until the Conventions Centre corrected it on
+#: 23 September 2011 (maia.usno.navy.mil/conv2010/convupdt/convupdt_c6.html).
 _UNIT = 1e-11
 
 

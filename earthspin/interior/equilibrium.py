@@ -97,8 +97,8 @@ class Figure:
         A_f/A and A_s/A.
     a1, a2, a3 : float
         Coupling numbers of the inner core (Mathews, Buffett, Herring & Shapiro 1991, JGR 96,
-        8219, eq. 20 and 24, recalled): the share of its C - A that the liquid would have in its
-        place; the pull of all others on it, pressure included; and 1 - a1, the excess.
+        8219): the share of its C - A that the liquid would have in its place; the pull of all
+        others on it, pressure included; and 1 - a1, the excess.
     unit : float
         Omega2 R5/(3 G A): product of inertia over A per radian and unit of a Love number.
     surface : float

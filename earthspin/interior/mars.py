@@ -5,33 +5,49 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.constants import (
+    ASSUMED,
     MARS_GM,
     MARS_J2,
     MARS_POLAR_MOMENT,
     MARS_RADIUS,
+    SHTOOLS,
+    UNVERIFIED,
     Constant,
     G,
 )
 from earthspin.interior.layers import Layer, LayeredBody
 
 _INSIGHT = "Le Maistre et al. 2023, Nature 619, 733"
+_INSIGHT_READ = "abstract, nature.com/articles/s41586-023-06150-0"
 #: Of the fluid core; the density within the 5955 to 6290 kg m-3 of the same paper.
-CORE_RADIUS = Constant(1835e3, "m", 55e3, _INSIGHT)
-CORE_DENSITY = Constant(6100.0, "kg m-3", 90.0, _INSIGHT + ": 5955 to 6290")
+CORE_RADIUS = Constant(1835e3, "m", 55e3, _INSIGHT, _INSIGHT_READ)
+CORE_DENSITY = Constant(6100.0, "kg m-3", 90.0, _INSIGHT + ": 5955 to 6290", _INSIGHT_READ)
 #: Crust of 24 to 72 km (Knapmeyer-Endrun et al. 2021, Science 373, 438), in the middle.
-CRUST = Constant(48e3, "m", 12e3, "Knapmeyer-Endrun et al. 2021, Science 373, 438: 24 to 72 km")
-CRUST_DENSITY = Constant(2900.0, "kg m-3", None, "between 2500 and 3100 kg m-3, recalled")
+CRUST = Constant(
+    48e3,
+    "m",
+    12e3,
+    "Knapmeyer-Endrun et al. 2021, Science 373, 438: 24 to 72 km",
+    "abstract, doi.org/10.1126/science.abf8966",
+)
+CRUST_DENSITY = Constant(2900.0, "kg m-3", None, "between 2500 and 3100 kg m-3", UNVERIFIED)
 #: Where the minerals of the mantle change, about 1000 km deep.
-TRANSITION_RADIUS = Constant(2390e3, "m", None, "about 1000 km below the surface, recalled")
-MEAN_RADIUS = Constant(3389.5e3, "m", None, "Archinal et al. 2018, Celest. Mech. 130:22, table 4")
-_KHAN = "near those of Khan et al. 2021, Science 373, 434; recalled"
+TRANSITION_RADIUS = Constant(2390e3, "m", None, "about 1000 km below the surface", UNVERIFIED)
+MEAN_RADIUS = Constant(
+    3389.5e3, "m", None, "Archinal et al. 2018, Celest. Mech. 130:22, table 4", SHTOOLS + "Mars.py"
+)
+_KHAN = f"near those of Khan et al. 2021, Science 373, 434 ({UNVERIFIED})"
 #: Speeds of shear waves in crust, upper and lower mantle.
-SHEAR_SPEEDS = tuple(Constant(speed, "m s-1", None, _KHAN) for speed in (2900.0, 4450.0, 4850.0))
+SHEAR_SPEEDS = tuple(
+    Constant(speed, "m s-1", None, _KHAN, UNVERIFIED) for speed in (2900.0, 4450.0, 4850.0)
+)
 #: Of compressional waves: over that of shear waves in the solid, and in the core.
-SPEED_RATIO = Constant(1.8, "", None, "rounded; " + _KHAN)
-CORE_SPEED = Constant(5000.0, "m s-1", None, "rounded; " + _KHAN)
+SPEED_RATIO = Constant(1.8, "", None, "rounded; " + _KHAN, UNVERIFIED)
+CORE_SPEED = Constant(5000.0, "m s-1", None, "rounded; " + _KHAN, UNVERIFIED)
 #: Quality factor of the mantle in shear at 1 s.
-SHEAR_Q = Constant(100.0, "", None, "assumed: of the order that the acceleration of Phobos gives")
+SHEAR_Q = Constant(
+    100.0, "", None, "assumed: of the order that the acceleration of Phobos gives", ASSUMED
+)
 #: I/(M R2) of the mean moment, (A + B + C)/3 = C - 2/3 J2 M a2.
 MOMENT = (MARS_POLAR_MOMENT.value - 2 / 3 * MARS_J2.value) * (
     MARS_RADIUS.value / MEAN_RADIUS.value

@@ -11,10 +11,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from earthspin.constants import (
+    COMPUTED,
     MARS_GM,
     MARS_J2,
     MARS_POLAR_MOMENT,
     MARS_RADIUS,
+    UNVERIFIED,
     Constant,
     G,
 )
@@ -32,6 +34,7 @@ CORE_ELLIPTICITY = Constant(
     "",
     DYNAMICAL_CORE_ELLIPTICITY.uncertainty,
     DYNAMICAL_CORE_ELLIPTICITY.source + " (Re K_CMB added)",
+    DYNAMICAL_CORE_ELLIPTICITY.read_in,
 )
 
 #: Exponent of frequency in the mantle's quality factor.
@@ -41,6 +44,7 @@ ANELASTIC_EXPONENT = Constant(
     0.04,
     "Smith & Dahlen 1981, Geophys. J. R. astr. Soc. 64, 223: 0.04 to 0.19, chosen there such "
     "that period and decay of the observed wobble are met",
+    UNVERIFIED,
 )
 
 
@@ -124,6 +128,7 @@ _LEFT_OUT_OF_PREM = {
         None,
         "IERS Conventions (2010), table 6.3: k21 = 0.29470, elastic, with rotation and "
         "ellipticity, in the place of the sphere's 0.29826",
+        f"{COMPUTED}; k21 {UNVERIFIED}",
     ),
     "a solid inner core": Constant(
         -0.03,
@@ -131,17 +136,26 @@ _LEFT_OUT_OF_PREM = {
         None,
         "equations and compliances of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with "
         "an inner core, less those with all of the core fluid",
+        f"{COMPUTED}; compliances in part {UNVERIFIED}",
     ),
 }
 
 #: Of the core of Mars on average.
-MARS_CORE_DENSITY = Constant(6000.0, "kg m-3", 300.0, "Staehler et al. 2021, Science 373, 443")
+MARS_CORE_DENSITY = Constant(
+    6000.0,
+    "kg m-3",
+    300.0,
+    "Staehler et al. 2021, Science 373, 443",
+    "abstract, doi.org/10.1126/science.abi7730: 5.7 to 6.3 g/cm3",
+)
 #: Moment of that core, as if it were even, over A = (C/(M R2) - J2) M R2.
 _MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
     (MARS_POLAR_MOMENT.value - MARS_J2.value) * MARS_GM.value / G.value * MARS_RADIUS.value**2
 )
 #: Love number of Mars as observed.
-MARS_K2 = Constant(0.174, "", 0.008, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568")
+MARS_K2 = Constant(
+    0.174, "", 0.008, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568", UNVERIFIED
+)
 
 INTERIORS: dict[str, Interior] = {
     interior.name: interior

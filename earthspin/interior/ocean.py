@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from earthspin.constants import ARCSEC, Constant
+from earthspin.constants import ARCSEC, UNVERIFIED, Constant, Tabulated
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
 
@@ -15,9 +15,14 @@ OCEAN_SOURCE = (
     "IERS Conventions (2010), eq. 6.24: self-consistent equilibrium ocean pole tide, "
     "after Desai 2002, JGR 107(C11), 3186"
 )
+POLE_TIDE = Tabulated(
+    "ocean pole tide, four coefficients",
+    OCEAN_SOURCE,
+    "codes of the equation in public repositories, Orekit among them",
+)
 
 #: Density of sea water, as the IERS Conventions (2010), sect. 6.5, use it.
-SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5")
+SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5", UNVERIFIED)
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from earthspin.constants import PREM_READ, Tabulated
 from earthspin.interior.layers import Layer, LayeredBody
 
 
@@ -50,6 +51,7 @@ def _prem(*outermost: Layer) -> tuple[Layer, ...]:
 
 
 _PREM_SOURCE = "Dziewonski & Anderson 1981, PEPI 25, 297, table I"
+LAYERS = Tabulated("layers of PREM", _PREM_SOURCE, PREM_READ)
 
 #: As published, with three kilometres of ocean all over.
 PREM_WITH_OCEAN = LayeredBody(

@@ -75,11 +75,10 @@ def shares_of_variance(
     """Fit outputs by straight lines in all inputs together, and share out their variance.
 
     The share of input j is b_j cov(x_j, y) / var(y), with the slopes b of the fit. For inputs that
-    are independent it is that of the first order (Saltelli et al. 2008, Global Sensitivity
-    Analysis, sect. 1.2.5, recalled); for any inputs the shares and the rest add up to 1. One of an
-    input that is correlated with others may be negative. That of a class is the sum over its
-    columns of 0 and 1: alone, the variance between the means of the classes over the whole
-    variance, which is called eta squared (recalled).
+    are independent it is that of the first order; for any inputs the shares and the rest add up to
+    1. One of an input that is correlated with others may be negative. That of a class is the sum
+    over its columns of 0 and 1: alone, the variance between the means of the classes over the whole
+    variance.
 
     Parameters
     ----------

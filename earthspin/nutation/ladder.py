@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import DAY, NORMAL_95, Constant
+from earthspin.constants import COMPUTED, DAY, NORMAL_95, Constant
 from earthspin.interior import rotation
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.diurnal_ocean import diurnal_response
@@ -52,9 +52,10 @@ LEFT_OUT = {
         0.43, "mas", None,
         "1 per cent of gamma in the term of 18.6 years; k21 of IERS Conventions (2010), table 6.5, "
         "at O1 is 0.2975, that of this sphere 0.301",
+        COMPUTED,
     ),
     "currents of the ocean": Constant(
-        0.1, "mas", None, "what remains in the term of 13.66 days, out of phase"
+        0.1, "mas", None, "what remains in the term of 13.66 days, out of phase", COMPUTED
     ),
 }  # fmt: skip
 

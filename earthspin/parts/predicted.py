@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
+from earthspin.interior.diurnal_ocean import FES2004_SOURCE
 from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.interior.published import CORE_NUTATION, K_CMB
 from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
 
@@ -21,6 +23,10 @@ if TYPE_CHECKING:
 
 #: The rung that stands for the prediction where one response is asked for.
 CHOSEN = "core-ellipticity"
+#: Sources of the numbers that a prediction takes beside the layers.
+SOURCES = "; ".join(
+    (CORE_NUTATION.source, K_CMB[0].source, FES2004_SOURCE, ANELASTIC_EXPONENT.source)
+)
 
 
 @dataclass(frozen=True)

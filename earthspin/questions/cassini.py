@@ -184,6 +184,8 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
         coords={"state": ("state", found.number, dict(NUMBERED))},
     )
     result["tilt"].attrs["inclination"] = math.degrees(own_orbit.i)
+    if own_orbit.reference:
+        result["tilt"].attrs["references"] = own_orbit.reference
     locked = "locked" if locking.locked else "free"
     result["obliquity"].attrs["spin"] = f"{locked}, {locking.turns:.6g} turns in each orbit"
     return result

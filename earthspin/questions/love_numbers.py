@@ -103,7 +103,10 @@ def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -
         {"love_number": values.real, "love_number_imaginary": values.imag},
         coords={"love": ("love", list(_FIELDS))},
     )
-    result.love_number.attrs["references"] = layers.reference
+    sources = [layers.reference]
+    if period is not None and anelastic_exponent == ANELASTIC_EXPONENT.value:
+        sources.append(ANELASTIC_EXPONENT.source)
+    result.love_number.attrs["references"] = "; ".join(sources)
     return result
 
 

@@ -19,7 +19,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of, setting
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.parts.path import Analysed, path_over, pole_analysis, rigid
-from earthspin.parts.predicted import Prediction, no_layers, predict
+from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
@@ -146,12 +146,15 @@ def left(
     return Left(days, series, math.hypot(done.path.error, from_h))
 
 
+REFERENCES = (("references", SOURCES),)
+
+
 def _sizes(dim: str, prefix: str = "") -> dict[str, Variable]:
     words = "root mean square of computed minus IAU 2000A in"
     return {
         f"{prefix}rms_dpsi_sineps": Variable(
             (dim,), "mas", f"{words} longitude times sin(eps), straight line removed",
-            error=f"{prefix}rms_error",
+            attrs=REFERENCES, error=f"{prefix}rms_error",
         ),
         f"{prefix}rms_deps": Variable(
             (dim,), "mas", f"{words} obliquity, straight line removed", error=f"{prefix}rms_error"
@@ -205,7 +208,7 @@ TERMS = {
         ("term",), "d", "period of the circle in space, negative if retrograde", no_error=_ADOPTED
     ),
     "predicted_in_phase": Variable(
-        _IN_TERM, "mas", "predicted amplitude, in phase", error="predicted_error"
+        _IN_TERM, "mas", "predicted amplitude, in phase", REFERENCES, "predicted_error"
     ),
     "predicted_out_of_phase": Variable(
         _IN_TERM, "mas", "predicted amplitude, out of phase", error="predicted_error"

@@ -214,6 +214,9 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     )
     if inside is not None:
         result.period_solar_error.attrs["draws"] = propagation.DRAWS
+        result.rung.attrs["references"] = "; ".join(
+            (inside.interior.reference, ANELASTIC_EXPONENT.source)
+        )
     result.rung.attrs["left_out"] = "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"
     return result
 
@@ -362,13 +365,16 @@ def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
         for name, i in shapes.items()
     }
     nutation = _along(turns, "core_shape") * body.needed("spin_period")
-    return build(
+    result = build(
         CORE_NUTATION,
         {
             "free_core_nutation": nutation,
             "free_core_nutation_sidereal": nutation / abs(body.needed("spin_period")),
         },
     )
+    if observed is not None and "observed" in shapes:
+        result.free_core_nutation.attrs["references"] = observed.source
+    return result
 
 
 INNER_CORE = without_error(

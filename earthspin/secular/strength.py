@@ -29,11 +29,12 @@ FloatArray = NDArray[np.float64]
 #: A float, or one value for each member.
 Numeric = Any
 
-QTD91 = "Quinn, Tremaine & Duncan 1991, AJ 101, 2287, as recalled"
+QTD91 = "Quinn, Tremaine & Duncan 1991, AJ 101, 2287"
+_QTD91_READ = "constants of snvecR (japhir/snvecR), which cites eq. 3 and 11 of the paper"
 #: Relative rate of the Moon's mean motion by tides (lunar laser ranging gives -4.7e-18).
-MOON_SLOWS = Constant(-4.6e-18, "s-1", None, QTD91)
+MOON_SLOWS = Constant(-4.6e-18, "s-1", None, QTD91, _QTD91_READ)
 #: What that takes of the spin: omega'/omega over n'/n is this times n/omega.
-SPIN_OVER_MOON = Constant(51.0, "", None, QTD91)
+SPIN_OVER_MOON = Constant(51.0, "", None, QTD91, _QTD91_READ)
 
 #: How far the present rate of J2 is taken at its word, and where nothing of it is left, s.
 #: In between it fades as a cosine: the rebound of the mantle decays within some thousand years.

@@ -9,7 +9,7 @@ from earthspin.wobble.oscillator import DrivenOscillator
 from earthspin.wobble.record import NEAR, YEAR, Array, Complex, turning
 from earthspin.wobble.resonance import chandler_frequency
 
-#: Memory of the red excitation, d.
+#: Memory of the red excitation unless another one is given, d.
 RED_MEMORY = 500.0
 #: Memories of the slow and the fast background, d, and their sizes over the wobble's.
 BACKGROUND = ((365.0, 0.08), (15.0, 0.06))
@@ -23,6 +23,7 @@ def simulate(
     step: float = 10.0,
     amplitude: float = 128.0,
     red: float = 0.0,
+    memory: float = RED_MEMORY,
     seed: int | None = None,
 ) -> tuple[Array, Complex]:
     """A driven wobble with seasons, drift and background, to put the methods to the test.
@@ -39,6 +40,8 @@ def simulate(
         Root mean square of the wobble that white noise drives, mas.
     red : float
         Root mean square of a red excitation that drives the wobble as well, mas.
+    memory : float
+        Time in which the red excitation forgets, d.
     seed : int, optional
 
     Returns
@@ -60,26 +63,28 @@ def simulate(
 
     rate = 2 * np.pi / period
     p = process(1j * rate - rate / (2 * quality_factor), amplitude)
-    for memory, share in BACKGROUND:
-        p += process(-1 / memory, share * amplitude)
+    for forgets, share in BACKGROUND:
+        p += process(-1 / forgets, share * amplitude)
     p += 94 * turning(time, YEAR) + 4.5 * turning(time, -YEAR) + 5 * turning(time, YEAR / 2)
     if red:
-        driven = DrivenOscillator(
-            chandler_frequency(period, quality_factor), RED_MEMORY, red=red**2
-        )
+        driven = DrivenOscillator(chandler_frequency(period, quality_factor), memory, red=red**2)
         p += driven.sampled(time.size, step, generator)
     return time, p + (30 - 300j) + (1.6 - 3.4j) * time / 365.25
 
 
-def red_share(period: float, quality_factor: float, red: float, amplitude: float = 128.0) -> float:
-    """Share of red noise in what drives the wobble of `simulate`, at its frequency.
+def red_size(
+    period: float, quality_factor: float, share: float, memory: float, amplitude: float = 128.0
+) -> float:
+    """Root mean square of the red excitation with a given share of the power, mas.
 
     Parameters
     ----------
-    period, quality_factor, red, amplitude : float
+    period, quality_factor, memory, amplitude : float
         As of `simulate`.
+    share : float
+        Share of red noise in the power of the excitation at the frequency of the wobble.
     """
     s = chandler_frequency(period, quality_factor)
     white = 2 * s.imag * amplitude**2 / abs(s) ** 2  # power of the white excitation, mas2 d
-    slow = 2 * RED_MEMORY * red**2 / (1 + (s.real * RED_MEMORY) ** 2)
-    return slow / (white + slow)
+    red_of_unit_size = 2 * memory / (1 + (s.real * memory) ** 2)
+    return float(np.sqrt(share / (1 - share) * white / red_of_unit_size))

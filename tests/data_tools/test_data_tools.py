@@ -127,11 +127,11 @@ def test_the_table_of_what_is_neglected_holds(
 
 def test_a_cell_of_the_free_wobble_is_as_stored() -> None:
     """Eight of the four hundred records: within three of their standard errors."""
-    cell = free_wobble.Cell("burg", 100.0, 65.0, 12.0)
+    cell = free_wobble.Cell("burg", 100.0, 65.0, 0.3, 500.0)
     row = [part.strip() for part in cell.row(8).split("|")[1:-1]]
-    assert row[:3] == ["100", "65", "19%"]
+    assert row[:4] == ["100", "65", "30%", "500"]
     table = free_wobble.PAGE.read_text().split('`"likelihood"`')[0].splitlines()
-    stored = next(x for x in table if x.startswith("| 100 | 65 | 19% |")).split("|")[1:-1]
-    bias, scatter = (float(stored[n].split("±")[0]) for n in (3, 4))
-    assert abs(float(row[3].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
-    assert 90 <= float(stored[5]) <= 100
+    stored = next(x for x in table if x.startswith("| 100 | 65 | 30% | 500 |")).split("|")[1:-1]
+    bias, scatter = (float(stored[n].split("±")[0]) for n in (4, 5))
+    assert abs(float(row[4].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
+    assert 90 <= float(stored[7]) <= 100

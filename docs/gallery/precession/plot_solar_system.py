@@ -4,9 +4,9 @@ From the Earth to Saturn
 
 One turn of precession takes twenty-six thousand years for the Earth and almost two million for
 Saturn (I.8). The Sun's pull falls with the cube of the distance; Jupiter and Saturn would be slower
-still, did their satellites not pull with them. Rings are published values, in part recalled ones;
-error bars hold the uncertainty of the input numbers only. The moments of Venus, the Earth and Mars
-come from the observed rates, so that these comparisons are circular.
+still, did their satellites not pull with them. Rings are published values, those of Jupiter and
+Saturn not verified; error bars hold the uncertainty of the input numbers only. The moments of
+Venus, the Earth and Mars come from the observed rates, so that these comparisons are circular.
 
 *Next:* ask for Uranus with a moment of your own, ``URANUS.replace(dynamical_flattening=...)``: it
 is not known.

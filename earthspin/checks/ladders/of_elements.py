@@ -149,7 +149,7 @@ def _newton(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
 
 
 def _danby(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
-    """From M + 0.85 e, on the side of the pericentre that M is on (Danby 1988, as recalled)."""
+    """From M + 0.85 e, on the side of the pericentre that M is on (Danby 1988)."""
     return _by_newton(one, mean, mean + 0.85 * one.e * np.sign(np.sin(mean)), int(steps))
 
 

@@ -61,7 +61,7 @@ def expected_scatter(members: int) -> float:
     """Relative scatter of a sampled half-width by the density of the period at its ends.
 
     A quantile of n draws scatters by sqrt(p (1 - p)/n) over the density there, and both ends are
-    correlated by p/(1 - p) (David & Nagaraja 2003, Order Statistics, sect. 10.2, recalled).
+    correlated by p/(1 - p).
     """
     p, at = ENDS[0], OFF / UNCERTAINTY
     density = math.exp(-at * at / 2) / math.sqrt(2 * math.pi)

@@ -23,6 +23,6 @@ TOLD = [
     Told(
         script("rotation/phobos"),
         "# semi-axes {}, {} and {} km",
-        "published: IAU, as recalled, as on docs/rotation.md",
+        "published: IAU, as on docs/rotation.md",
     ),
 ]

@@ -141,7 +141,7 @@ MEASURED = [
         )
     ),
     Sentence(PAGE, "by {}″ at −10,000.", lambda: apart(-1e4, of_iau)),
-    Sentence(PAGE, "as recalled) beyond; {}″ part us", lambda: apart(-1e4, of_series)),
+    Sentence(PAGE, "not verified) beyond; {}″ part us", lambda: apart(-1e4, of_series)),
     Sentence(
         PAGE,
         "without it we would be {}″ from the series at −10,000 and {}″, not {}″, at +10,000",

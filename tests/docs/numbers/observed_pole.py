@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import earthspin
-from data_tools.free_wobble import DRAWS
+from data_tools.free_wobble import DRAWS, RED
 from earthspin.sky.eop import LONGEST_DAYS
 from earthspin.wobble import likelihood, presence, simulation
 from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
@@ -18,6 +18,8 @@ from tests.docs.numbers.answers import fitted, observed, of_c04, value
 from tests.docs.numbers.sentence import ROOT, Sentence, Told
 
 PAGE = "docs/wobble.md"
+#: Memories of red excitation that were tried, d, and the longer spans, years.
+MEMORIES, LONG = [memory for _, memory in RED], (65, 130)
 
 
 @cache
@@ -55,19 +57,55 @@ def rows(method: str) -> list[list[str]]:
 
 
 def held_by_burg(column: int) -> list[float]:
-    """Smallest and largest share of intervals that hold the truth: of T (5), of Q (7)."""
+    """Smallest and largest share of intervals that hold the truth: of T (7), of Q (9)."""
     found = [float(row[column]) for row in rows("burg")]
     return [min(found), max(found)]
 
 
-def largest_bias(method: str, years: tuple[int, ...] = (25, 65, 130)) -> float:
-    """Largest bias in a table, d."""
-    return max(abs(float(row[3].split(" ± ")[0])) for row in rows(method) if int(row[1]) in years)
+def biases(method: str, years: tuple[int, ...], memories: tuple[str, ...]) -> list[float]:
+    """Biases in a table for some spans and memories, d."""
+    return [
+        float(row[4].split(" ± ")[0])
+        for row in rows(method)
+        if int(row[1]) in years and row[3].strip() in memories
+    ]
+
+
+def largest_biases_of_burg() -> list[float]:
+    """Largest bias of Burg's method in 25 years, and in 65 years and more, d."""
+    memories = ("", "100", "500", "1096", "1826")
+    short, long = (biases("burg", years, memories) for years in ((25,), LONG))
+    return [max(map(abs, short)), 25, max(map(abs, long)), LONG[0]]
+
+
+def largest_biases_of_likelihood() -> list[float]:
+    """Largest bias without red excitation or with the usual memory; with short ones; with long."""
+    short, long = (biases("likelihood", years, ("100",)) for years in ((25,), LONG))
+    slow = biases("likelihood", (25, *LONG), ("1096", "1826"))
+    usual = biases("likelihood", (25, *LONG), ("", "500"))
+    return [
+        500,
+        max(map(abs, usual)),
+        100,
+        max(short),
+        25,
+        max(long),
+        LONG[0],
+        1096,
+        1826,
+        min(slow),
+    ]
+
+
+def half_widths_over_scatter() -> list[float]:
+    """Least and largest quotient of the median half-width and the scatter, of the likelihood."""
+    quotients = [float(row[6]) / float(row[5]) for row in rows("likelihood")]
+    return [min(quotients), max(quotients)]
 
 
 def held_by_likelihood() -> list[float]:
     """Smallest and largest share of intervals of T and Q that hold the truth."""
-    found = [float(row[k]) for row in rows("likelihood") for k in (5, 7)]
+    found = [float(row[k]) for row in rows("likelihood") for k in (7, 9)]
     return [min(found), max(found)]
 
 
@@ -165,10 +203,10 @@ MEASURED = [
     Sentence(PAGE, "For $Q$ = 100 and {} years that is {} days", lambda: [65, limit()]),
     Sentence(
         PAGE,
-        "Burg's intervals hold $T$ in {} to {} %",
-        partial(held_by_burg, 5),
+        "Burg's contain $T$ in {} to {} %",
+        partial(held_by_burg, 7),
     ),
-    Sentence(PAGE, "and $Q$ in {} to {} %. The likelihood's", partial(held_by_burg, 7)),
+    Sentence(PAGE, "and $Q$ in {} to {} %, the\nlikelihood's", partial(held_by_burg, 9)),
     Sentence(
         PAGE,
         "\n{} ± {} d by Burg's method, with $Q$ = {} ({} to {})",
@@ -198,15 +236,22 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "Burg's bias is at most {} d (in {} years), the likelihood's {} d",
-        lambda: [largest_bias("burg"), 25, largest_bias("likelihood")],
+        "Burg's bias is at most {} d in {} years and {} d in {} years and more",
+        largest_biases_of_burg,
     ),
     Sentence(
         PAGE,
-        "over {} years and more both are within {} d, with\nred",
-        lambda: [65, max(largest_bias(m, (65, 130)) for m in ("burg", "likelihood"))],
+        "with {} days it is at most {} d, with {} days\nup to {} d in {} years and {} d in {} "
+        "years and more, with {} and {} days down to {} d",
+        largest_biases_of_likelihood,
     ),
-    Sentence(PAGE, "are on the safe side: {} to {} % in 60", held_by_likelihood),
+    Sentence(PAGE, "contain both in {} to {} % at each memory", held_by_likelihood),
+    Sentence(PAGE, "are {} to {} times the scatter, where 2", half_widths_over_scatter),
+    Sentence(
+        PAGE,
+        "is down to {} for a true 100",
+        lambda: min(float(row[8]) for row in rows("likelihood") if row[0] == "100"),
+    ),
     Sentence(
         PAGE,
         "One milliarcsecond is {} cm on the ground",
@@ -229,8 +274,8 @@ MEASURED = [
     Sentence(PAGE, "of known truth: $T$ = {} d, with seasons", lambda: NEAR),
     Sentence(
         PAGE,
-        "its memory is {} days\nthere, and {} in the model that is fitted",
-        lambda: [simulation.RED_MEMORY, likelihood.MEMORY],
+        "which it forgets: {} to {} days were tried, while the model that is fitted always has {}",
+        lambda: [min(MEMORIES), max(MEMORIES), likelihood.MEMORY],
     ),
     Sentence(PAGE, "determines the percentage to {} %", coverage_of_sixty),
     Sentence(
@@ -280,5 +325,12 @@ TOLD = [
     ),
     Told(PAGE, "A simulated pole of {} days and", GIVEN),
     Told(PAGE, "with errors of {} mas, is recovered", GIVEN),
-    Told(PAGE, "found {} ± {} d and $Q$ = {} ({} to {}), one", "published: Nastula & Gross 2015"),
+    Told(PAGE, "found {} ± {} d, one", "published: Nastula & Gross 2015"),
+    Told("docs/coverage.md", "half-width of a {} % interval", ERROR),
+    Told("docs/coverage.md", "$T$ = {} d, $Q$ = 50", GIVEN),
+    Told("docs/coverage.md", "excitation with 30 and {} % of", GIVEN),
+    Told("docs/coverage.md", "the fitted likelihood has {} d", GIVEN),
+    Told(PAGE, "times the scatter, where {} would do", ERROR),
+    Told(PAGE, "For memories outside {} to {} days", GIVEN),
+    Told(PAGE, "down to 62 for a true {}", GIVEN),
 ]

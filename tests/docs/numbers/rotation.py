@@ -35,8 +35,8 @@ def phobos() -> list[float]:
 MEASURED = [
     Sentence(
         PAGE,
-        "by {}° for a homogeneous ellipsoid of its axes\n({} × {} × {} km, the IAU's, as "
-        "recalled), where {}° was observed",
+        "by {}° for a homogeneous ellipsoid of its axes\n({} × {} × {} km, the IAU's), "
+        "where {}° was observed",
         phobos,
         slow=True,
     ),

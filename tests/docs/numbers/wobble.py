@@ -314,7 +314,7 @@ TOLD = [
         "published: Dziewonski & Anderson 1981",
     ),
     Told(PAGE, "| {}, {}, {} with a liquid inner core", "an independent integration of PREM"),
-    Told(PAGE, "| {}, {} (Gross 2007, as recalled)", "published: Gross 2007, as recalled"),
+    Told(PAGE, "| {}, {} (Gross 2007, not verified)", "published: Gross 2007, not verified"),
     Told(PAGE, "for PREM ($\\gamma = {}$, $\\beta = {}$)", MATHEWS),
     Told(PAGE, "chose {}, within {} to {}, to fit", SMITH),
     Told(PAGE, "| $\\alpha$ | {} ({} to {}) |", SMITH),
