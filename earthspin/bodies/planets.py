@@ -6,7 +6,7 @@ from earthspin.bodies.body import BODIES, Body
 from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
 from earthspin.bodies.inner import MERCURY, VENUS
 from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.constants import Constant
+from earthspin.constants import OWN, Constant
 
 __all__ = [
     "JUPITER", "LEFT_OUT_OF_RATES", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
@@ -19,11 +19,17 @@ PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "
 #: What torques on the bulge leave out of the rate of precession, by planet and effect.
 LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
     "mars": {
-        "geodesic": Constant(-6.754e-3, "arcsec/yr", None, "Baland et al. 2023, A&A 670, A29"),
+        "geodesic": Constant(
+            -6.754e-3,
+            "arcsec/yr",
+            None,
+            "Baland et al. 2023, A&A 670, A29",
+            "abstract of arXiv:2211.04937",
+        ),
     },
     "saturn": {
         "iapetus": Constant(
-            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2"
+            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2", OWN
         ),
     },
 }
