@@ -119,13 +119,16 @@ class Pulling:
     ----------
     forces : Forces
     doubt : float
-        Relative half-width of the pull from where the bodies may be off; NaN if not measured.
+        Relative half-width of the pull from the errors of the positions; NaN if not measured.
+    rounding : float
+        The same from the rounding of positions that follow from elements, without a kernel.
     no_error : str
         Why some errors are not given; empty if all are.
     """
 
     forces: Forces
     doubt: float
+    rounding: float
     no_error: str
 
 
@@ -152,18 +155,22 @@ def pulling(
 ) -> Pulling:
     """Forces of all that pulls, effects switched on."""
     from earthspin.motion.neighbours import doubt_of_pull
+    from earthspin.sky.elements import ByElements, Elements
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
+    forces = forces_of(_spinning(body, start_omega), pulls, effects)
+    if isinstance(pulls.sky.source, Elements):
+        places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
+        rounding = max(place.rounding(day) for place in places for day in days)
+        return Pulling(forces, 0.0, rounding, "")
     seen = pulls.sky.positions(np.array(days[:1]))
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
         doubts.append(doubt_of_pull(float(np.linalg.norm(seen[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
-    return Pulling(
-        forces_of(_spinning(body, start_omega), pulls, effects), doubt, pulls.sky.no_error
-    )
+    return Pulling(forces, doubt, 0.0, pulls.sky.no_error)
 
 
 @dataclass(frozen=True)
@@ -223,7 +230,7 @@ def rotor(
     """The body at the start, what pulls on it, and neighbours with uncertain numbers changed."""
     from earthspin.mass.inertia import polar_moment
     from earthspin.motion import neighbours
-    from earthspin.motion.equations import FLATTENING, PULL, TRIAXIALITY
+    from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY
     from earthspin.motion.forces import Forces
     from earthspin.motion.rotation import start_of
 
@@ -243,6 +250,7 @@ def rotor(
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
         PULL: 0.0 if pulling is None else pulling.doubt,
+        ROUNDING: 0.0 if pulling is None else pulling.rounding,
     }
     rigid, changed = neighbours.rigid_bodies(
         forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
