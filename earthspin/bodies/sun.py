@@ -9,6 +9,7 @@ NUMBERS = {
     "gm": Constant(
         132712440041.279419e9, "m3 s-2", 1e10, DE440 + "; uncertainty from " + IERS_2010
     ),
+    "radius": Constant(6.957e8, "m", 0.0, "IAU 2015 Resolution B3: nominal solar radius"),
 }
 
 SUN = Body.cited("sun", NUMBERS, naif=(10,), reference=NUMBERS["gm"].source)

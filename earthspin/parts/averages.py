@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.bodies.limits import refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -48,6 +49,8 @@ class Samples:
         The window that converges fastest on this span; its centre is the epoch.
     obliquity : float
         Of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each, m-3.
     unmeasured : tuple of str
         Perturbers of whose positions no error was ever measured.
     no_error : str
@@ -63,6 +66,7 @@ class Samples:
     torque: NDArray[np.float64]
     window: Window
     obliquity: float
+    nearness: NDArray[np.float64]
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
     strength: xr.DataArray | None = None
@@ -108,10 +112,15 @@ def torque_samples(
         torque=np.stack([rotate(equator, t) for t in torques], axis=1),
         window=window,
         obliquity=angle(axis_at_epoch.reshape(3), normal),
+        nearness=np.array([np.mean(_inverse_cube(positions[p.name])) for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
     )
+
+
+def _inverse_cube(position: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.sum(position**2, axis=-1) ** -1.5)
 
 
 def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
@@ -172,6 +181,8 @@ class MeanTorques:
         That they refer to, s from J2000.0 TDB.
     obliquity : float
         Of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each, m-3.
     over, method : str
         What was averaged over, and with how many samples, in words.
     evaluations : int
@@ -191,6 +202,7 @@ class MeanTorques:
     torque_error: NDArray[np.float64]
     epoch: float
     obliquity: float
+    nearness: NDArray[np.float64]
     over: str
     method: str
     evaluations: int
@@ -235,6 +247,7 @@ def window_means(
         torque_error=vector_error,
         epoch=window.centre,
         obliquity=samples.obliquity,
+        nearness=samples.nearness,
         over=taken(window),
         method=f"{taken(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
@@ -256,7 +269,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
     found = ways(body, perturbers)
-    torques, errors = [], []
+    torques, errors, nearness = [], [], []
     for one in perturbers:
         ((ellipse, _),) = found[one.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
@@ -272,6 +285,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         tide = mean_orbit.mean_tide(float(one.gm), ellipse.a, ellipse.e, square)
         torques.append(mean_orbit.mean_torque(tide, axis))
         errors.append(mean_orbit.rounding(tide))
+        nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
     vectors = average.with_total(np.stack(torques)[np.newaxis])[0]
     error = average.with_total(np.array(errors)[np.newaxis])[0]
     obliquity = angle(axis, normal)
@@ -283,6 +297,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,
         obliquity=obliquity,
+        nearness=np.array(nearness),
         over="all turns of each orbit by its elements",
         method="exact means of orbits by their elements",
         evaluations=len(perturbers),
@@ -367,6 +382,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
+    _refuse_fast_axis(rate.value, means, body, perturbers)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
         along(np.linalg.norm(means.torque_error, axis=1)),
@@ -383,6 +399,17 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         evaluations=means.evaluations,
         no_error=means.no_error,
     )
+
+
+def _refuse_fast_axis(
+    rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
+) -> None:
+    """Refuse a precession that is fast beside the orbits of what pulls, or beside the spin."""
+    by_orbit = sum(
+        abs(of_one(rate, place)) / ((body.gm + one.gm) * near) ** 0.5
+        for place, (one, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+    )
+    refuse_fast_axis(by_orbit, abs(of_all(rate) / body.spin_rate))
 
 
 def _labelled(means: MeanTorques) -> Callable[[NDArray[np.float64]], xr.DataArray]:

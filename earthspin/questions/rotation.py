@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import Body
+from earthspin.bodies.limits import refuse_break_up
 from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
@@ -97,6 +98,7 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
     def check(self) -> None:
         """A rigid body whose three moments follow, and a start that is one."""
         super().check()
+        refuse_break_up(_spinning(self.body, self.start_omega))
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
         if self.body.number("dynamical_flattening") == 0:

@@ -1,0 +1,110 @@
+"""Limits of the formulas: bodies that are apart, spins that hold together, axes that turn slowly.
+
+A body itself may be extreme. Each question applies the rules that its formulas need, and each rule
+stands here once.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from earthspin.bodies.labelled import Numeric, all_of
+from earthspin.constants import SPEED_OF_LIGHT, G
+from earthspin.errors import BodyError, UndefinedError
+
+#: Tension that no material bears, Pa: a spin below it may exceed what gravity alone holds, as
+#: that of a small rock or a flywheel does.
+STRONGEST = 1e10
+#: Largest precession in one radian of an orbit, or of the spin, rad. Compared with the rotation
+#: under one mass, the first-order average is off by 0.6 to 2.5 times that share.
+SLOW = 0.01
+
+
+def largest(value: Numeric) -> float:
+    """Return a number, or the largest of an array."""
+    return float(value.max() if hasattr(value, "max") else value)
+
+
+def extent(body: Any) -> float:
+    """Distance inside which a body is no point mass of Newton's law, m.
+
+    Parameters
+    ----------
+    body : Body
+        Its radius counts, or that of its horizon, 2 GM/c2, if that is larger.
+    """
+    radius = 0.0 if body.radius is None else largest(body.radius)
+    return max(radius, 2 * largest(body.gm) / SPEED_OF_LIGHT.value**2)
+
+
+def overlap(distance: float, reach: float, names: tuple[str, str]) -> str | None:
+    """Say that two bodies overlap at a distance, if they do.
+
+    Parameters
+    ----------
+    distance : float
+        Between their centres, m.
+    reach : float
+        Sum of their extents, m.
+    names : tuple of str
+    """
+    if distance > reach:
+        return None
+    return (
+        f"{distance:.4g} m between '{names[0]}' and '{names[1]}' puts one inside the other: their "
+        f"radii (2 GM/c2, if that is larger) add up to {reach:.4g} m"
+    )
+
+
+def refuse_break_up(body: Any) -> None:
+    """Refuse a spin that neither gravity nor any material holds together.
+
+    Parameters
+    ----------
+    body : Body
+        With a mass; without a radius or a spin nothing is checked.
+
+    Raises
+    ------
+    BodyError
+    """
+    if body.radius is None or body.spin_period is None:
+        return
+    radius, period = body.radius, abs(body.spin_period)
+    density = body.gm / G.value / (4 / 3 * math.pi * radius**3)
+    square = (2 * math.pi * radius / period) ** 2
+    if all_of((square * radius < body.gm) | (density * square <= STRONGEST)):
+        return
+    shortest = float(period.min()) if hasattr(period, "dims") else float(period)
+    slowest = largest(2 * math.pi * (radius**3 / body.gm) ** 0.5)
+    raise BodyError(
+        body.name,
+        "spin_period",
+        f"{shortest:g} s",
+        f"its equator would fly off; gravity holds it at periods above {slowest / 3600:.3g} h",
+    )
+
+
+def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
+    """Refuse an axis that turns too fast for an average over orbits and spin.
+
+    Parameters
+    ----------
+    by_orbit : float or array
+        Rate of precession, of the axis or the orbit, over the mean motion; summed over what pulls.
+    by_spin : float or array
+        The same over the rate of the spin.
+
+    Raises
+    ------
+    UndefinedError
+    """
+    if all_of((by_orbit <= SLOW) & (by_spin <= SLOW)):
+        return
+    orbits, spin = largest(by_orbit), largest(by_spin)
+    word, share = ("orbit", orbits) if orbits > spin else ("rotation", spin)
+    raise UndefinedError(
+        f"an average over orbits needs a slow precession: this one makes {share:.2g} turns in each "
+        f"{word}, and at most {SLOW:g} is allowed; ask rotation for the motion itself"
+    )
