@@ -38,7 +38,7 @@ def extent(body: Any) -> float:
     return max(radius, 2 * largest(body.gm) / SPEED_OF_LIGHT.value**2)
 
 
-def overlap(distance: float, reach: float, names: tuple[str, str]) -> str | None:
+def overlap(distance: float, reach: float, name: str, centre: str) -> str | None:
     """Say that two bodies overlap at a distance, if they do.
 
     Parameters
@@ -47,13 +47,14 @@ def overlap(distance: float, reach: float, names: tuple[str, str]) -> str | None
         Between their centres, m.
     reach : float
         Sum of their extents, m.
-    names : tuple of str
+    name, centre : str
+        Of the bodies, as they stand in the message.
     """
     if distance > reach:
         return None
     return (
-        f"{distance:.4g} m between '{names[0]}' and '{names[1]}' puts one inside the other: their "
-        f"radii (2 GM/c2, if that is larger) add up to {reach:.4g} m"
+        f"at a distance of {distance:.4g} m {name} lies inside {centre}: their radii, or 2 GM/c2 "
+        f"if that is larger, add up to {reach:.4g} m"
     )
 
 

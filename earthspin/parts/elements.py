@@ -144,10 +144,10 @@ def refuse_overlap(one: Body, centre: Body, a: float, advice: str = "") -> None:
     SceneError
     """
     assert one.orbit is not None
-    reach, names = extent(one) + extent(centre), (one.name, centre.name)
-    if inside := overlap(a * (1 - one.orbit.e), reach, names):
+    reach, names = extent(one) + extent(centre), (f"'{one.name}'", f"'{centre.name}'")
+    if inside := overlap(a * (1 - one.orbit.e), reach, *names):
         shown = f"a = {a:.6g} m, e = {one.orbit.e:g}"
-        raise SceneError(f"{one.name}.orbit", shown, f"at its pericentre {inside}{advice}")
+        raise SceneError(f"{one.name}.orbit", shown, f"{inside}{advice}")
 
 
 def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:

@@ -346,7 +346,7 @@ class Sky:
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
         # the planets, which are no perturbers by name, are far away
-        if inside := overlap(nearest, self.reach.get(name, 0.0), (name, "the body that spins")):
+        if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
             raise UndefinedError(f"{inside}; a torque on the bulge holds outside alone")
 
 

@@ -167,9 +167,10 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
     from earthspin.torque.cassini import cassini_states as solve
 
     axis = precessing(body, own_orbit, locking)
-    rate = 1.5 * (abs(axis.axial) + abs(axis.locked))
-    fastest = max(rate, abs(axis.node_rate))
-    refuse_fast_axis(fastest / locking.motion, fastest / abs(body.spin_rate))
+    # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
+    own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
+    rate = max(own, abs(axis.node_rate))
+    refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
     found = solve(axis)
     squares = np.zeros_like(found.obliquity)
     for name, share in body.relative_uncertainty.items():
