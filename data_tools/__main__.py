@@ -15,6 +15,7 @@ from data_tools import (
     hashes,
     kernels,
     long_term,
+    lunar_rotation,
     neglected,
     references,
     secular_orbits,
@@ -32,6 +33,10 @@ VERBS = {
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
     "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),
+    "lunar-rotation": (
+        lunar_rotation.main,
+        "measure how far effects that a rigid body leaves out turn the Moon",
+    ),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
     "accuracy-pages": (
         accuracy_pages.main,

@@ -130,9 +130,7 @@ def _rates(start: float, on: set[str]) -> Callable[[float, FloatArray], FloatArr
         """Products of inertia by tide and spin, over C."""
         earth = turn.T @ place(time, 399)
         square = earth @ earth
-        tide = (
-            -GM_EARTH / GM_MOON * (np.outer(earth, earth) / square - np.eye(3) / 3) / square**1.5
-        )
+        tide = -GM_EARTH / GM_MOON * (np.outer(earth, earth) / square - np.eye(3) / 3) / square**1.5
         spin = (np.outer(omega, omega) - np.eye(3) * (omega @ omega) / 3) / (3 * GM_MOON)
         return np.asarray(K2 * RADIUS**3 * (tide + spin) / POLAR)
 
@@ -166,7 +164,10 @@ def _rates(start: float, on: set[str]) -> Callable[[float, FloatArray], FloatArr
         w, x, y, z = q
         p, r, s = omega
         q_rate = np.array([
-            -x * p - y * r - z * s, w * p + y * s - z * r, w * r + z * p - x * s, w * s + x * r - y * p
+            -x * p - y * r - z * s,
+            w * p + y * s - z * r,
+            w * r + z * p - x * s,
+            w * s + x * r - y * p,
         ]) / 2  # fmt: skip
         return np.concatenate(
             [q_rate, np.linalg.solve(mantle, torque + coupling - gyroscopic), core_rate]
@@ -185,9 +186,7 @@ def _torque_on_field(
     return np.asarray(-GM_EARTH / RADIUS**3 / POLAR * change)
 
 
-def _potential(
-    field: dict[int, dict[int, tuple[float, float]]], place: FloatArray
-) -> FloatArray:
+def _potential(field: dict[int, dict[int, tuple[float, float]]], place: FloatArray) -> FloatArray:
     """Sum of (C_nm cos m l + S_nm sin m l) P_nm / r^(n+1) at places in radii (Cunningham 1970)."""
     x, y, z = place
     square = x * x + y * y + z * z
@@ -202,7 +201,7 @@ def _potential(
             following = ((2 * n + 1) * z * harmonic - (n + m) * below) / square / (n + 1 - m)
             below, harmonic = harmonic, following
         sector = sector * (2 * m + 1) * (x + 1j * y) / square
-    return total
+    return np.asarray(total)
 
 
 def _torque_by_flattening(pole: FloatArray, earth: FloatArray, inertia: FloatArray) -> FloatArray:

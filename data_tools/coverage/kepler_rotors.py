@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin import Body
+from earthspin import Body, Orbit
 from earthspin.constants import DAY
 from earthspin.dates import datetime64
 
@@ -22,7 +22,7 @@ LongArray = NDArray[np.longdouble]
 LONG = np.longdouble
 
 #: Columns of the extrapolation (order 20), radians of the fastest angle in a step.
-COLUMNS, STEP = 10, 1.0
+COLUMNS, STEP = 10, 0.7
 #: Rounds of Newton's method for Kepler's equation, from E = M + e sin M.
 ROUNDS = 12
 
@@ -87,15 +87,15 @@ def random_case(seed: int, orbits: float = 5.0) -> Case:
         dynamical_flattening=j2 / polar,
         triaxiality=float(moments[1] - moments[0]),
     )
-    orbit = {
-        "a": a,
-        "e": eccentricity,
-        "i": inclination,
-        "node": node,
-        "pericentre": pericentre,
-        "mean_anomaly": anomaly,
-        "plane": "icrf",
-    }
+    orbit = Orbit(
+        a=a,
+        e=eccentricity,
+        i=inclination,
+        node=node,
+        pericentre=pericentre,
+        mean_anomaly=anomaly,
+        plane="icrf",
+    )
     attitude = random.normal(size=4)
     omega = random.normal(size=3)
     omega *= 2 * np.pi / period * 10 ** random.uniform(-0.3, 0.8) / np.linalg.norm(omega)

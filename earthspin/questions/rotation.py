@@ -9,6 +9,7 @@ import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
@@ -17,10 +18,11 @@ from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
-from earthspin.motion.effects import NONRIGID
+from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import Moved, Pulls, figure_of, forces_of, pulls, switched_on
-from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.units import AngleError, FloatArray, Numbers
@@ -322,6 +324,7 @@ def turning(
     rotor: Rotor,
     epochs: TimeGrid | TimeList,
     accuracy: float | None,
+    neglected: Neglected,
     block: Block | None = None,
 ) -> xr.Dataset:
     """Attitude, spin and angular momentum at every time, with what they may be off by."""
@@ -363,6 +366,9 @@ def turning(
         },
         no_error=rotor.no_error,
     )
+    for name in KINDS:
+        without = f"error of the rigid model; it does not include {neglected.largest}"
+        result[f"{name}_error"].attrs["comment"] = without
     result["angular_momentum"].attrs["frame"] = "ICRF"
     result["omega"].attrs["frame"] = "principal axes of the body, C last"
     result["attitude_error"].attrs |= {
@@ -439,11 +445,54 @@ def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -
     )
 
 
+#: Effects that no rigid body of three moments has.
+_BEYOND = (
+    "deformation and flow of the inside, harmonics of the figure beyond the moments, J3 and J4"
+)
+
+
 @part
-def neglected() -> Neglected:
-    """What a rigid body leaves out."""
-    inside = "how the inside yields and flows, which damps and delays"
-    return Neglected(what=f"{inside}; the pull on harmonics beyond the moments, J3 and J4")
+def neglected(
+    body: Body,
+    perturbers: tuple[Body, ...],
+    effects: tuple[str, ...],
+    epochs: TimeGrid | TimeList,
+) -> Neglected:
+    """Sizes at the last date of what the model leaves out; what has none is named."""
+    from earthspin.motion.beyond_rigid import BEYOND_RIGID
+
+    off = _switched_off(body, perturbers, effects)
+    known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
+    usual = {one.name for one in pulled_by(body)}
+    if known is None or not usual <= {one.name for one in perturbers}:
+        return Neglected(unknown=", ".join([_BEYOND, *off]))
+    begin, end = epochs.span()
+    sizes = known.after(end - begin)
+    if no_iau_model(body) is None:  # the Earth, whose effects were measured from J2000.0
+        sizes |= {
+            one: EFFECTS[one].size_at(abs(begin)) + EFFECTS[one].size_at(abs(end)) for one in off
+        }
+        off = []
+    return Neglected(
+        sizes,
+        "arcsec",
+        "largest change of the attitude that the model leaves out",
+        known.source,
+        unknown=", ".join(off),
+    )
+
+
+def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
+    """Effects that are switched off and would move the body."""
+    moves = {
+        "planets": not all_by_elements(body, perturbers),
+        "j3": body.j3 != 0,
+        "j4": body.j4 != 0,
+        "triaxiality": body.triaxiality != 0,
+        "geodesic": "sun" in {one.name for one in perturbers},
+        "j2-rate": body.j2_rate != 0,
+    }
+    return [name for name, would in moves.items() if would and name not in effects and perturbers]
 
 
 made_of(
