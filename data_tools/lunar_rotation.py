@@ -8,7 +8,7 @@ the effects of the model of DE421, whose constants stand in its header:
 - tides on the Moon: products of inertia that follow the Earth and the spin with a delay;
 - a fluid core, coupled to the mantle by friction and by the figure of their boundary.
 
-The attitudes with and without an effect differ by the sizes in `earthspin.motion.beyond_rigid`.
+The attitudes with and without an effect differ by the sizes in `earthspin.bodies.beyond_rigid`.
 With all effects the integration comes back to DE421, which tests the sizes.
 """
 
@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
+from earthspin.bodies.beyond_rigid import DAYS
 from earthspin.constants import ARCSEC, AU, DAY, J2000_JD
-from earthspin.motion.beyond_rigid import DAYS
 from earthspin.sky.ephemeris import open_ephemeris
 
 FloatArray = NDArray[np.float64]

@@ -104,8 +104,7 @@ class Pulled(Question):
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(self.needed())
-        if "spin_period" in self.needed():
-            refuse_break_up(self.body)
+        self.check_spin()
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
@@ -139,6 +138,11 @@ class Pulled(Question):
     def needed(self) -> tuple[str, ...]:
         """What has to be known of the body, for the keys that are given."""
         return self.needs
+
+    def check_spin(self) -> None:
+        """Refuse a spin above break-up, where the spin matters."""
+        if "spin_period" in self.needed():
+            refuse_break_up(self.body)
 
 
 def unmeasured(body: Body) -> bool:
@@ -347,7 +351,7 @@ class Sky:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
         # the planets, which are no perturbers by name, are far away
         if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
-            raise UndefinedError(f"{inside}; a torque on the bulge holds outside alone")
+            raise UndefinedError(f"{inside}; a torque on the bulge holds outside it alone")
 
 
 @dataclass(frozen=True)

@@ -97,10 +97,16 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
         spin = () if self.start_omega is not None else ("spin_period",)
         return (*self.needs, *pole, *spin)
 
+    def check_spin(self) -> None:
+        """Refuse a spin above break-up, that of the start if it is given."""
+        if self.start_omega is None:
+            super().check_spin()
+        else:
+            refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
+
     def check(self) -> None:
         """A rigid body whose three moments follow, and a start that is one."""
         super().check()
-        refuse_break_up(_spinning(self.body, self.start_omega))
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
         if self.body.number("dynamical_flattening") == 0:
@@ -459,7 +465,7 @@ def neglected(
     epochs: TimeGrid | TimeList,
 ) -> Neglected:
     """Sizes at the last date of what the model leaves out; what has none is named."""
-    from earthspin.motion.beyond_rigid import BEYOND_RIGID
+    from earthspin.bodies.beyond_rigid import BEYOND_RIGID
 
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None

@@ -49,7 +49,11 @@ class BeyondRigid:
 BEYOND_RIGID = {
     "moon": BeyondRigid(
         {
-            "harmonics of degree 3": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+            "lunar field of degree 3": (0.0092, 0.77, 2.1, 15.0, 120.0, 140.0, 200.0, 275.0),
+            "lunar field of degree 4": (3.7e-5, 0.0034, 0.018, 0.17, 1.5, 1.7, 1.8, 1.8),
+            "fluid core": (9.2e-4, 0.074, 0.14, 0.52, 1.6, 4.1, 11.0, 12.0),
+            "tides on the Moon": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
+            "flattening of the Earth": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
         },
         "the model of DE421, integrated with and without each effect: "
         "python -m data_tools lunar-rotation",
