@@ -70,20 +70,20 @@ def refuse_break_up(body: Any) -> None:
     ------
     BodyError
     """
-    if body.radius is None or body.spin_period is None:
+    if body.radius is None or body.spin_period is None or not all_of(body.gm > 0):
         return
-    radius, period = body.radius, abs(body.spin_period)
-    density = body.gm / G.value / (4 / 3 * math.pi * radius**3)
-    square = (2 * math.pi * radius / period) ** 2
-    if all_of((square * radius < body.gm) | (density * square <= STRONGEST)):
+    period = abs(body.spin_period)
+    by_gravity = 2 * math.pi * body.radius * (body.radius / body.gm) ** 0.5
+    # density times the square of the equator's speed is STRONGEST
+    by_strength = (3 * math.pi / (G.value * STRONGEST) * body.gm / body.radius) ** 0.5
+    if all_of((period >= by_gravity) | (period >= by_strength)):
         return
     shortest = float(period.min()) if hasattr(period, "dims") else float(period)
-    slowest = largest(2 * math.pi * (radius**3 / body.gm) ** 0.5)
     raise BodyError(
         body.name,
         "spin_period",
         f"{shortest:g} s",
-        f"its equator would fly off; gravity holds it at periods above {slowest / 3600:.3g} h",
+        f"its equator flies off: gravity holds it at {largest(by_gravity) / 3600:.3g} h or more",
     )
 
 

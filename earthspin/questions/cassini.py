@@ -112,6 +112,7 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
     """Mean motion, and turns of the body in each orbit."""
+    from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
     from earthspin.torque.cassini import is_locked
 
     about = own_orbit.about or SUN.name
@@ -120,7 +121,9 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
         raise SceneError("orbit.about", about, nearest(about, others))
     placed = body.replace(orbit=own_orbit)
     a, motion = size_and_motion(placed, BODIES[about])
-    advice = "" if own_orbit.about else "; name what it orbits, like about = 'earth'"
+    known = PRECESSING_ORBITS.get(body.name)
+    like = f", like about = '{known.about}'" if known is not None and known.about else ""
+    advice = "" if own_orbit.about else f"; name what it orbits{like}"
     refuse_overlap(placed, BODIES[about], a, advice)
     return Locking(motion, body.spin_rate / motion, is_locked(body.spin_rate, motion))
 

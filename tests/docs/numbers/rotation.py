@@ -7,7 +7,7 @@ import numpy as np
 import earthspin
 from earthspin.constants import DAY
 from tests.docs.numbers.sentence import Sentence, Told
-from tests.questions.test_rotation import libration, moon
+from tests.questions.test_rotation import libration, moonlet
 
 PAGE = "docs/rotation.md"
 
@@ -21,7 +21,7 @@ def phobos() -> list[float]:
         "2000-01-01T12:00",
         "2000-01-31T12:00",
         "20 min",
-        body=moon("mars", axes, period, eccentricity),
+        body=moonlet("mars", axes, period, eccentricity),
         perturbers=["mars"],
         start_attitude=[1, 0, 0, 0],
         start_omega=[0, 0, 2 * np.pi / (period * DAY) * (1 - amplitude)],
