@@ -16,9 +16,11 @@ from earthspin.errors import BodyError, UndefinedError
 #: Tension that no material bears, Pa: a spin below it may exceed what gravity alone holds, as
 #: that of a small rock or a flywheel does.
 STRONGEST = 1e10
-#: Largest precession in one radian of an orbit, or of the spin, rad. Compared with the rotation
-#: under one mass, the first-order average is off by 0.6 to 2.5 times that share.
+#: Largest precession in one radian of an orbit, or of the spin, rad.
 SLOW = 0.01
+#: Bound on the relative error of a first-order average, over the sum of both shares: 0.3 to 1.8
+#: measured against the rotation under the Sun, at two obliquities and shares up to 0.05.
+OF_AVERAGE = 2.0
 
 
 def largest(value: Numeric) -> float:

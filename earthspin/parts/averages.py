@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.bodies.limits import refuse_fast_axis
+from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -331,6 +331,9 @@ class MeanRates:
         Magnitude of the mean torque, N m.
     ratio : ndarray or DataArray
         Rate over that of the first perturber.
+    second_order : float
+        Bound on what a first-order average leaves out of the rate of all, rad/s; the largest of
+        many.
     method : str
         Window and sampling in words.
     evaluations : int
@@ -343,6 +346,7 @@ class MeanRates:
     rate: Estimate
     torque: Estimate
     ratio: Numeric
+    second_order: float
     method: str
     evaluations: int
     no_error: str
@@ -382,7 +386,8 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
-    _refuse_fast_axis(rate.value, means, body, perturbers)
+    by_orbit, by_spin = _shares(rate.value, means, body, perturbers)
+    refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
         along(np.linalg.norm(means.torque_error, axis=1)),
@@ -395,21 +400,22 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
+        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(of_all(rate.value))),
         method=means.method,
         evaluations=means.evaluations,
         no_error=means.no_error,
     )
 
 
-def _refuse_fast_axis(
+def _shares(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
-) -> None:
-    """Refuse a precession that is fast beside the orbits of what pulls, or beside the spin."""
+) -> tuple[Numeric, Numeric]:
+    """Rate of precession over the mean motions of what pulls, and over the spin."""
     by_orbit = sum(
         abs(of_one(rate, place)) / ((body.gm + one.gm) * near) ** 0.5
         for place, (one, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
-    refuse_fast_axis(by_orbit, abs(of_all(rate) / body.spin_rate))
+    return by_orbit, abs(of_all(rate) / body.spin_rate)
 
 
 def _labelled(means: MeanTorques) -> Callable[[NDArray[np.float64]], xr.DataArray]:

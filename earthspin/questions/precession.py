@@ -461,11 +461,16 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
 
 
 @part
-def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
+def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
     unknown = not_the_iaus_earth(body, perturbers)
     if unknown:
-        return Neglected(what=f"effects whose published sizes do not apply: {unknown}")
+        return Neglected(
+            {"turning of the axis within an orbit": mean_rates.second_order},
+            "arcsec/yr",
+            "bound on the contribution to the rate that the model leaves out",
+            unknown=f"effects whose published sizes do not apply: {unknown}",
+        )
     from earthspin.nutation.budget import published_effects
 
     return Neglected(
