@@ -10,6 +10,7 @@ from data_tools import (
     cf,
     core_resonance,
     coverage,
+    earth_rotation,
     error_models,
     free_wobble,
     hashes,
@@ -33,6 +34,10 @@ VERBS = {
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
     "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),
+    "earth-rotation": (
+        earth_rotation.main,
+        "measure how far the Earth departs from an even spin about its figure axis",
+    ),
     "lunar-rotation": (
         lunar_rotation.main,
         "measure how far effects that a rigid body leaves out turn the Moon",

@@ -64,7 +64,7 @@ BEYOND_RIGID = {
             "polar motion": (0.0056, 0.053, 0.14, 0.4, 0.6, 0.6, 0.6, 0.6),
             "response of the inside to nutation": (0.0575,) * 8,
         },
-        "finals2000A of the IERS, 1973 to 2025: largest changes of UT1 and of the pole; response: "
-        "python -m data_tools neglected",
+        "finals2000A of the IERS, 1973 to 2025, largest changes of UT1 and of the pole: "
+        "python -m data_tools earth-rotation; response: python -m data_tools neglected",
     ),
 }
