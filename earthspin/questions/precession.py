@@ -469,7 +469,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
             {"turning of the axis within an orbit": mean_rates.second_order},
             "arcsec/yr",
             "bound on the contribution to the rate that the model leaves out",
-            unknown=f"effects whose published sizes do not apply: {unknown}",
+            unknown=f"all other effects, because {unknown}",
         )
     from earthspin.nutation.budget import published_effects
 

@@ -373,8 +373,8 @@ def turning(
         no_error=rotor.no_error,
     )
     for name in KINDS:
-        without = f"error of the rigid model; it does not include {neglected.largest}"
-        result[f"{name}_error"].attrs["comment"] = without
+        comment = f"error of the rigid model; not included: {neglected.largest}"
+        result[f"{name}_error"].attrs["comment"] = comment
     result["angular_momentum"].attrs["frame"] = "ICRF"
     result["omega"].attrs["frame"] = "principal axes of the body, C last"
     result["attitude_error"].attrs |= {

@@ -406,7 +406,7 @@ def test_a_neglected_effect_has_a_size_or_is_said_to_have_none(scene: dict[str, 
     assert bool(sizes.size) != bool(unknown)
     for error in ("attitude_error", "omega_error", "angular_momentum_error"):
         comment = tree[error].attrs["comment"]
-        assert "does not include" in comment
+        assert "not included" in comment
         assert ("unknown size" in comment) == bool(unknown)
 
 
