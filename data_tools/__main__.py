@@ -11,11 +11,13 @@ from data_tools import (
     constants_page,
     core_resonance,
     coverage,
+    earth_rotation,
     error_models,
     free_wobble,
     hashes,
     kernels,
     long_term,
+    lunar_rotation,
     neglected,
     readme_picture,
     references,
@@ -34,6 +36,14 @@ VERBS = {
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
     "error-models": (error_models.main, "measure the error of each setting of each method"),
     "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),
+    "earth-rotation": (
+        earth_rotation.main,
+        "measure how far the Earth departs from an even spin about its figure axis",
+    ),
+    "lunar-rotation": (
+        lunar_rotation.main,
+        "measure how far effects that a rigid body leaves out turn the Moon",
+    ),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
     "accuracy-pages": (
         accuracy_pages.main,

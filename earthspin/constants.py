@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 #: What `Constant.read_in` holds for a number of which no public copy was found.
 UNVERIFIED = "not verified"
-#: Where a number was read that this project measured or derived itself.
-OWN = "computed by this project, as the source says"
 #: What it holds for a number that was chosen or computed for this package.
 ASSUMED, COMPUTED = "assumed by this package", "computed by this package"
 

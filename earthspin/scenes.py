@@ -205,7 +205,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
     --------
     >>> import earthspin
     >>> chosen = earthspin.plan("sun-only")
-    >>> print(chosen.parts[-1].title)
+    >>> print(chosen.parts[-2].title)
     precession-rates
     >>> print(chosen.left_out["seasons"])
     the moon is not among the perturbers

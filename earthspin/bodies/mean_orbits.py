@@ -12,9 +12,9 @@ from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
 from earthspin.constants import (
     AU,
+    COMPUTED,
     DAY,
     DAYS_PER_CENTURY,
-    OWN,
     SIDEREAL_MONTH,
     SIDEREAL_YEAR,
     SIMON_READ,
@@ -80,15 +80,15 @@ _LUNAR_STATE = "data_tools/lunar_state.py, means over the orbit of DE421"
 #: state, by the name of the body.
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     MOON.name: {
-        "the Sun in the orbit": Constant(-0.0227, "deg", None, _LUNAR_STATE, OWN),
-        "spin counted from the node": Constant(-0.0080, "deg", None, _LUNAR_STATE, OWN),
-        "pull of the Sun": Constant(0.0022, "deg", None, _LUNAR_STATE, OWN),
+        "the Sun in the orbit": Constant(-0.0227, "deg", None, _LUNAR_STATE, COMPUTED),
+        "spin counted from the node": Constant(-0.0080, "deg", None, _LUNAR_STATE, COMPUTED),
+        "pull of the Sun": Constant(0.0022, "deg", None, _LUNAR_STATE, COMPUTED),
         "mean inclination": Constant(
             -0.0115,
             "deg",
             None,
             "5.145 deg, with which the observed one is made, less that of ELP",
-            OWN,
+            COMPUTED,
         ),
         "fluid core and inner core": Constant(
             0.003,
@@ -105,7 +105,7 @@ LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
             None,
             f"observed, {TITAN_OBLIQUITY.source}, less that of a solid body, "
             f"{TITAN_OBLIQUITY_IF_SOLID.source}",
-            OWN,
+            TITAN_OBLIQUITY_IF_SOLID.read_in,
         )
     },
 }

@@ -6,7 +6,7 @@ from earthspin.bodies.body import BODIES, Body
 from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
 from earthspin.bodies.inner import MERCURY, VENUS
 from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.constants import OWN, Constant
+from earthspin.constants import COMPUTED, Constant
 
 __all__ = [
     "JUPITER", "LEFT_OUT_OF_RATES", "MERCURY", "NEPTUNE", "PLANETS", "SATURN", "URANUS", "VENUS",
@@ -29,7 +29,7 @@ LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
     },
     "saturn": {
         "iapetus": Constant(
-            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2", OWN
+            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2", COMPUTED
         ),
     },
 }

@@ -23,7 +23,7 @@ from earthspin.errors import (
     one_line,
 )
 from earthspin.interior.layers import LayeredBody
-from earthspin.units import quantity
+from earthspin.units import is_masked, quantity
 
 if TYPE_CHECKING:
     from earthspin.mass.shape import Shape
@@ -84,13 +84,7 @@ def _of(shape: Shape) -> Fields:
 
 def _si(given: Any, unit: str, name: str, example: str) -> Any:
     """Numbers in SI units: plain ones, Quantities, or one as text; None stays."""
-    if given is None:
-        return None
-    if isinstance(given, (list, tuple)) or (
-        isinstance(given, np.ndarray) and not hasattr(given, "to_value")
-    ):
-        return np.asarray(given, dtype=float)
-    return quantity(given, unit, Where(name), example)
+    return None if given is None else quantity(given, unit, Where(name), example)
 
 
 def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
@@ -112,7 +106,9 @@ def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
         given = given.vertices, given.faces
     if not isinstance(given, tuple) or len(given) != 2:
         raise BodyError("mesh", "mesh", given, "give a file, a Trimesh, or (vertices, faces)")
-    return scale * np.asarray(given[0], dtype=float), np.asarray(given[1])
+    if is_masked(given[1]):
+        raise BodyError("mesh", "faces", "a masked value", "give numbers that are all known")
+    return scale * quantity(given[0], "", Where("vertices"), "0.5"), np.asarray(given[1])
 
 
 def _read(file: Path) -> Any:

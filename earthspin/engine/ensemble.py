@@ -29,7 +29,6 @@ from earthspin.engine.inputs import (
     inputs_of,
     one_member,
     published,
-    with_bodies,
 )
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.question import Question
@@ -235,14 +234,13 @@ class Ensemble:
         at_once = all(one.field and one.labelled for one in self.numbers.values())
         if at_once:
             try:
-                with_bodies(question, self.numbers, along_members(self._of_numbers, places))
+                changed(question, self.numbers, along_members(self._of_numbers, places))
                 return
             except EarthspinError:
                 pass
-        make = with_bodies if at_once else changed
         for place in places.tolist():
             try:
-                make(question, self.numbers, one_member(self._of_numbers, place))
+                changed(question, self.numbers, one_member(self._of_numbers, place))
             except EarthspinError as error:
                 yield place, error
 

@@ -30,12 +30,15 @@ class Neglected:
         What the sizes are of, in plain words; without sizes, what is left out.
     source : str
         Where they come from.
+    unknown : str
+        What is left out besides, whose size is not known.
     """
 
     sizes: Mapping[str, float] = field(default_factory=dict)
     unit: str = "1"
     what: str = "nothing that has a known size"
     source: str = ""
+    unknown: str = ""
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
@@ -51,11 +54,13 @@ class Neglected:
     @property
     def largest(self) -> str:
         """Name of the largest effect with its size, for the answer's attributes."""
+        unknown = f"of unknown size: {self.unknown}" if self.unknown else ""
         if not self.sizes:
-            return self.what
+            return unknown or self.what
         name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
         shown = self.sizes[name] * from_si(self.unit)
-        return f"{name}: {shown:.3g} {self.unit} ({self.what})"
+        known = f"{name}: {shown:.3g} {self.unit} ({self.what})"
+        return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
         """Give `neglected_effect` along `effect`, the largest first.
@@ -69,9 +74,10 @@ class Neglected:
         names = list(effects) or by_size
         import numpy as np
 
-        source = (("references", self.source),) if self.source else ()
+        told = {"references": self.source, "of_unknown_size": self.unknown}
+        attrs = tuple((name, words) for name, words in told.items() if words)
         schema = {
-            "neglected_effect": Variable(("effect",), self.unit, self.what, source, no_error=BOUND)
+            "neglected_effect": Variable(("effect",), self.unit, self.what, attrs, no_error=BOUND)
         }
         sizes = [float(self.sizes.get(name, 0.0)) for name in names]
         return build(

@@ -9,13 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import G
+from earthspin.constants import Constant, G
+from earthspin.errors import UndefinedError
 from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
 from earthspin.numerics.collocation import carry
 
 Numeric = Any
 Array = NDArray[Any]
+
+#: Largest Omega2/(pi G rho) of a homogeneous liquid body in equilibrium, a Maclaurin spheroid.
+FASTEST = Constant(
+    0.449331, "", None, "Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, sect. 32"
+)
 
 
 @dataclass(frozen=True)
@@ -128,11 +134,24 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
     spin_rate : float
         rad/s.
 
+    Raises
+    ------
+    UndefinedError
+        If a homogeneous body of the same mean density has no equilibrium at this spin.
+
     Notes
     -----
     The ellipticity of a level surface is W'/(2 g r), W' the potential of degree two there; the
     moments A follow from the mean ones, I = A (1 + e/3).
     """
+    mean_density = layers.mass / (4 / 3 * np.pi * layers.radius**3)
+    fastest = np.sqrt(FASTEST.value * np.pi * G.value * mean_density)
+    if abs(spin_rate) > fastest:
+        raise UndefinedError(
+            f"a body with the mean density of {layers.name}, {mean_density:.0f} kg/m3, has no "
+            f"equilibrium at a spin period of {2 * np.pi / abs(spin_rate) / 3600:.3g} h; give more "
+            f"than {2 * np.pi / fastest / 3600:.3g} h"
+        )
     rest = equilibrium(layers)
     scale = tidal_inertia(layers, spin_rate)  # over the mean moment
     whole = float(scale * rest.enclosed[-1])

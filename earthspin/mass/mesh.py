@@ -41,7 +41,7 @@ def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDAr
     ------
     BodyError
         If a triangle names a corner that is not there, the mesh is open, two triangles that meet
-        are turned against one another, or all are turned inside out.
+        are turned against one another, all are turned inside out, or two shells coincide.
     UndefinedError
         If the vertices are no finite vectors.
     """
@@ -56,6 +56,7 @@ def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDAr
             f"each corner is one of the {len(places)} vertices, counted from 0",
         )  # fmt: skip
     _refuse_open(corners)
+    _refuse_coincident(places, corners)
     volume = sum(float(np.sum(weights)) for weights, _ in solid_points(places, corners, 1))
     if not volume > 0:
         raise BodyError(
@@ -80,6 +81,20 @@ def _refuse_open(faces: NDArray[np.integer]) -> None:
             "against one another", "close it, and turn all triangles the same way",
         )  # fmt: skip
     raise BodyError(_BODY, "faces", "an edge of more than two triangles", "give each triangle once")
+
+
+def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
+    """Refuse triangles at the same place that face the same way: their solid would count twice."""
+    _, same = np.unique(places, axis=0, return_inverse=True)
+    corners = same.reshape(-1)[faces]
+    first = np.argmin(corners, axis=1)[:, np.newaxis]
+    turned = np.take_along_axis(corners, (first + np.arange(3)) % 3, axis=1)
+    twice = len(turned) - len(np.unique(turned, axis=0))
+    if twice:
+        raise BodyError(
+            _BODY, "faces", f"{twice} triangles that coincide with others",
+            "two shells at the same place count their mass twice; give each shell once",
+        )  # fmt: skip
 
 
 @cache

@@ -40,7 +40,7 @@ SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 
 
 #: What is changed in the lanes of a body's neighbours, in this order where it is uncertain.
-FLATTENING, TRIAXIALITY, PULL = "flattening", "triaxiality", "pull"
+FLATTENING, TRIAXIALITY, PULL, ROUNDING = "flattening", "triaxiality", "pull", "rounding"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 from earthspin.motion.equations import (
     FLATTENING,
     PULL,
+    ROUNDING,
     TRIAXIALITY,
     OwnTorque,
     Rigid,
@@ -45,7 +46,8 @@ def rigid_bodies(
     unit : float
         Unit of spin, rad/s.
     doubts : mapping of str to float
-        Relative half-widths, by `FLATTENING`, `TRIAXIALITY` and `PULL`; zero is certain.
+        Relative half-widths, by `FLATTENING`, `TRIAXIALITY`, `PULL` (errors of positions) and
+        `ROUNDING` (rounding of positions); zero is certain.
     epoch : float
         Start of the motion, s from J2000.0.
     own : callable or None
@@ -58,12 +60,13 @@ def rigid_bodies(
         What each further lane has changed.
     """
     figure = forces.figure
-    changed = tuple(name for name in (FLATTENING, TRIAXIALITY, PULL) if doubts.get(name, 0.0) > 0.0)
+    names = (FLATTENING, TRIAXIALITY, PULL, ROUNDING)
+    changed = tuple(name for name in names if doubts.get(name, 0.0) > 0.0)
     factor = {
         name: np.array([1.0, *(1 + doubts[name] if name == one else 1.0 for one in changed)])
         if name in changed
         else np.ones(1 + len(changed))
-        for name in (FLATTENING, TRIAXIALITY, PULL)
+        for name in names
     }
     # both differences are J2 and (B - A)/(M a2) over C/(M a2) = J2/H
     h = figure.h * factor[FLATTENING]
@@ -71,7 +74,7 @@ def rigid_bodies(
     body = Rigid(
         c_minus_a=h + triaxiality / 2,
         c_minus_b=h - triaxiality / 2,
-        tide=factor[PULL],
+        tide=factor[PULL] * factor[ROUNDING],
         unit=unit,
         zonal=[(n, j * figure.inverse_polar_moment) for n, j in figure.zonal.items()],
         radius=figure.radius,

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.motion.equations import FLATTENING, PULL, TRIAXIALITY, Rigid
+from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.march import (
     CONVERGED,
     FINEST,
@@ -269,7 +269,8 @@ def shares_of(found: Found, changed: Sequence[str], doubt: float) -> dict[str, F
     by_name = dict(zip(changed, found.error[1:], strict=True))
     kernel = np.full_like(nothing, np.nan) if np.isnan(doubt) else by_name.get(PULL, nothing)
     given = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
-    shares = {"method": found.error[0], "input": given, "kernel": kernel}
+    method = found.error[0] + by_name.get(ROUNDING, nothing)
+    shares = {"method": method, "input": given, "kernel": kernel}
     shares[""] = np.sqrt(shares["method"] ** 2 + given**2 + kernel**2)
     for one in shares.values():
         one[0] = np.minimum(one[0], np.pi)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -48,6 +49,8 @@ class Samples:
         The window that converges fastest on this span; its centre is the epoch.
     obliquity : float
         Of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each, m-3.
     unmeasured : tuple of str
         Perturbers of whose positions no error was ever measured.
     no_error : str
@@ -63,6 +66,7 @@ class Samples:
     torque: NDArray[np.float64]
     window: Window
     obliquity: float
+    nearness: NDArray[np.float64]
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
     strength: xr.DataArray | None = None
@@ -110,6 +114,7 @@ def torque_samples(
         torque=np.stack(torques, axis=1),
         window=window,
         obliquity=angle(axis_at_epoch, normal),
+        nearness=np.array([np.mean(seen[p.name][2] ** -3.0) for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
@@ -174,6 +179,8 @@ class MeanTorques:
         That they refer to, s from J2000.0 TDB.
     obliquity : float
         Of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each, m-3.
     over, method : str
         What was averaged over, and with how many samples, in words.
     evaluations : int
@@ -193,6 +200,7 @@ class MeanTorques:
     torque_error: NDArray[np.float64]
     epoch: float
     obliquity: float
+    nearness: NDArray[np.float64]
     over: str
     method: str
     evaluations: int
@@ -237,6 +245,7 @@ def window_means(
         torque_error=vector_error,
         epoch=window.centre,
         obliquity=samples.obliquity,
+        nearness=samples.nearness,
         over=taken(window),
         method=f"{taken(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
@@ -258,7 +267,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
     found = ways(body, perturbers)
-    torques, errors = [], []
+    torques, errors, nearness = [], [], []
     for one in perturbers:
         ((ellipse, _),) = found[one.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
@@ -274,6 +283,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         tide = mean_orbit.mean_tide(float(one.gm), ellipse.a, ellipse.e, square)
         torques.append(mean_orbit.mean_torque(tide, axis))
         errors.append(mean_orbit.rounding(tide))
+        nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
     vectors = average.with_total(np.stack(torques)[np.newaxis])[0]
     error = average.with_total(np.array(errors)[np.newaxis])[0]
     obliquity = angle(axis, normal)
@@ -285,6 +295,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,
         obliquity=obliquity,
+        nearness=np.array(nearness),
         over="all turns of each orbit by its elements",
         method="exact means of orbits by their elements",
         evaluations=len(perturbers),
@@ -318,6 +329,9 @@ class MeanRates:
         Magnitude of the mean torque, N m.
     ratio : ndarray or DataArray
         Rate over that of the first perturber.
+    second_order : float
+        Bound on what a first-order average leaves out of the rate of all, rad/s; the largest of
+        many.
     method : str
         Window and sampling in words.
     evaluations : int
@@ -330,6 +344,7 @@ class MeanRates:
     rate: Estimate
     torque: Estimate
     ratio: Numeric
+    second_order: float
     method: str
     evaluations: int
     no_error: str
@@ -369,6 +384,8 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
+    by_orbit, by_spin = _shares(rate.value, means, body, perturbers)
+    refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
         along(np.linalg.norm(means.torque_error, axis=1)),
@@ -381,10 +398,22 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
+        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(of_all(rate.value))),
         method=means.method,
         evaluations=means.evaluations,
         no_error=means.no_error,
     )
+
+
+def _shares(
+    rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
+) -> tuple[Numeric, Numeric]:
+    """Rate of precession over the mean motions of what pulls, and over the spin."""
+    by_orbit = sum(
+        abs(of_one(rate, place)) / ((body.gm + one.gm) * near) ** 0.5
+        for place, (one, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+    )
+    return by_orbit, abs(of_all(rate) / body.spin_rate)
 
 
 def _labelled(means: MeanTorques) -> Callable[[NDArray[np.float64]], xr.DataArray]:

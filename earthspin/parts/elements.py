@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from earthspin.bodies import Body, Numeric
+from earthspin.bodies import Body
+from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def ways(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Way]:
     ------
     SceneError
         If an orbit is about nothing that is there or about itself, contradicts Kepler's third law,
-        or goes through the spinning body.
+        or goes through the body that it is about.
     UndefinedError
         If the body has no such plane as the elements are counted from.
     """
@@ -117,15 +118,7 @@ def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
     given = one.orbit
     assert given is not None
     a, motion = size_and_motion(one, centre)
-    if body in (one, centre) and body.radius is not None:
-        reached = largest(body.radius)
-        if a * (1 - given.e) <= reached:
-            raise SceneError(
-                f"{one.name}.orbit",
-                f"a = {a:.6g} m, e = {given.e:g}",
-                f"its pericentre, {a * (1 - given.e):.4g} m, lies inside '{body.name}', whose "
-                f"radius is {reached:.4g} m",
-            )
+    refuse_overlap(one, centre, a)
     node = 0.0 if given.node_period is None else 2 * math.pi / given.node_period
     turn = 0.0 if given.pericentre_period is None else 2 * math.pi / given.pericentre_period
     return Ellipse(
@@ -143,9 +136,18 @@ def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
     )
 
 
-def largest(radius: Numeric) -> float:
-    """A radius, or the largest of an array of them, m."""
-    return float(radius.max() if hasattr(radius, "max") else radius)
+def refuse_overlap(one: Body, centre: Body, a: float, advice: str = "") -> None:
+    """Refuse an orbit of half the long axis `a` (m) whose pericentre lies inside a body.
+
+    Raises
+    ------
+    SceneError
+    """
+    assert one.orbit is not None
+    reach, names = extent(one) + extent(centre), (f"'{one.name}'", f"'{centre.name}'")
+    if inside := overlap(a * (1 - one.orbit.e), reach, *names):
+        shown = f"a = {a:.6g} m, e = {one.orbit.e:g}"
+        raise SceneError(f"{one.name}.orbit", shown, f"{inside}{advice}")
 
 
 def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
+from earthspin.bodies.limits import extent, overlap, refuse_break_up
 from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import Way, all_by_elements, largest, ways
+from earthspin.parts.elements import Way, all_by_elements, ways
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -104,6 +105,7 @@ class Pulled(Question):
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(self.needed())
+        self.check_spin()
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
@@ -137,6 +139,11 @@ class Pulled(Question):
     def needed(self) -> tuple[str, ...]:
         """What has to be known of the body, for the keys that are given."""
         return self.needs
+
+    def check_spin(self) -> None:
+        """Refuse a spin above break-up, where the spin matters."""
+        if "spin_period" in self.needed():
+            refuse_break_up(self.body)
 
 
 def unmeasured(body: Body) -> bool:
@@ -186,15 +193,15 @@ class Places:
         Of the body that spins.
     targets : tuple of Address
         Of each perturber.
-    radius : float
-        Of the body that spins, m; the largest, where it is an array.
+    reach : dict of str to float
+        How near each perturber may come, m: the radii of both bodies, the largest of arrays.
     by_elements : bool
         Whether ellipses lead from the centre to all of them: no kernel is needed.
     """
 
     centre: Address
     targets: tuple[Address, ...]
-    radius: float
+    reach: dict[str, float]
     by_elements: bool = False
 
 
@@ -209,14 +216,14 @@ class Sky:
         Of the body that spins: a NAIF code, or a trajectory of its own.
     targets : dict of str to Place
         The same of each perturber.
-    radius : float
-        Of the body that spins, m.
+    reach : dict of str to float
+        How near each perturber may come to the body, m.
     """
 
     source: Source
     centre: Place
     targets: dict[str, Place]
-    radius: float = 0.0
+    reach: dict[str, float]
 
     @cached_property
     def provenance(self) -> dict[str, str]:
@@ -286,7 +293,7 @@ class Sky:
         Raises
         ------
         UndefinedError
-            If one comes into the body: torques on the bulge hold outside alone.
+            If a perturber overlaps the body: torques on the bulge hold outside alone.
         """
         targets = self.targets if targets is None else targets
         found = self.source.positions(targets, self.centre, days)
@@ -351,11 +358,9 @@ class Sky:
 
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
-        if nearest <= self.radius:
-            raise UndefinedError(
-                f"'{name}' comes to {nearest:.4g} m from the centre of a body with a radius "
-                f"of {self.radius:.4g} m; a torque on the bulge holds outside it alone"
-            )
+        # the planets, which are no perturbers by name, are far away
+        if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
+            raise UndefinedError(f"{inside}; a torque on the bulge holds outside it alone")
 
 
 @dataclass(frozen=True)
@@ -392,7 +397,7 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     return Places(
         address(body),
         tuple(_address_by_way(one, found.get(one.name)) for one in perturbers),
-        0.0 if body.radius is None else largest(body.radius),
+        {one.name: extent(body) + extent(one) for one in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -418,14 +423,14 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
         from earthspin.sky.elements import CENTRE, Elements
 
         ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
-        return Sky(Elements(), CENTRE, ellipses, places.radius)
+        return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
     centre = places.centre.in_source(opened)
     targets = {one.name: one.in_source(opened) for one in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
-    return Sky(opened, centre, targets, places.radius)
+    return Sky(opened, centre, targets, places.reach)
 
 
 @part

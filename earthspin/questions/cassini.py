@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
+from earthspin.bodies.limits import refuse_break_up, refuse_fast_axis
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.constants import NORMAL_95
 from earthspin.engine.asking import ask
@@ -16,6 +17,8 @@ from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
+from earthspin.errors import SceneError, nearest
+from earthspin.parts.elements import refuse_overlap, size_and_motion
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,6 +65,7 @@ class CassiniStates(
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
+        refuse_break_up(self.body)
         if orbit_of(self.body, self.orbit) is None:
             raise self.error(
                 "orbit",
@@ -78,7 +82,7 @@ class Locking:
     Attributes
     ----------
     motion : float
-        Mean motion, rad/s.
+        Mean motion, rad/s, of an orbit outside both bodies.
     turns : float
         Turns in each orbit.
     locked : bool
@@ -108,11 +112,19 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
     """Mean motion, and turns of the body in each orbit."""
-    from earthspin.parts.elements import size_and_motion
+    from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
     from earthspin.torque.cassini import is_locked
 
-    primary = BODIES.get(own_orbit.about, SUN)
-    _, motion = size_and_motion(body.replace(orbit=own_orbit), primary)
+    about = own_orbit.about or SUN.name
+    if about not in BODIES or about == body.name:
+        others = [name for name in BODIES if name != body.name]
+        raise SceneError("orbit.about", about, nearest(about, others))
+    placed = body.replace(orbit=own_orbit)
+    a, motion = size_and_motion(placed, BODIES[about])
+    known = PRECESSING_ORBITS.get(body.name)
+    like = f", like about = '{known.about}'" if known is not None and known.about else ""
+    advice = "" if own_orbit.about else f"; name what it orbits{like}"
+    refuse_overlap(placed, BODIES[about], a, advice)
     return Locking(motion, body.spin_rate / motion, is_locked(body.spin_rate, motion))
 
 
@@ -157,7 +169,12 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
     """Every state, its error, and whether it is stable."""
     from earthspin.torque.cassini import cassini_states as solve
 
-    found = solve(precessing(body, own_orbit, locking))
+    axis = precessing(body, own_orbit, locking)
+    # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
+    own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
+    rate = max(own, abs(axis.node_rate))
+    refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
+    found = solve(axis)
     squares = np.zeros_like(found.obliquity)
     for name, share in body.relative_uncertainty.items():
         if name not in ("j2", "dynamical_flattening", "triaxiality"):

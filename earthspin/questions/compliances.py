@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from earthspin.bodies import EARTH, Body
+from earthspin.bodies.limits import refuse_break_up
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
@@ -51,6 +52,9 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
         """A body that spins, and layers that are known."""
         require_layers(self, self.interior, self.body)
         self.body.require(("spin_period", "dynamical_flattening"))
+        if self.body.labelled:
+            raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
+        refuse_break_up(self.body)
 
 
 NUMBERS = without_error(

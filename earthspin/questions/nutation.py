@@ -83,6 +83,8 @@ class NutationLadder(
     def check(self) -> None:
         """A body that the IAU has a nutation of, and whose layers are known."""
         super().check()
+        if self.body.labelled:
+            raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 

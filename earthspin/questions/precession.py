@@ -490,14 +490,19 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
 
 
 @part
-def neglected(body: Body, perturbers: tuple[Body, ...]) -> Neglected:
+def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
     unknown = not_the_iaus_earth(body, perturbers)
     if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
         what = "contribution to the rate that the model leaves out; others were not measured"
         return Neglected.cited(LEFT_OUT_OF_RATES[body.name], what)
     if unknown:
-        return Neglected(what=f"effects whose published sizes do not apply: {unknown}")
+        return Neglected(
+            {"turning of the axis within an orbit": mean_rates.second_order},
+            "arcsec/yr",
+            "bound on the contribution to the rate that the model leaves out",
+            unknown=f"all other effects, because {unknown}",
+        )
     from earthspin.nutation.budget import published_effects
 
     return Neglected(

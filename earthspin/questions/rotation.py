@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import Body
+from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import promise, refuse_unkept, report_of
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
@@ -16,7 +18,8 @@ from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
-from earthspin.motion.effects import NONRIGID
+from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
     Moved,
@@ -27,7 +30,7 @@ from earthspin.parts.pulls import (
     start_note,
     switched_on,
 )
-from earthspin.parts.reasons import no_accuracy
+from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
 from earthspin.units import AngleError, FloatArray, Numbers
@@ -102,6 +105,13 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
         spin = () if self.start_omega is not None else ("spin_period",)
         return (*self.needs, *pole, *spin)
 
+    def check_spin(self) -> None:
+        """Refuse a spin above break-up, that of the start if it is given."""
+        if self.start_omega is None:
+            super().check_spin()
+        else:
+            refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
+
     def check(self) -> None:
         """A rigid body whose three moments follow, and a start that is one."""
         super().check()
@@ -127,13 +137,16 @@ class Pulling:
     ----------
     forces : Forces
     doubt : float
-        Relative half-width of the pull from where the bodies may be off; NaN if not measured.
+        Relative half-width of the pull from the errors of the positions; NaN if not measured.
+    rounding : float
+        The same from the rounding of positions that follow from elements, without a kernel.
     no_error : str
         Why some errors are not given; empty if all are.
     """
 
     forces: Forces
     doubt: float
+    rounding: float
     no_error: str
 
 
@@ -160,18 +173,22 @@ def pulling(
 ) -> Pulling:
     """Forces of all that pulls, effects switched on."""
     from earthspin.motion.neighbours import doubt_of_pull
+    from earthspin.sky.elements import ByElements, Elements
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
+    forces = forces_of(_spinning(body, start_omega), pulls, effects)
+    if isinstance(pulls.sky.source, Elements):
+        places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
+        rounding = max(place.rounding(day) for place in places for day in days)
+        return Pulling(forces, 0.0, rounding, "")
     seen = pulls.sky.positions(np.array(days[:1]))
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
         doubts.append(doubt_of_pull(float(np.linalg.norm(seen[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
-    return Pulling(
-        forces_of(_spinning(body, start_omega), pulls, effects), doubt, pulls.sky.no_error
-    )
+    return Pulling(forces, doubt, 0.0, pulls.sky.no_error)
 
 
 @dataclass(frozen=True)
@@ -231,7 +248,7 @@ def rotor(
     """The body at the start, what pulls on it, and neighbours with uncertain numbers changed."""
     from earthspin.mass.inertia import polar_moment
     from earthspin.motion import neighbours
-    from earthspin.motion.equations import FLATTENING, PULL, TRIAXIALITY
+    from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY
     from earthspin.motion.forces import Forces
     from earthspin.motion.rotation import start_of
 
@@ -251,6 +268,7 @@ def rotor(
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
         PULL: 0.0 if pulling is None else pulling.doubt,
+        ROUNDING: 0.0 if pulling is None else pulling.rounding,
     }
     rigid, changed = neighbours.rigid_bodies(
         forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
@@ -322,6 +340,7 @@ def turning(
     body: Body,
     start_attitude: FloatArray | None,
     accuracy: float | None,
+    neglected: Neglected,
     block: Block | None = None,
 ) -> xr.Dataset:
     """Attitude, spin and angular momentum at every time, with what they may be off by."""
@@ -363,6 +382,9 @@ def turning(
         },
         no_error=rotor.no_error,
     )
+    for name in KINDS:
+        comment = f"error of the rigid model; not included: {neglected.largest}"
+        result[f"{name}_error"].attrs["comment"] = comment
     result["angular_momentum"].attrs["frame"] = "ICRF"
     result["omega"].attrs["frame"] = "principal axes of the body, C last"
     result["attitude_error"].attrs |= {
@@ -439,11 +461,54 @@ def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -
     )
 
 
+#: Effects that no rigid body of three moments has.
+_BEYOND = (
+    "deformation and flow of the inside, harmonics of the figure beyond the moments, J3 and J4"
+)
+
+
 @part
-def neglected() -> Neglected:
-    """What a rigid body leaves out."""
-    inside = "how the inside yields and flows, which damps and delays"
-    return Neglected(what=f"{inside}; the pull on harmonics beyond the moments, J3 and J4")
+def neglected(
+    body: Body,
+    perturbers: tuple[Body, ...],
+    effects: tuple[str, ...],
+    epochs: TimeGrid | TimeList,
+) -> Neglected:
+    """Sizes at the last date of what the model leaves out; what has none is named."""
+    from earthspin.bodies.beyond_rigid import BEYOND_RIGID
+
+    off = _switched_off(body, perturbers, effects)
+    known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
+    usual = {one.name for one in pulled_by(body)}
+    if known is None or not usual <= {one.name for one in perturbers}:
+        return Neglected(unknown=", ".join([_BEYOND, *off]))
+    begin, end = epochs.span()
+    sizes = known.after(end - begin)
+    if no_iau_model(body) is None:  # the Earth, whose effects were measured from J2000.0
+        sizes |= {
+            one: EFFECTS[one].size_at(abs(begin)) + EFFECTS[one].size_at(abs(end)) for one in off
+        }
+        off = []
+    return Neglected(
+        sizes,
+        "arcsec",
+        "largest change of the attitude that the model leaves out",
+        known.source,
+        unknown=", ".join(off),
+    )
+
+
+def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
+    """Effects that are switched off and would move the body."""
+    moves = {
+        "planets": not all_by_elements(body, perturbers),
+        "j3": body.j3 != 0,
+        "j4": body.j4 != 0,
+        "triaxiality": body.triaxiality != 0,
+        "geodesic": "sun" in {one.name for one in perturbers},
+        "j2-rate": body.j2_rate != 0,
+    }
+    return [name for name, would in moves.items() if would and name not in effects and perturbers]
 
 
 made_of(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, Numeric, all_of
+from earthspin.bodies.limits import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error, without_error
@@ -79,6 +80,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
+        refuse_break_up(self.body)
         refuse_unknown(self, self.body)
 
 

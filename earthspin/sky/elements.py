@@ -170,6 +170,14 @@ class Ellipse:
         angle = ROUNDINGS * _EPS * (1 + angles + rates * time) * steepest
         return angle, self.a * (1 + self.e) * angle
 
+    def rounding(self, day: float) -> float:
+        """Relative change of the tide that has the effect of rounding on a day.
+
+        Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
+        """
+        rates = abs(self.motion) + abs(self.node_rate) + abs(self.pericentre_rate)
+        return _EPS / 2 * (1 + rates * abs(day - self.epoch) * DAY)
+
 
 @dataclass(frozen=True)
 class ByElements:
@@ -203,6 +211,10 @@ class ByElements:
         """What rounding does to the direction (rad) and the distance (m) on a day."""
         angles, distances = zip(*(ellipse.error(day) for ellipse, _ in self.ellipses), strict=True)
         return sum(angles), sum(distances)
+
+    def rounding(self, day: float) -> float:
+        """Relative change of the tide that has the effect of rounding on a day."""
+        return sum(ellipse.rounding(day) for ellipse, _ in self.ellipses)
 
     def __str__(self) -> str:
         return " and ".join(

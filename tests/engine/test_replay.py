@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 import tomli_w
 import xarray as xr
-from hypothesis import given, settings
+from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
 from earthspin.bodies import BODIES
+from earthspin.bodies.limits import refuse_break_up
 from earthspin.engine.question import Question, keys_of
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.pole import Pole
@@ -251,7 +252,12 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
         coords = {} if labels is None else {"draw": labels}
         changes["dynamical_flattening"] = xr.DataArray(listed, coords, ("draw",))
         changes["j2"] = polar * changes["dynamical_flattening"]
-    return start.replace(**changes)
+    made = start.replace(**changes)
+    try:
+        refuse_break_up(made)
+    except earthspin.BodyError:
+        reject()
+    return made
 
 
 @given(body=bodies(), title=st.text(ONE_LINE, max_size=20))

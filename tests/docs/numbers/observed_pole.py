@@ -326,7 +326,6 @@ TOLD = [
     Told(PAGE, "A simulated pole of {} days and", GIVEN),
     Told(PAGE, "with errors of {} mas, is recovered", GIVEN),
     Told(PAGE, "found {} ± {} d, one", "published: Nastula & Gross 2015"),
-    Told("docs/coverage.md", "half-width of a {} % interval", ERROR),
     Told("docs/coverage.md", "$T$ = {} d, $Q$ = 50", GIVEN),
     Told("docs/coverage.md", "excitation with 30 and {} % of", GIVEN),
     Told("docs/coverage.md", "the fitted likelihood has {} d", GIVEN),

@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 import earthspin
-from earthspin.constants import DAY
+from data_tools import lunar_rotation
+from data_tools.coverage.rotation import moon
+from earthspin.bodies.limits import SLOW, STRONGEST
+from earthspin.constants import ARCSEC, DAY
 from tests.docs.numbers.sentence import Sentence, Told
-from tests.questions.test_rotation import libration, moon
+from tests.questions.test_rotation import libration, moonlet
 
 PAGE = "docs/rotation.md"
 
@@ -21,7 +24,7 @@ def phobos() -> list[float]:
         "2000-01-01T12:00",
         "2000-01-31T12:00",
         "20 min",
-        body=moon("mars", axes, period, eccentricity),
+        body=moonlet("mars", axes, period, eccentricity),
         perturbers=["mars"],
         start_attitude=[1, 0, 0, 0],
         start_omega=[0, 0, 2 * np.pi / (period * DAY) * (1 - amplitude)],
@@ -32,7 +35,44 @@ def phobos() -> list[float]:
     return [2 * abs(forced), *(axis / 1e3 for axis in axes), 1.14]
 
 
+J2000 = 2451545.0
+
+
+def moon_of_de421() -> list[float]:
+    """Days after the start, and how far the Moon is then from DE421, arcsec."""
+    days = (10.0, 360.0)
+    apart = moon(J2000, days)[0]
+    return [apart[0], days[0], apart[1], days[1]]
+
+
+def moon_with_all_effects() -> list[float]:
+    """The same by an independent integration with all effects."""
+    found = lunar_rotation.attitudes(J2000, [360.0], lunar_rotation.EFFECTS)[0]
+    away = (lunar_rotation.librations()[J2000 + 360.0][0].inv() * found).magnitude()
+    return [float(away) / ARCSEC, 360.0]
+
+
 MEASURED = [
+    Sentence(
+        PAGE,
+        "is {}″ away from DE421 after {} days and {}″ after {} days",
+        moon_of_de421,
+    ),
+    Sentence(
+        PAGE,
+        "the independent integration is {}″ away after {} days",
+        moon_with_all_effects,
+    ),
+    Sentence(
+        "docs/howto/own_body.md",
+        "may turn by at most {} radian per radian of the orbit",
+        lambda: SLOW,
+    ),
+    Sentence(
+        "docs/howto/own_body.md",
+        "(a tension above {} GPa)",
+        lambda: STRONGEST / 1e9,
+    ),
     Sentence(
         PAGE,
         "by {}° for a homogeneous ellipsoid of its axes\n({} × {} × {} km, the IAU's), "

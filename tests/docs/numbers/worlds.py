@@ -149,7 +149,6 @@ MEASURED = [
 TOLD = [
     Told(PAGE, "Half-widths are for {} %", "what an error is, by definition"),
     Told(PAGE, "half-width of {} % (″)", "what an error is, by definition"),
-    Told("docs/coverage.md", "the half-width of a {} % interval", "by definition"),
     Told(PAGE, "obliquity of {} ± {}′ (Stark", "published: Stark et al. 2015"),
     Told(PAGE, "where {}° are observed", "published: arXiv:2201.00803"),
     Told(PAGE, "landers gave {}° ± {}° (Yoder", "published: Yoder & Standish 1997"),

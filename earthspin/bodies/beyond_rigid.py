@@ -1,0 +1,70 @@
+"""Effects that a rigid body of three moments leaves out, by body, and how far each turns it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from earthspin.constants import ARCSEC
+
+#: Days after the start at which the sizes were measured.
+DAYS = (1.0, 10.0, 30.0, 100.0, 365.0, 1000.0, 3650.0, 14000.0)
+
+
+@dataclass(frozen=True)
+class BeyondRigid:
+    """Sizes of effects on the attitude of a body.
+
+    Attributes
+    ----------
+    sizes : mapping of str to tuple of float
+        By effect: largest change of the attitude up to each of `DAYS`, arcsec.
+    source : str
+        Where the sizes come from.
+    """
+
+    sizes: Mapping[str, tuple[float, ...]]
+    source: str
+
+    def after(self, days: float) -> dict[str, float]:
+        """Sizes some days after the start, rad.
+
+        Parameters
+        ----------
+        days : float
+            Below the first of `DAYS` a size grows with the square of the time, as under a torque
+            that is left out; beyond the last one it stays.
+        """
+        early = min(days / DAYS[0], 1.0) ** 2
+        place = np.log(np.clip(days, DAYS[0], DAYS[-1]))
+        return {
+            name: float(early * np.exp(np.interp(place, np.log(DAYS), np.log(size)))) * ARCSEC
+            for name, size in self.sizes.items()
+        }
+
+
+#: By the name of the body.
+BEYOND_RIGID = {
+    "moon": BeyondRigid(
+        {
+            "lunar field of degree 3": (0.0092, 0.77, 2.1, 15.0, 120.0, 140.0, 200.0, 275.0),
+            "lunar field of degree 4": (3.7e-5, 0.0034, 0.018, 0.17, 1.5, 1.7, 1.8, 1.8),
+            "fluid core": (9.2e-4, 0.074, 0.14, 0.52, 1.6, 4.1, 11.0, 12.0),
+            "tides on the Moon": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
+            "flattening of the Earth": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
+        },
+        "the model of DE421, integrated with and without each effect: "
+        "python -m data_tools lunar-rotation",
+    ),
+    "earth": BeyondRigid(
+        {
+            "changes of the length of day": (0.061, 0.56, 1.6, 5.2, 17.0, 44.0, 144.0, 347.0),
+            "polar motion": (0.0056, 0.053, 0.14, 0.4, 0.6, 0.6, 0.6, 0.6),
+            "response of the inside to nutation": (0.0575,) * 8,
+        },
+        "finals2000A of the IERS, 1973 to 2025, largest changes of UT1 and of the pole: "
+        "python -m data_tools earth-rotation; response: python -m data_tools neglected",
+    ),
+}
