@@ -13,7 +13,13 @@ NUMBERS = {
         DE440 + "; uncertainty from " + IERS_2010,
         GM_HORIZONS,
     ),
-    "radius": Constant(6.957e8, "m", 0.0, "IAU 2015 Resolution B3: nominal solar radius"),
+    "radius": Constant(
+        6.957e8,
+        "m",
+        0.0,
+        "IAU 2015 Resolution B3: nominal solar radius",
+        "R_sun of astropy.constants",
+    ),
 }
 
 SUN = Body.cited("sun", NUMBERS, naif=(10,), reference=NUMBERS["gm"].source)

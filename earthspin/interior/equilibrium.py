@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import Constant, G
+from earthspin.constants import COMPUTED, Constant, G
 from earthspin.errors import UndefinedError
 from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
@@ -20,7 +20,11 @@ Array = NDArray[Any]
 
 #: Largest Omega2/(pi G rho) of a homogeneous liquid body in equilibrium, a Maclaurin spheroid.
 FASTEST = Constant(
-    0.449331, "", None, "Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, sect. 32"
+    0.449331,
+    "",
+    None,
+    "Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, sect. 32",
+    f"{COMPUTED}: the maximum of the formula of the Maclaurin spheroid",
 )
 
 
