@@ -11,13 +11,13 @@ import erfa
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, MOON, SUN
+from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR
 from earthspin.parts import averages, orbits
 from earthspin.parts import sky as skies
 from earthspin.questions import long_term as question
 from earthspin.scenes import load_scene, run_tree
-from earthspin.secular.budget import Setting
+from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Changed, Orbit, Shape
 from earthspin.secular.strength import Tides
 from earthspin.secular.trajectory import solve
@@ -50,24 +50,24 @@ def _round(orbit: Orbit) -> Orbit:
     return Changed(orbit, change)
 
 
-def earths() -> Setting:
-    """What the solution for the Earth stands on, as the question makes it."""
+def solution(body: Body, times: FloatArray) -> Solved:
+    """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)
-    pulling = SUN, MOON
-    sky = skies.sky(scene.ephemeris, skies.places(EARTH, pulling), scene.source)
-    samples = averages.torque_samples(sky, question.stretch(sky), EARTH, pulling, None)
+    pulling = (SUN, MOON) if body == EARTH else (SUN,)
+    sky = skies.sky(scene.ephemeris, skies.places(body, pulling), scene.source)
+    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling, None)
     means = averages.mean_torques(averages.window_means(samples, pulling))
-    rates = averages.mean_rates(means, EARTH, pulling)
-    table = orbits.orbit_table("own", EARTH)
-    numbers = question.numbers(rates, EARTH, pulling, 1.0, 1.0, None, 0.0, 0.0)
-    strength = question.strength(numbers, means, EARTH, table)
-    return Setting(strength, table, EARTH.needed("pole").mean(np.zeros(1))[0])
+    rates = averages.mean_rates(means, body, pulling)
+    table = orbits.orbit_table("own", body)
+    numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
+    strength = question.strength(numbers, means, body, table)
+    return question.solved(strength, numbers, table, times, body)
 
 
 def without() -> dict[str, Setting]:
     """The same with one effect left out, or changed, at a time."""
-    now = earths()
+    now = solution(EARTH, np.zeros(1)).setting
 
     def changed(**fields: Any) -> Setting:
         return replace(now, strength=replace(now.strength, **fields))

@@ -222,13 +222,10 @@ def solved(
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
     setting = budget.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
-    causes = budget.changes(
-        setting,
-        constant=relative_error,
-        earth=strength.node_rate < math.inf,
-        error=orbit_table.error,
+    uncertainty = budget.Uncertainty(
+        constant=relative_error, orbit=orbit_table.error, earth=strength.node_rate < math.inf
     )
-    return budget.solved(setting, span, causes)
+    return budget.solved(setting, span, uncertainty)
 
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
@@ -304,19 +301,18 @@ def series(
     accuracy: float | None,
 ) -> xr.Dataset:
     """Angles, eccentricity, poles and rates at every epoch, each with its error."""
-    from earthspin.secular.reading import together
     from earthspin.torque import rates
 
-    mine, poles_apart = readings.mine, readings.poles_apart
+    mine = readings.mine
     values: dict[str, Any] = {}
     for name in (*_ANGLES, *_NUMBERS):
         values[name] = mine.values[name]
-        values[f"{name}_error"] = together(readings.apart(name))
+        values[f"{name}_error"] = readings.half_width(name)
     values |= {
         "pole": np.moveaxis(mine.pole, 0, -1),
-        "pole_error": together(poles_apart("pole")),
+        "pole_error": readings.direction_half_width("pole"),
         "ecliptic_pole": mine.normal.T,
-        "ecliptic_pole_error": together(poles_apart("normal")),
+        "ecliptic_pole_error": readings.direction_half_width("normal"),
     }
     refuse_unkept(
         accuracy,
@@ -327,7 +323,7 @@ def series(
     with_moon = solved.setting.strength.node_rate < math.inf
     labels = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
     rate = np.stack([mine.values[label] for label in labels], axis=-2)
-    error = np.stack([together(readings.apart(label)) for label in labels], axis=-2)
+    error = np.stack([readings.half_width(label) for label in labels], axis=-2)
     values |= {
         "precession_rate": rate,
         "precession_rate_error": error,
@@ -416,7 +412,6 @@ MATRICES = covered_by(
 def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Dataset:
     """Precession matrices to mean equator and equinox of date."""
     from earthspin.secular.angles import equator_and_equinox
-    from earthspin.secular.reading import together
 
     mine, lay = readings.mine, numbers.lay
     matrix = equator_and_equinox(mine.pole, mine.normal)
@@ -424,7 +419,7 @@ def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.
         MATRICES,
         {
             "matrix": lay(matrix, *MATRICES["matrix"].dims),
-            "matrix_error": lay(together(readings.poles_apart("pole")), "epoch"),
+            "matrix_error": lay(readings.direction_half_width("pole"), "epoch"),
         },
         coords={
             "epoch": series.epoch,

@@ -8,7 +8,7 @@ Earth itself: how its tides and its figure were in the past.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -34,6 +34,9 @@ TIDES_SHARE = 0.2
 #: Drift of the mean dynamical ellipticity by mantle convection, relative, s-1: an assumption.
 #: People sweep factors of 0.998 to 1.012; half of that width is reached in ten million years.
 ELLIPTICITY_DRIFT = 0.007 / (10e6 * JULIAN_YEAR)
+#: Causes; those after the first few are known of the Earth alone.
+CAUSES = ("constant", "start", "orbit", "orbit", "J2 rate", "tides", "ellipticity")
+NOT_OF_THE_EARTH = 4
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,33 @@ class Setting:
 
 
 @dataclass(frozen=True)
+class Uncertainty:
+    """95 % half-widths of what a solution stands on, each of one cause.
+
+    Attributes
+    ----------
+    constant : float
+        Relative, of the constant of precession.
+    orbit : callable
+        Of the orbit's normal (rad) and eccentricity vector at times, s, shape (2, n).
+    earth : bool
+        Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
+    start : float
+        Of the direction of the axis at J2000.0, rad.
+    """
+
+    constant: Numeric
+    orbit: HalfWidths
+    earth: bool
+    start: float = START
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Causes; the orbit stands there twice, as it is moved two ways."""
+        return CAUSES if self.earth else CAUSES[:NOT_OF_THE_EARTH]
+
+
+@dataclass(frozen=True)
 class Solved:
     """The axis in time, and in time again with each cause changed.
 
@@ -61,12 +91,14 @@ class Solved:
     ----------
     path : Trajectory
     setting : Setting
+    uncertainty : Uncertainty
     others : tuple of (str, Trajectory, Setting)
         By cause: the trajectory with that cause changed, and the setting it belongs to.
     """
 
     path: Trajectory
     setting: Setting
+    uncertainty: Uncertainty
     others: tuple[tuple[str, Trajectory, Setting], ...]
 
     @property
@@ -75,9 +107,7 @@ class Solved:
         return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
 
-def solved(
-    setting: Setting, span: tuple[float, float], causes: tuple[tuple[str, Setting], ...]
-) -> Solved:
+def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
     """Follow the axis, with each cause changed, and for the method with windows twice as long.
 
     Parameters
@@ -85,14 +115,14 @@ def solved(
     setting : Setting
     span : tuple of float
         s from J2000.0 TDB.
-    causes : tuple of (str, Setting)
-        As `changes` gives them.
+    uncertainty : Uncertainty
     """
     path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
-    others = (("method", setting), *causes)
+    others = (("method", setting), *changes(setting, uncertainty))
     return Solved(
         path,
         setting,
+        uncertainty,
         tuple(
             (name, solve(of.strength, of.orbit, of.start, span, near=path), of)
             for name, of in others
@@ -100,71 +130,73 @@ def solved(
     )
 
 
-def moved(orbit: Orbit, error: HalfWidths, way: int) -> Changed:
-    """An orbit tilted and drawn out by its half-widths.
+def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Changed:
+    """An orbit tilted and drawn out by multiples of its half-widths.
 
     Parameters
     ----------
     orbit : Orbit
     error : callable
-    way : int
-        0 or 1: towards either of two directions across the normal of J2000.0.
+    ways : sequence of float
+        By how many half-widths, towards each of two directions across the normal of J2000.0.
     """
-    direction = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[way][:, np.newaxis]
+    directions = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[:2]
 
     def change(times: FloatArray, shape: Shape) -> Shape:
         normal, eccentricity, turning = shape
-        along = direction - normal * np.sum(direction * normal, axis=0)
-        along = along / np.sqrt(np.sum(along**2, axis=0))
+        towards = np.zeros_like(normal)
+        for direction, amount in zip(directions[:, :, np.newaxis], ways, strict=True):
+            along = direction - normal * np.sum(direction * normal, axis=0)
+            towards += amount * along / np.sqrt(np.sum(along**2, axis=0))
         by_normal, by_shape = error(times)
-        tilted = normal + by_normal * along
+        tilted = normal + by_normal * towards
         tilted = tilted / np.sqrt(np.sum(tilted**2, axis=0))
-        return tilted, eccentricity + by_shape * along, turning
+        return tilted, eccentricity + by_shape * towards, turning
 
     return Changed(orbit, change)
 
 
-def changes(
-    setting: Setting, *, constant: Numeric, earth: bool, error: HalfWidths
-) -> tuple[tuple[str, Setting], ...]:
-    """What each cause makes of a setting; the orbit is moved two ways.
+def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
+    """What each cause makes of a setting by its half-width; the orbit is moved two ways."""
+    causes = uncertainty.causes
+    return tuple(
+        (cause, changed(setting, uncertainty, amounts))
+        for cause, amounts in zip(causes, np.eye(len(causes)), strict=True)
+    )
+
+
+def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
+    """A setting with all its causes changed at once.
 
     Parameters
     ----------
     setting : Setting
-    constant : float
-        Relative half-width of the constant of precession.
-    earth : bool
-        Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
-    error : callable
-        Half-widths of the orbit's normal (rad) and eccentricity at times, s, shape (2, n).
+    uncertainty : Uncertainty
+    amounts : ndarray, shape (k,)
+        By how many half-widths, in the order of `Uncertainty.causes`.
     """
-    strength, start = setting.strength, setting.start.reshape(3, -1)
+    missing = np.zeros(len(CAUSES) - len(amounts))
+    constant, tilt, *ways, j2, tides, drift = (float(of) for of in (*amounts, *missing))
+    strength, start, orbit = setting.strength, setting.start, setting.orbit
+    if tilt:
+        start = _tilted(setting, tilt * uncertainty.start)
+    if any(ways):
+        orbit = moved(orbit, uncertainty.orbit, ways)
+    stronger, faster = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE
+    strength = replace(
+        strength,
+        sun=strength.sun * stronger,
+        moon=strength.moon * stronger,
+        tides=Tides(strength.tides.moon * faster, strength.tides.spin * faster),
+        j2_band=j2,
+        ellipticity_drift=drift * ELLIPTICITY_DRIFT,
+    )
+    return Setting(strength, orbit, start)
+
+
+def _tilted(setting: Setting, angle: float) -> FloatArray:
+    """The start moved by a small angle along the circle through it and the normal of the orbit."""
+    start = setting.start.reshape(3, -1)
     across = cross(cross(setting.orbit.at(np.zeros(1))[0], start), start)
-    tilted = start + START * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
-    tilted = (tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape)
-    found = [
-        (
-            "constant",
-            replace(
-                setting,
-                strength=replace(
-                    strength, sun=strength.sun * (1 + constant), moon=strength.moon * (1 + constant)
-                ),
-            ),
-        ),
-        ("start", replace(setting, start=tilted)),
-        *(("orbit", replace(setting, orbit=moved(setting.orbit, error, way))) for way in (0, 1)),
-    ]
-    if earth:
-        tides = strength.tides
-        slower = Tides(tides.moon * (1 + TIDES_SHARE), tides.spin * (1 + TIDES_SHARE))
-        found += [
-            ("J2 rate", replace(setting, strength=replace(strength, j2_band=1.0))),
-            ("tides", replace(setting, strength=replace(strength, tides=slower))),
-            (
-                "ellipticity",
-                replace(setting, strength=replace(strength, ellipticity_drift=ELLIPTICITY_DRIFT)),
-            ),
-        ]
-    return tuple(found)
+    tilted = start + angle * across / np.maximum(np.sqrt(dot(across, across)), 1e-300)
+    return (tilted / np.sqrt(dot(tilted, tilted))).reshape(setting.start.shape)

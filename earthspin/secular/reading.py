@@ -7,8 +7,8 @@ all but round, along looks at the orbit alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -18,9 +18,10 @@ from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.nutation.angles import followed, general_precession
 from earthspin.secular.angles import beside, seasons
-from earthspin.secular.budget import Setting, Solved
+from earthspin.secular.budget import Setting, Solved, changed
 from earthspin.secular.orbit import Orbit
-from earthspin.secular.trajectory import Trajectory
+from earthspin.secular.sample import Quantiles, draws
+from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
@@ -30,6 +31,11 @@ FloatArray = NDArray[np.float64]
 LOOK = 200 * JULIAN_YEAR
 #: Sine of the obliquity below which there is no equinox.
 NO_EQUINOX = 1e-9
+#: Half-width of the precession, rad, up to which causes are changed one at a time, and from which
+#: on half-widths are quantiles over a sample; in between, weighted means of the two.
+LINEAR_TO, SAMPLED_FROM = 0.1, 0.15
+#: What depends on the orbit alone, whose changes are small throughout.
+OF_THE_ORBIT = ("eccentricity",)
 _TURN = 2 * np.pi
 
 
@@ -52,6 +58,11 @@ class Read:
     pole: FloatArray
     normal: FloatArray
 
+    def at(self, epochs: NDArray[np.bool_]) -> Read:
+        """The same at some of the epochs."""
+        values = {name: of[..., epochs] for name, of in self.values.items()}
+        return Read(values, self.pole[..., epochs], self.normal[:, epochs])
+
 
 @dataclass(frozen=True)
 class Readings:
@@ -62,32 +73,57 @@ class Readings:
     mine : Read
     moved : tuple of (str, Read)
         By cause; a cause may stand there more than once, in independent directions.
+    weight : ndarray, shape (..., n)
+        Weight of the sampled half-widths, from 0 to 1.
+    sampled : dict of str to ndarray, shape (..., n)
+        Half-widths by name, and that of the `pole` (rad), as quantiles over a sample; empty where
+        the weight is 0 throughout.
     """
 
     mine: Read
     moved: tuple[tuple[str, Read], ...]
+    weight: FloatArray | float = 0.0
+    sampled: Mapping[str, FloatArray] = field(default_factory=dict)
+
+    def half_width(self, name: str) -> FloatArray:
+        """95 % half-width of a value."""
+        return self._with_sampled(name, together(self.apart(name)))
+
+    def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
+        """95 % half-width of the direction of the pole, or of the normal of the orbit, rad."""
+        return self._with_sampled(which, together(self.poles_apart(which)))
+
+    def _with_sampled(self, name: str, linear: FloatArray) -> FloatArray:
+        if name not in self.sampled:
+            return linear
+        return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
         """By cause, how far a value of the answer is moved."""
-        return _by_cause((cause, self._moved_by(of, name)) for cause, of in self.moved)
+        return _by_cause((cause, moved_by(of, self.mine, name)) for cause, of in self.moved)
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
         """By cause, how far the pole, or the normal of the orbit, is moved, rad."""
         mine = getattr(self.mine, which)
-        return _by_cause(
-            (cause, np.linalg.norm(getattr(of, which) - mine, axis=0)) for cause, of in self.moved
-        )
+        return _by_cause((cause, angle(getattr(of, which), mine)) for cause, of in self.moved)
 
-    def _moved_by(self, of: Read, name: str) -> FloatArray:
-        mine = self.mine.values
-        moved = of.values[name] - mine[name]
-        if name != "longitude_of_perihelion":
-            return moved
-        # an orbit that is all but round may pass on the other side of a circle: of how far its
-        # perihelion itself is moved, whole turns say nothing
-        by_axis = of.values["general_precession"] - mine["general_precession"]
-        by_orbit = moved - by_axis
-        return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+
+def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
+    """How far a value lies from that of the answer."""
+    moved = of.values[name] - mine.values[name]
+    if name != "longitude_of_perihelion":
+        return moved
+    # an orbit that is all but round may pass on the other side of a circle: of how far its
+    # perihelion itself is moved, whole turns say nothing
+    by_axis = of.values["general_precession"] - mine.values["general_precession"]
+    by_orbit = moved - by_axis
+    return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+
+
+def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
+    """Angle between unit vectors, rad, shape (...) from (3, ...)."""
+    half = np.linalg.norm(of - mine, axis=0) / 2
+    return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
@@ -120,19 +156,42 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
         If the axis stands upright on the orbit at one of the times; an ApartError if that of a
         member does.
     """
-    own = solved.setting.orbit
-    with_now = np.append(times, 0.0)
-    perihelion = followed_perihelion(own, with_now, fixed)
-    mine = read(solved.path, solved.setting, times, fixed, perihelion)
+    setting = solved.setting
+    perihelion = followed_perihelion(setting.orbit, np.append(times, 0.0), fixed)
+    mine = read(solved.path, setting, times, fixed, perihelion)
     _refuse_upright(mine.values["obliquity"], times)
-    moved = []
-    for cause, path, setting in solved.others:
-        same = setting.orbit is own
-        orbits = perihelion if same else followed_perihelion(setting.orbit, with_now, fixed)
-        other = read(path, setting, times, fixed, orbits)
-        _on_the_same_side(other.values, mine.values)
-        moved.append((cause, other))
-    return Readings(mine, tuple(moved))
+    linear = Readings(
+        mine,
+        tuple(
+            (cause, read(path, of, times, fixed, perihelion)) for cause, path, of in solved.others
+        ),
+    )
+    phase = together(linear.apart("general_precession"))
+    weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
+    far = np.any(weight > 0, axis=tuple(range(weight.ndim - 1)))
+    if not far.any():
+        return linear
+    sampled = {}
+    for name, half_width in _sampled(solved, linear.mine.at(far), times[far], fixed).items():
+        sampled[name] = np.zeros_like(weight)
+        sampled[name][..., far] = half_width
+    return replace(linear, weight=weight, sampled=sampled)
+
+
+def _sampled(
+    solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray
+) -> dict[str, FloatArray]:
+    """95 % quantiles of the distances of a sample from the answer, by name, and of the pole's."""
+    perihelion = followed_perihelion(solved.setting.orbit, np.append(times, 0.0), fixed)
+    names = [name for name in mine.values if name not in OF_THE_ORBIT]
+    span, quantiles = (float(times.min()), float(times.max())), Quantiles()
+    for amounts in draws(len(solved.uncertainty.causes)):
+        of = changed(solved.setting, solved.uncertainty, amounts)
+        path = solve(of.strength, of.orbit, of.start, span)
+        member = read(path, of, times, fixed, perihelion)
+        distances = {name: moved_by(member, mine, name) for name in names}
+        quantiles.add(distances | {"pole": angle(member.pole, mine.pole)})
+    return quantiles.at_probability()
 
 
 def read(
@@ -150,7 +209,8 @@ def read(
     fixed : ndarray, shape (3, 3)
         Orbit and equinox of J2000.0 in the GCRS.
     orbits : ndarray, shape (n + 1,)
-        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps.
+        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps: that
+        of the orbit, or of the one that it was moved from.
     """
     with_now = np.append(times, 0.0)
     axis = path.at(with_now)
@@ -212,16 +272,6 @@ def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> F
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
     nearest = np.rint(times / LOOK - first).astype(int)
     return followed(angle, np.unwrap(coarse)[nearest])
-
-
-def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray]) -> None:
-    """Bring a longitude of perihelion into the turn of the answer's.
-
-    Where the orbit is all but a circle, one that is a little other goes round the other side of
-    it: from then on it would be a turn off, in an orbit that is hardly another.
-    """
-    own, true = (of["longitude_of_perihelion"] - of["general_precession"] for of in (moved, mine))
-    moved["longitude_of_perihelion"] += _TURN * np.rint((true - own) / _TURN)
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:
