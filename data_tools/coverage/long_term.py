@@ -73,11 +73,11 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
             for sign, word in ((-1, "before"), (1, "after")):
                 at = (years > first) & (years <= first + BIN)
                 at &= np.sign(claimed.epoch.values) == sign
-                span = f"{first / 1000:g} to {(first + BIN) / 1000:g} Myr {word} J2000.0"
+                stretch = f"{first // 1000} to {(first + BIN) // 1000} Myr {word} J2000.0"
                 found.append(
                     Row(
                         f"`{name}` of {body.name.title()}",
-                        span,
+                        stretch,
                         "members with all causes drawn afresh",
                         float(worst[name][at].max()),
                         float(inside[name][at].mean() / members),

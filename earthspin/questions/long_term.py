@@ -22,7 +22,7 @@ from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
-from earthspin.sky.orbit_table import OrbitTable
+from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.units import AngleError, Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
@@ -165,12 +165,17 @@ def strength(
     """The constant of precession today and how it changes.
 
     From the rates of `precession` over the cosine of the obliquity; what is published of second
-    order, planets, J4 and the inside goes with the Moon's share.
+    order, planets, J4 and the inside goes with the Moon's share. What the lag of the Moon's plane
+    does at J2000.0, which those rates contain, is taken out of it.
     """
     from earthspin.secular import strength as of
+    from earthspin.secular.orbit import moons_height
+    from earthspin.torque.quadrupole import dot
 
-    cosine = math.cos(mean_torques.obliquity)
-    eccentricity = float(np.linalg.norm(orbit_table.at(np.zeros(1))[1]))
+    cosine, now = math.cos(mean_torques.obliquity), orbit_table.at(np.zeros(1))
+    # the rates are those on the body's own orbit, whichever is given
+    own = shipped(body.name) or orbit_table
+    eccentricity = float(np.linalg.norm(own.at(np.zeros(1))[1]))
     motion = 2 * math.pi / body.number("orbital_period")
     geodesic = of.geodesic_precession(SUN.gm, motion, eccentricity)
     sun, spin_rate, tides, ellipticity, j2_rate = numbers.columns(
@@ -180,15 +185,18 @@ def strength(
     if "moon" not in numbers.numbers:
         return of.Strength(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
     moon, published = numbers.columns("moon", "published")
+    node_rate = 2 * math.pi / MOON.cycle
+    pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
+    by_lag = float((moons_height(now, pole, node_rate) / dot(now[0], pole)).item())
     return of.Strength(
         sun,
-        (moon + published) / cosine,
+        (moon + published) / (cosine * by_lag),
         eccentricity,
         geodesic,
         ellipticity,
         tides=of.Tides.of_the_earth(tides, spin_rate, 2 * math.pi / MOON.number("orbital_period")),
         j2_rate=j2_rate,
-        node_rate=2 * math.pi / MOON.cycle,
+        node_rate=node_rate,
     )
 
 

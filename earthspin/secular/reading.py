@@ -19,7 +19,7 @@ from earthspin.errors import ApartError, UndefinedError
 from earthspin.nutation.angles import followed, general_precession
 from earthspin.secular.angles import beside, seasons
 from earthspin.secular.budget import Setting, Solved, changed
-from earthspin.secular.orbit import Orbit
+from earthspin.secular.orbit import Orbit, moons_height
 from earthspin.secular.sample import Quantiles, draws
 from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import dot
@@ -214,8 +214,9 @@ def read(
     """
     with_now = np.append(times, 0.0)
     axis = path.at(with_now)
-    normal, eccentricity, _ = setting.orbit.at(with_now)
-    n, e = beside(axis, normal), beside(axis, eccentricity)
+    shape = setting.orbit.at(with_now)
+    normal, eccentricity, _ = shape
+    n, e, turning = (beside(axis, of) for of in shape)
     of = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
@@ -223,10 +224,11 @@ def read(
     perihelion = followed(perihelion, orbits + general)
     perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
     e2 = np.sum(eccentricity**2, axis=0)
-    height = np.sum(axis * n, axis=0)
     strength = setting.strength
-    sun = replace(strength, moon=0.0).constant(with_now, e2) * height
-    both = strength.constant(with_now, e2) * height
+    by_sun = replace(strength, moon=0.0).constant(with_now, e2)
+    by_moon = strength.constant(with_now, e2) - by_sun
+    sun = by_sun * dot(n, axis)
+    moon = by_moon * moons_height((n, e, turning), axis, strength.node_rate)
     values = {
         "obliquity": of.obliquity,
         "longitude_of_perihelion": perihelion,
@@ -237,8 +239,8 @@ def read(
         "climatic_precession": of.climatic_precession,
         "coprecession": of.coprecession,
         "sun": sun,
-        "moon": both - sun,
-        "total": both - strength.geodesic_rate(e2),
+        "moon": moon,
+        "total": sun + moon - strength.geodesic_rate(e2),
     }
     told = {name: of[..., :-1] for name, of in values.items()}
     return Read(told, axis[..., :-1], normal[:, :-1])

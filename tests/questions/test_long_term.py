@@ -96,7 +96,7 @@ def test_a_step_does_not_change_what_is_between(million: xr.Dataset) -> None:
 
 def test_errors_grow_away_from_today(million: xr.Dataset) -> None:
     for name in ("pole_error", "obliquity_error", "longitude_of_perihelion_error"):
-        late, early = million[name].sel(epoch=[-1000.0, -100_000.0]).values
+        late, early = million[name].sel(epoch=[-1000.0, -500_000.0]).values
         assert 0 < late < early, name
         assert early < float(million[name].isel(epoch=slice(0, 100)).max()), name
     assert float(million.pole_error.isel(epoch=-1)) == pytest.approx(1.96e-3, rel=0.01, abs=0)
