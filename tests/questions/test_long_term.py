@@ -145,15 +145,24 @@ def test_the_rate_at_j2000_is_that_of_precession_with_its_published_additions() 
     )
 
 
-@pytest.mark.parametrize(
-    ("years", "bound"), [(-2000, 0.1), (-1000, 0.05), (1000, 0.05), (2000, 0.1)]
-)
-def test_the_pole_joins_iau_2006(years: int, bound: float) -> None:
-    found = earthspin.long_term(times=[years] * u.yr)
-    true = np.asarray(erfa.pmat06(J2000_JD, years * 365.25)[2])
-    off = float(np.linalg.norm(found.pole.values[0] - true) / ARCSEC)
-    assert off < bound
-    assert off < 1.5 * float(found.pole_error[0]) + 0.05
+def test_half_widths_contain_iau_2006_over_two_thousand_years() -> None:
+    """As returned: angles of ERFA's p06e, and directions of pmat06 and ecm06."""
+    years = np.arange(-1000.0, 1001.0, 10.0)
+    found = earthspin.long_term(times=years * u.yr)
+    iau = {name: [] for name in ("psi_A", "omega_A", "obliquity", "general_precession")}
+    directions = {"pole": [], "ecliptic_pole": []}
+    for days in years * 365.25:
+        angles = erfa.p06e(J2000_JD, days)
+        for name, place in zip(iau, (1, 2, 7, 12), strict=True):
+            iau[name].append(np.degrees(angles[place]))
+        directions["pole"].append(erfa.pmat06(J2000_JD, days)[2])
+        directions["ecliptic_pole"].append(erfa.ecm06(J2000_JD, days)[2])
+    for name, angles in iau.items():
+        inside = np.abs(found[name] - angles) <= found[f"{name}_error"]
+        assert float(inside.mean()) >= 0.95, name
+    for name, vectors in directions.items():
+        off = np.linalg.norm(found[name].values - np.array(vectors), axis=1) / ARCSEC
+        assert np.all(off <= found[f"{name}_error"].values), name
 
 
 def test_the_matrices_join_iau_2006() -> None:
