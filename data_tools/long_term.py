@@ -1,14 +1,23 @@
-"""The tables of docs/long_term.md: effects, the error by cause, and other solutions beside ours."""
+"""The tables of docs/long_term.md: effects, the error by cause, and other solutions beside ours.
+
+Files of other solutions are given by path: `--solutions INSOLN.LA2004.BTL.ASC La2010a_ecc3L.dat`.
+The package inso (PyPI) holds those of Laskar and others, for the Earth and Mars; the repository
+japhir/paleoinsolation (GitHub) holds out/ZB18a_insolation.dat.
+"""
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import erfa
 import numpy as np
+from astropy import units
 from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, MOON, SUN, Body
@@ -24,13 +33,14 @@ from earthspin.secular.trajectory import solve
 
 FloatArray = NDArray[np.float64]
 
-#: Obliquity (rad) and climatic precession of the nominal solution of Laskar et al. (2004), A&A 428,
-#: 261, file INSOLN.LA2004.BTL.ASC of the IMCCE, by thousands of years from J2000.0.
-LA2004 = {
-    -1000: (0.4123891471500025, -0.033760490135305736),
-    -200: (0.4037251011418818, -0.03833572638169867),
-    -100: (0.4130265591582125, -0.0006501053038830341),
-    0: (0.4090928042223415, 0.01627964595166013),
+#: Spans, kyr from J2000.0 either way, over which solutions of others are compared.
+SPANS = (0, 20, 100, 500, 1000, 3000, 5000, 7500, 10_000)
+#: Columns of their files, by how many there are: La2010 (eccentricity alone), La2004 and La93, and
+#: ZB18a (with insolation). Times in kyr; perihelia from the moving equinox.
+COLUMNS = {
+    2: ("time", "eccentricity"),
+    4: ("time", "eccentricity", "obliquity", "perihelion"),
+    5: ("time", "eccentricity", "obliquity", "perihelion", "insolation"),
 }
 #: Where poles are compared, and the epochs at which errors are listed, yr.
 NEAR = (-2000, -1000, -500, 500, 1000, 2000)
@@ -135,18 +145,51 @@ def beside() -> dict[int, tuple[float, float, float, float]]:
     return found
 
 
-def beside_la2004() -> dict[int, tuple[float, float, float, float]]:
-    """By kyr: obliquity (arcsec) and climatic precession, ours less La2004; errors of both."""
-    of = question.long_term(times=[f"{kyr} kyr" for kyr in LA2004])
+def read_solution(path: Path) -> dict[str, FloatArray]:
+    """Columns of a file of another solution within ten million years; angles in rad."""
+    rows = np.array(
+        [
+            [float(word.replace("D", "e")) for word in line.split()]
+            for line in path.read_text().splitlines()
+        ]
+    )
+    rows = rows[np.abs(rows[:, 0]) <= SPANS[-1]]
+    columns = dict(zip(COLUMNS[rows.shape[1]], rows.T, strict=True))
+    for name in ("obliquity", "perihelion"):
+        if rows.shape[1] == 5:
+            columns[name] = np.radians(columns[name])
+    return columns
+
+
+def beside_solution(path: Path) -> dict[str, list[float]]:
+    """By quantity and span (kyr): rms and largest difference, median half-width, share inside.
+
+    Obliquities in arcsec, eccentricity and climatic precession in 1e-5. A file of Mars has MARS in
+    its name.
+    """
+    theirs = read_solution(path)
+    body = "mars" if "MARS" in path.name else "earth"
+    pulling = ("sun",) if body == "mars" else ("sun", "moon")
+    times = theirs["time"]
+    ours = question.long_term(times=times * 1000 * units.yr, body=body, perturbers=pulling)
+    quantities = {"eccentricity": (theirs["eccentricity"], 1e-5)}
+    if "obliquity" in theirs:
+        quantities["obliquity"] = np.degrees(theirs["obliquity"]), 1 / 3600
+        climate = theirs["eccentricity"] * np.sin(theirs["perihelion"])
+        quantities["climatic_precession"] = climate, 1e-5
     found = {}
-    for place, (kyr, (tilt, climate)) in enumerate(LA2004.items()):
-        at = of.isel(epoch=place)
-        found[kyr] = (
-            (float(at.obliquity) - math.degrees(tilt)) * 3600,
-            float(at.climatic_precession) - climate,
-            float(at.obliquity_error) * 3600,
-            float(at.climatic_precession_error),
-        )
+    for name, (values, unit) in quantities.items():
+        apart = (ours[name].values - values) / unit
+        half_width = ours[f"{name}_error"].values / unit
+        for first, last in itertools.pairwise(SPANS):
+            at = (np.abs(times) >= first) & (np.abs(times) < last)
+            if at.any():
+                found[f"{name}, {first} to {last} kyr"] = [
+                    float(np.sqrt(np.mean(apart[at] ** 2))),
+                    float(np.abs(apart[at]).max()),
+                    float(np.median(half_width[at])),
+                    float(np.mean(np.abs(apart[at]) <= half_width[at])),
+                ]
     return found
 
 
@@ -161,14 +204,19 @@ def by_cause() -> dict[str, list[float]]:
 
 
 def main(given: argparse.Namespace) -> int:
-    """Print every table."""
-    for head, rows in (
-        ("effects: obliquity, arcsec; p_A, deg; pole at -2 kyr, arcsec", effects()),
-        ("angles between poles, arcsec: IAU 2006; ltp; those two; our error", beside()),
-        ("ours less La2004: obliquity, arcsec; climatic precession; errors", beside_la2004()),
-        ("share in the error of the perihelion, deg, 1 to 1000 kyr back", by_cause()),
-    ):
+    """Print every table, or those of the solutions whose files are given."""
+    tables: list[tuple[str, Mapping[Any, Iterable[float]]]] = []
+    for path in given.solutions or ():
+        head = f"{path}: rms and largest difference, half-width, share inside"
+        tables.append((head, beside_solution(Path(path))))
+    if not given.solutions:
+        tables += [
+            ("effects: obliquity, arcsec; p_A, deg; pole at -2 kyr, arcsec", effects()),
+            ("angles between poles, arcsec: IAU 2006; ltp; those two; our error", beside()),
+            ("share in the error of the perihelion, deg, 1 to 1000 kyr back", by_cause()),
+        ]
+    for head, rows in tables:
         print(head)
         for name, numbers in rows.items():
-            print(f"  {name!s:22}", *(f"{number:12.3g}" for number in numbers))
+            print(f"  {name!s:42}", *(f"{number:12.3g}" for number in numbers))
     return 0
