@@ -10,10 +10,9 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import erfa
 import numpy as np
@@ -26,6 +25,7 @@ from earthspin.parts import averages, orbits
 from earthspin.parts import sky as skies
 from earthspin.questions import long_term as question
 from earthspin.scenes import load_scene, run_tree
+from earthspin.secular.angles import seasons
 from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Changed, Orbit, Shape
 from earthspin.secular.strength import Tides
@@ -42,6 +42,10 @@ COLUMNS = {
     4: ("time", "eccentricity", "obliquity", "perihelion"),
     5: ("time", "eccentricity", "obliquity", "perihelion", "insolation"),
 }
+LISTING = Path(__file__).parents[1] / "docs" / "measured" / "long-term-solutions.inc"
+HEAD = """| file | quantity | span | rms | largest | our half-width | inside |
+|---|---|---|---:|---:|---:|---:|
+"""
 #: Where poles are compared, and the epochs at which errors are listed, yr.
 NEAR = (-2000, -1000, -500, 500, 1000, 2000)
 LISTED = (1e3, 1e4, 1e5, 1e6)
@@ -161,36 +165,91 @@ def read_solution(path: Path) -> dict[str, FloatArray]:
     return columns
 
 
-def beside_solution(path: Path) -> dict[str, list[float]]:
-    """By quantity and span (kyr): rms and largest difference, median half-width, share inside.
+class Beside(NamedTuple):
+    """One quantity of another solution beside ours, over a span.
 
-    Obliquities in arcsec, eccentricity and climatic precession in 1e-5. A file of Mars has MARS in
-    its name.
+    Attributes
+    ----------
+    name, quantity, span : str
+    rms, largest, half_width, inside : float
+        Of the differences, in the unit of the quantity; our median half-width; share inside.
+    """
+
+    name: str
+    quantity: str
+    span: str
+    rms: float
+    largest: float
+    half_width: float
+    inside: float
+
+    def line(self) -> str:
+        """Return the row as a line of a Markdown table."""
+        numbers = (f"{of:.3g}" for of in (self.rms, self.largest, self.half_width))
+        columns = (self.name, self.quantity, self.span, *numbers, f"{100 * self.inside:.0f} %")
+        return f"| {' | '.join(columns)} |\n"
+
+
+def beside_solution(path: Path) -> list[Beside]:
+    """By quantity and span, what the file of another solution holds beside ours, as returned.
+
+    A file of Mars has MARS in its name. The obliquity of the Earth is compared again, over a million
+    years, without the lag of the Moon's plane.
     """
     theirs = read_solution(path)
     body = "mars" if "MARS" in path.name else "earth"
     pulling = ("sun",) if body == "mars" else ("sun", "moon")
-    times = theirs["time"]
-    ours = question.long_term(times=times * 1000 * units.yr, body=body, perturbers=pulling)
-    quantities = {"eccentricity": (theirs["eccentricity"], 1e-5)}
+    ours = question.long_term(times=theirs["time"] * 1000 * units.yr, body=body, perturbers=pulling)
+    quantities = {"eccentricity": ("`eccentricity`, $10^{-5}$", theirs["eccentricity"], 1e-5)}
     if "obliquity" in theirs:
-        quantities["obliquity"] = np.degrees(theirs["obliquity"]), 1 / 3600
         climate = theirs["eccentricity"] * np.sin(theirs["perihelion"])
-        quantities["climatic_precession"] = climate, 1e-5
-    found = {}
-    for name, (values, unit) in quantities.items():
-        apart = (ours[name].values - values) / unit
+        quantities["obliquity"] = "`obliquity`, ″", np.degrees(theirs["obliquity"]), 1 / 3600
+        quantities["climatic_precession"] = "`climatic_precession`, $10^{-5}$", climate, 1e-5
+    found = []
+    for name, (quantity, values, unit) in quantities.items():
         half_width = ours[f"{name}_error"].values / unit
-        for first, last in itertools.pairwise(SPANS):
-            at = (np.abs(times) >= first) & (np.abs(times) < last)
-            if at.any():
-                found[f"{name}, {first} to {last} kyr"] = [
+        found += _by_span(path, quantity, theirs, (ours[name].values - values) / unit, half_width)
+    if body == "earth" and "obliquity" in theirs:
+        near = np.abs(theirs["time"]) < 1000
+        theirs = {name: column[near] for name, column in theirs.items()}
+        apart = (without_lag(theirs["time"]) - theirs["obliquity"]) / ARCSEC
+        half_width = ours.obliquity_error.values[near] * 3600
+        found += _by_span(path, "`obliquity` without the lag, ″", theirs, apart, half_width)
+    return found
+
+
+def _by_span(
+    path: Path, quantity: str, theirs: dict[str, FloatArray], apart: FloatArray, half: FloatArray
+) -> list[Beside]:
+    """Rows of one quantity."""
+    kyr, found = np.abs(theirs["time"]), []
+    way = "back" if theirs["time"][-1] < 0 else "ahead"
+    for first, last in itertools.pairwise(SPANS):
+        at = (kyr >= first) & (kyr < last)
+        if at.any():
+            found.append(
+                Beside(
+                    f"`{path.name}`",
+                    quantity,
+                    f"{first} to {last} kyr {way}",
                     float(np.sqrt(np.mean(apart[at] ** 2))),
                     float(np.abs(apart[at]).max()),
-                    float(np.median(half_width[at])),
-                    float(np.mean(np.abs(apart[at]) <= half_width[at])),
-                ]
+                    float(np.median(half[at])),
+                    float(np.mean(np.abs(apart[at]) <= half[at])),
+                )
+            )
     return found
+
+
+def without_lag(kyr: FloatArray) -> FloatArray:
+    """Our obliquity without the lag of the Moon's plane, rad."""
+    times = kyr * 1000 * JULIAN_YEAR
+    setting = solution(EARTH, times).setting
+    setting = replace(setting, strength=replace(setting.strength, node_rate=math.inf))
+    span = float(times.min()), float(times.max())
+    path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
+    normal, eccentricity, _ = setting.orbit.at(times)
+    return seasons(path.at(times), normal, eccentricity).obliquity
 
 
 def by_cause() -> dict[str, list[float]]:
@@ -204,19 +263,20 @@ def by_cause() -> dict[str, list[float]]:
 
 
 def main(given: argparse.Namespace) -> int:
-    """Print every table, or those of the solutions whose files are given."""
-    tables: list[tuple[str, Mapping[Any, Iterable[float]]]] = []
-    for path in given.solutions or ():
-        head = f"{path}: rms and largest difference, half-width, share inside"
-        tables.append((head, beside_solution(Path(path))))
-    if not given.solutions:
-        tables += [
-            ("effects: obliquity, arcsec; p_A, deg; pole at -2 kyr, arcsec", effects()),
-            ("angles between poles, arcsec: IAU 2006; ltp; those two; our error", beside()),
-            ("share in the error of the perihelion, deg, 1 to 1000 kyr back", by_cause()),
-        ]
-    for head, rows in tables:
+    """Print every table, or write that of the solutions whose files are given."""
+    if given.solutions:
+        rows: list[Beside] = []
+        for path in map(Path, given.solutions):
+            rows += beside_solution(path)
+        LISTING.write_text(HEAD + "".join(row.line() for row in rows), encoding="utf-8")
+        print(f"wrote {LISTING.name}")
+        return 0
+    for head, table in (
+        ("effects: obliquity, arcsec; p_A, deg; pole at -2 kyr, arcsec", effects()),
+        ("angles between poles, arcsec: IAU 2006; ltp; those two; our error", beside()),
+        ("share in the error of the perihelion, deg, 1 to 1000 kyr back", by_cause()),
+    ):
         print(head)
-        for name, numbers in rows.items():
-            print(f"  {name!s:42}", *(f"{number:12.3g}" for number in numbers))
+        for name, numbers in table.items():
+            print(f"  {name!s:22}", *(f"{number:12.3g}" for number in numbers))
     return 0

@@ -56,8 +56,10 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
         the moving equinox, unwrapped), `general_precession`, `psi_A`, `omega_A` (deg),
         `eccentricity`, `climatic_precession`, `coprecession`, `pole` and `ecliptic_pole` (unit
         vectors in the GCRS, over `component`), `precession_rate` (arcsec/yr) and
-        `precession_period` (yr) over `perturber`; each with its error. Sections: `budget` of the
-        error by cause, `matrices` from J2000.0 to mean equator and equinox of date.
+        `precession_period` (yr) over `perturber`; each with its error. Where the phase of
+        precession is uncertain by more than 0.1 rad, for the Earth beyond a million years, errors
+        are quantiles over a sample of solutions. Sections: `budget` of the error by cause,
+        `matrices` from J2000.0 to mean equator and equinox of date.
 
     Raises
     ------
@@ -375,6 +377,11 @@ def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> xr.Dataset
 # --- sections ------------------------------------------------------------------------------------
 
 _SHARE = ("cause", "epoch")
+#: What shares mean where errors are quantiles over a sample.
+_ONE_AT_A_TIME = (
+    "of solutions with one cause changed at a time; where the phase error exceeds 0.1 rad, errors "
+    "are quantiles over solutions with all causes changed, and shares do not add up to them"
+)
 BUDGET = without_error(
     "a share of an error",
     {
@@ -395,7 +402,7 @@ def budget(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Da
         "longitude_share": readings.apart("longitude_of_perihelion"),
         "pole_share": readings.poles_apart("pole"),
     }
-    return build(
+    found = build(
         BUDGET,
         {
             name: numbers.lay(np.stack(np.broadcast_arrays(*by_cause.values()), axis=-2), *_SHARE)
@@ -403,6 +410,7 @@ def budget(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Da
         },
         coords={"cause": list(shares["pole_share"]), "epoch": series.epoch},
     )
+    return found.assign_attrs(comment=_ONE_AT_A_TIME)
 
 
 MATRICES = covered_by(
@@ -445,8 +453,9 @@ def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.
 def neglected() -> Neglected:
     """What neither equation nor orbit holds, and no half-width stands for."""
     return Neglected(
-        what="asteroids and the Sun's flattening in the orbit, friction between core and mantle, "
-        "ice ages in the figure: not measured; past some million years the orbit is chaotic"
+        what="friction between core and mantle, ice ages in the figure: not measured; asteroids "
+        "and the Sun's flattening in the orbit: in the errors of a shipped orbit, not in those of "
+        "one that is given; past some fifty million years the orbit is chaotic"
     )
 
 
