@@ -193,8 +193,8 @@ class Beside(NamedTuple):
 def beside_solution(path: Path) -> list[Beside]:
     """By quantity and span, what the file of another solution holds beside ours, as returned.
 
-    A file of Mars has MARS in its name. The obliquity of the Earth is compared again, over a million
-    years, without the lag of the Moon's plane.
+    A file of Mars has MARS in its name. The obliquity of the Earth is compared again, over a
+    million years, without the lag of the Moon's plane.
     """
     theirs = read_solution(path)
     body = "mars" if "MARS" in path.name else "earth"

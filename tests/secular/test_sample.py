@@ -34,7 +34,9 @@ NAMES = ("obliquity", "climatic_precession", "longitude_of_perihelion", "psi_A",
 def test_each_cause_has_one_member_in_each_stratum() -> None:
     probability = np.sort(ndtr(draws(7) * NORMAL_95), axis=0)
     strata = (np.arange(MEMBERS) + 0.5) / MEMBERS
-    assert probability == pytest.approx(np.repeat(strata[:, np.newaxis], 7, axis=1), rel=1e-12)
+    assert probability == pytest.approx(
+        np.repeat(strata[:, np.newaxis], 7, axis=1), rel=1e-12, abs=0
+    )
     correlation = np.corrcoef(draws(7).T) - np.eye(7)
     assert np.abs(correlation).max() < 0.35
 
