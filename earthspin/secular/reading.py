@@ -59,11 +59,6 @@ class Read:
     pole: FloatArray
     normal: FloatArray
 
-    def at(self, epochs: NDArray[np.bool_]) -> Read:
-        """The same at some of the epochs."""
-        values = {name: of[..., epochs] for name, of in self.values.items()}
-        return Read(values, self.pole[..., epochs], self.normal[:, epochs])
-
 
 @dataclass(frozen=True)
 class Readings:
@@ -169,14 +164,9 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
     )
     phase = phase_error(solved, times)
     weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
-    far = np.any(weight > 0, axis=tuple(range(weight.ndim - 1)))
-    if not far.any():
+    if not np.any(weight > 0):
         return linear
-    sampled = {}
-    for name, half_width in _sampled(solved, linear.mine.at(far), times[far], fixed).items():
-        sampled[name] = np.zeros_like(weight)
-        sampled[name][..., far] = half_width
-    return replace(linear, weight=weight, sampled=sampled)
+    return replace(linear, weight=weight, sampled=_sampled(solved, mine, times, fixed, perihelion))
 
 
 def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
@@ -201,10 +191,9 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
 
 
 def _sampled(
-    solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray
+    solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
 ) -> dict[str, FloatArray]:
     """95 % quantiles of the distances of a sample from the answer, by name, and of the pole's."""
-    perihelion = followed_perihelion(solved.setting.orbit, np.append(times, 0.0), fixed)
     names = [name for name in mine.values if name not in OF_THE_ORBIT]
     span, quantiles = (float(times.min()), float(times.max())), Quantiles()
     for amounts in draws(len(solved.uncertainty.causes)):

@@ -315,6 +315,7 @@ TOLD = [
         "inside the half-widths in {} to {} % of cases",
         "docs/measured/coverage-long-term.inc",
     ),
+    Told(PAGE, "three times what {} stands for", OF_FILES),
     Told(PAGE, "between {} and {} kyr falls from {}″ to {}″. IAU", OF_FILES),
     Told(
         PAGE,
