@@ -1,15 +1,17 @@
-"""Coverage of the half-widths of `long_term`: solutions with all causes changed, drawn afresh."""
+"""Coverage of the half-widths of `long_term`: IAU 2006, and solutions drawn afresh."""
 
 from __future__ import annotations
 
+import erfa
 import numpy as np
+from astropy import units
 from numpy.typing import NDArray
 
 import earthspin
 from data_tools.coverage import Row
 from data_tools.long_term import solution
 from earthspin.bodies import EARTH, MARS, Body
-from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
+from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
 from earthspin.secular.budget import changed
 from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
 from earthspin.secular.trajectory import solve
@@ -34,8 +36,40 @@ BIN = 1000
 
 
 def rows() -> list[Row]:
-    """By body, quantity and million years: fresh members inside the half-widths."""
-    return [row for body, reach in ((EARTH, 10), (MARS, 10)) for row in of_body(body, reach)]
+    """Beside IAU 2006; by body, quantity and million years, fresh members."""
+    return [*beside_iau(), *of_body(EARTH, 10), *of_body(MARS, 10)]
+
+
+def beside_iau() -> list[Row]:
+    """Angles and poles beside ERFA's p06e, pmat06 and ecm06, every ten years."""
+    years = np.arange(-1000.0, 1001.0, 10.0)
+    claimed = earthspin.long_term(times=years * units.yr)
+    days = 365.25 * years
+    angles = erfa.p06e(J2000_JD, days)
+    apart = {
+        name: np.abs(claimed[name].values - np.degrees(angles[place]))
+        for name, place in (
+            ("psi_A", 1),
+            ("omega_A", 2),
+            ("obliquity", 7),
+            ("general_precession", 12),
+        )
+    }
+    for name, matrix in (("pole", erfa.pmat06), ("ecliptic_pole", erfa.ecm06)):
+        theirs = matrix(J2000_JD, days)[:, 2]
+        apart[name] = np.linalg.norm(claimed[name].values - theirs, axis=1) / ARCSEC
+    ratios = {name: of / claimed[f"{name}_error"].values for name, of in apart.items()}
+    return [
+        Row(
+            f"`{name}` of Earth",
+            "1,000 years either way",
+            "IAU 2006 (ERFA)",
+            float(ratio.max()),
+            float(np.mean(ratio <= 1)),
+            ratio.size,
+        )
+        for name, ratio in ratios.items()
+    ]
 
 
 def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) -> list[Row]:

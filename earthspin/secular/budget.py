@@ -3,7 +3,8 @@
 Each cause is a change of what the solution stands on, by its 95 % half-width; the solution is made
 again with it, and how far it then lies away is the share of that cause. Up to a few thousand years
 the constant of precession and the rate of J2 count; beyond ten thousand years what counts is the
-Earth itself: how its tides and its figure were in the past.
+Earth itself: how its tides and its figure were in the past. Where that makes changes large, all
+causes are changed at once (`sample`).
 """
 
 from __future__ import annotations
