@@ -90,6 +90,12 @@ def main(words: list[str] | None = None) -> int:
             one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
         if verb in OF_SEVERAL:
             one.add_argument("--only", choices=OF_SEVERAL[verb], help="one of them (default: all)")
+        if verb == "long-term":
+            one.add_argument("--solutions", nargs="+", help="files of other solutions to compare")
+        if verb == "orbits":
+            one.add_argument(
+                "--left-out", action="store_true", help="measure what the tables leave out instead"
+            )
     given = parser.parse_args(words)
     try:
         return VERBS[given.verb][0](given)

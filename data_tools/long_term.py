@@ -1,37 +1,51 @@
-"""The tables of docs/long_term.md: effects, the error by cause, and other solutions beside ours."""
+"""The tables of docs/long_term.md: effects, the error by cause, and other solutions beside ours.
+
+Files of other solutions are given by path: `--solutions INSOLN.LA2004.BTL.ASC La2010a_ecc3L.dat`.
+The package inso (PyPI) holds those of Laskar and others, for the Earth and Mars; the repository
+japhir/paleoinsolation (GitHub) holds out/ZB18a_insolation.dat.
+"""
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import erfa
 import numpy as np
+from astropy import units
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, MOON, SUN
+from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR
 from earthspin.parts import averages, orbits
 from earthspin.parts import sky as skies
 from earthspin.questions import long_term as question
 from earthspin.scenes import load_scene, run_tree
-from earthspin.secular.budget import Setting
+from earthspin.secular.angles import seasons
+from earthspin.secular.budget import Setting, Solved
 from earthspin.secular.orbit import Changed, Orbit, Shape
 from earthspin.secular.strength import Tides
 from earthspin.secular.trajectory import solve
 
 FloatArray = NDArray[np.float64]
 
-#: Obliquity (rad) and climatic precession of the nominal solution of Laskar et al. (2004), A&A 428,
-#: 261, file INSOLN.LA2004.BTL.ASC of the IMCCE, by thousands of years from J2000.0.
-LA2004 = {
-    -1000: (0.4123891471500025, -0.033760490135305736),
-    -200: (0.4037251011418818, -0.03833572638169867),
-    -100: (0.4130265591582125, -0.0006501053038830341),
-    0: (0.4090928042223415, 0.01627964595166013),
+#: Spans, kyr from J2000.0 either way, over which solutions of others are compared.
+SPANS = (0, 20, 100, 500, 1000, 3000, 5000, 7500, 10_000)
+#: Columns of their files, by how many there are: La2010 (eccentricity alone), La2004 and La93, and
+#: ZB18a (with insolation). Times in kyr; perihelia from the moving equinox.
+COLUMNS = {
+    2: ("time", "eccentricity"),
+    4: ("time", "eccentricity", "obliquity", "perihelion"),
+    5: ("time", "eccentricity", "obliquity", "perihelion", "insolation"),
 }
+LISTING = Path(__file__).parents[1] / "docs" / "measured" / "long-term-solutions.inc"
+HEAD = """| file | quantity | span | rms | largest | our half-width | inside |
+|---|---|---|---:|---:|---:|---:|
+"""
 #: Where poles are compared, and the epochs at which errors are listed, yr.
 NEAR = (-2000, -1000, -500, 500, 1000, 2000)
 LISTED = (1e3, 1e4, 1e5, 1e6)
@@ -50,24 +64,24 @@ def _round(orbit: Orbit) -> Orbit:
     return Changed(orbit, change)
 
 
-def earths() -> Setting:
-    """What the solution for the Earth stands on, as the question makes it."""
+def solution(body: Body, times: FloatArray) -> Solved:
+    """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)
-    pulling = SUN, MOON
-    sky = skies.sky(scene.ephemeris, skies.places(EARTH, pulling), scene.source)
-    samples = averages.torque_samples(sky, question.stretch(sky), EARTH, pulling, None)
+    pulling = (SUN, MOON) if body == EARTH else (SUN,)
+    sky = skies.sky(scene.ephemeris, skies.places(body, pulling), scene.source)
+    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling, None)
     means = averages.mean_torques(averages.window_means(samples, pulling))
-    rates = averages.mean_rates(means, EARTH, pulling)
-    table = orbits.orbit_table("own", EARTH)
-    numbers = question.numbers(rates, EARTH, pulling, 1.0, 1.0, None, 0.0, 0.0)
-    strength = question.strength(numbers, means, EARTH, table)
-    return Setting(strength, table, EARTH.needed("pole").mean(np.zeros(1))[0])
+    rates = averages.mean_rates(means, body, pulling)
+    table = orbits.orbit_table("own", body)
+    numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
+    strength = question.strength(numbers, means, body, table)
+    return question.solved(strength, numbers, table, times, body)
 
 
 def without() -> dict[str, Setting]:
     """The same with one effect left out, or changed, at a time."""
-    now = earths()
+    now = solution(EARTH, np.zeros(1)).setting
 
     def changed(**fields: Any) -> Setting:
         return replace(now, strength=replace(now.strength, **fields))
@@ -135,19 +149,107 @@ def beside() -> dict[int, tuple[float, float, float, float]]:
     return found
 
 
-def beside_la2004() -> dict[int, tuple[float, float, float, float]]:
-    """By kyr: obliquity (arcsec) and climatic precession, ours less La2004; errors of both."""
-    of = question.long_term(times=[f"{kyr} kyr" for kyr in LA2004])
-    found = {}
-    for place, (kyr, (tilt, climate)) in enumerate(LA2004.items()):
-        at = of.isel(epoch=place)
-        found[kyr] = (
-            (float(at.obliquity) - math.degrees(tilt)) * 3600,
-            float(at.climatic_precession) - climate,
-            float(at.obliquity_error) * 3600,
-            float(at.climatic_precession_error),
-        )
+def read_solution(path: Path) -> dict[str, FloatArray]:
+    """Columns of a file of another solution within ten million years; angles in rad."""
+    rows = np.array(
+        [
+            [float(word.replace("D", "e")) for word in line.split()]
+            for line in path.read_text().splitlines()
+        ]
+    )
+    rows = rows[np.abs(rows[:, 0]) <= SPANS[-1]]
+    columns = dict(zip(COLUMNS[rows.shape[1]], rows.T, strict=True))
+    for name in ("obliquity", "perihelion"):
+        if rows.shape[1] == 5:
+            columns[name] = np.radians(columns[name])
+    return columns
+
+
+class Beside(NamedTuple):
+    """One quantity of another solution beside ours, over a span.
+
+    Attributes
+    ----------
+    name, quantity, span : str
+    rms, largest, half_width, inside : float
+        Of the differences, in the unit of the quantity; our median half-width; share inside.
+    """
+
+    name: str
+    quantity: str
+    span: str
+    rms: float
+    largest: float
+    half_width: float
+    inside: float
+
+    def line(self) -> str:
+        """Return the row as a line of a Markdown table."""
+        numbers = (f"{of:.3g}" for of in (self.rms, self.largest, self.half_width))
+        columns = (self.name, self.quantity, self.span, *numbers, f"{100 * self.inside:.0f} %")
+        return f"| {' | '.join(columns)} |\n"
+
+
+def beside_solution(path: Path) -> list[Beside]:
+    """By quantity and span, what the file of another solution holds beside ours, as returned.
+
+    A file of Mars has MARS in its name. The obliquity of the Earth is compared again, over a
+    million years, without the lag of the Moon's plane.
+    """
+    theirs = read_solution(path)
+    body = "mars" if "MARS" in path.name else "earth"
+    pulling = ("sun",) if body == "mars" else ("sun", "moon")
+    ours = question.long_term(times=theirs["time"] * 1000 * units.yr, body=body, perturbers=pulling)
+    quantities = {"eccentricity": ("`eccentricity`, $10^{-5}$", theirs["eccentricity"], 1e-5)}
+    if "obliquity" in theirs:
+        climate = theirs["eccentricity"] * np.sin(theirs["perihelion"])
+        quantities["obliquity"] = "`obliquity`, ″", np.degrees(theirs["obliquity"]), 1 / 3600
+        quantities["climatic_precession"] = "`climatic_precession`, $10^{-5}$", climate, 1e-5
+    found = []
+    for name, (quantity, values, unit) in quantities.items():
+        half_width = ours[f"{name}_error"].values / unit
+        found += _by_span(path, quantity, theirs, (ours[name].values - values) / unit, half_width)
+    if body == "earth" and "obliquity" in theirs:
+        near = np.abs(theirs["time"]) < 1000
+        theirs = {name: column[near] for name, column in theirs.items()}
+        apart = (without_lag(theirs["time"]) - theirs["obliquity"]) / ARCSEC
+        half_width = ours.obliquity_error.values[near] * 3600
+        found += _by_span(path, "`obliquity` without the lag, ″", theirs, apart, half_width)
     return found
+
+
+def _by_span(
+    path: Path, quantity: str, theirs: dict[str, FloatArray], apart: FloatArray, half: FloatArray
+) -> list[Beside]:
+    """Rows of one quantity."""
+    kyr, found = np.abs(theirs["time"]), []
+    way = "back" if theirs["time"][-1] < 0 else "ahead"
+    for first, last in itertools.pairwise(SPANS):
+        at = (kyr >= first) & (kyr < last)
+        if at.any():
+            found.append(
+                Beside(
+                    f"`{path.name}`",
+                    quantity,
+                    f"{first} to {last} kyr {way}",
+                    float(np.sqrt(np.mean(apart[at] ** 2))),
+                    float(np.abs(apart[at]).max()),
+                    float(np.median(half[at])),
+                    float(np.mean(np.abs(apart[at]) <= half[at])),
+                )
+            )
+    return found
+
+
+def without_lag(kyr: FloatArray) -> FloatArray:
+    """Our obliquity without the lag of the Moon's plane, rad."""
+    times = kyr * 1000 * JULIAN_YEAR
+    setting = solution(EARTH, times).setting
+    setting = replace(setting, strength=replace(setting.strength, node_rate=math.inf))
+    span = float(times.min()), float(times.max())
+    path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
+    normal, eccentricity, _ = setting.orbit.at(times)
+    return seasons(path.at(times), normal, eccentricity).obliquity
 
 
 def by_cause() -> dict[str, list[float]]:
@@ -161,14 +263,20 @@ def by_cause() -> dict[str, list[float]]:
 
 
 def main(given: argparse.Namespace) -> int:
-    """Print every table."""
-    for head, rows in (
+    """Print every table, or write that of the solutions whose files are given."""
+    if given.solutions:
+        rows: list[Beside] = []
+        for path in map(Path, given.solutions):
+            rows += beside_solution(path)
+        LISTING.write_text(HEAD + "".join(row.line() for row in rows), encoding="utf-8")
+        print(f"wrote {LISTING.name}")
+        return 0
+    for head, table in (
         ("effects: obliquity, arcsec; p_A, deg; pole at -2 kyr, arcsec", effects()),
         ("angles between poles, arcsec: IAU 2006; ltp; those two; our error", beside()),
-        ("ours less La2004: obliquity, arcsec; climatic precession; errors", beside_la2004()),
         ("share in the error of the perihelion, deg, 1 to 1000 kyr back", by_cause()),
     ):
         print(head)
-        for name, numbers in rows.items():
+        for name, numbers in table.items():
             print(f"  {name!s:22}", *(f"{number:12.3g}" for number in numbers))
     return 0

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 #: Topics, each a module of this package.
-TOPICS: tuple[str, ...] = ("pole", "worlds", "chandler", "rotation")
+TOPICS: tuple[str, ...] = ("pole", "long_term", "worlds", "chandler", "rotation")
 FOLDER = Path(__file__).parents[2] / "docs" / "measured"
 HEAD = """| quantity | span or case | compared with | largest ratio | inside | cases |
 |---|---|---|---:|---:|---:|

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.bodies import BODIES, SUN
+from earthspin.bodies import BODIES, SUN, Numeric
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.labels import si
 from earthspin.errors import SceneError, UndefinedError, Where
@@ -20,6 +21,9 @@ FloatArray = NDArray[np.float64]
 
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
 _TURN = 2 * np.pi
+_TURNING = "longitude_of_perihelion"
+#: Half-width of the longitude of perihelion, rad, from which on its share is a quantile over draws.
+SAMPLED_FROM = 0.1
 _CALL = "daily_insolation"
 
 
@@ -93,12 +97,16 @@ def daily_insolation(
     squares = xr.zeros_like(value)
     for place, name in enumerate(_NEEDED):
         half = si(result[f"{name}_error"])
-        ends = []
-        for sign in (-1, 1):
-            moved = list(middle)
-            moved[place] = moved[place] + sign * half
-            ends.append(of(*moved))
-        squares = squares + ((ends[1] - ends[0]) / 2) ** 2
+
+        def moved(by: Numeric, place: int = place, half: xr.DataArray = half) -> xr.DataArray:
+            changed = list(middle)
+            changed[place] = changed[place] + by * half
+            return of(*changed)
+
+        share = (moved(1) - moved(-1)) / 2
+        if name == _TURNING and bool((half > SAMPLED_FROM).any()):
+            share = share.where(half <= SAMPLED_FROM, _quantile(moved, value))
+        squares = squares + share**2
     constant = _constant(solar_constant, body)
     error: xr.DataArray = constant * squares**0.5
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
@@ -112,6 +120,16 @@ def daily_insolation(
         "references": "Berger 1978, J. Atmos. Sci. 35, 2362",
     }
     return found.assign_coords(daily_insolation_error=error)
+
+
+def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
+    """95 % quantile of how far draws of a longitude, which may go round, move a value."""
+    from earthspin.secular.sample import Quantiles, draws
+
+    quantiles = Quantiles()
+    for (by,) in draws(1):
+        quantiles.add({_CALL: (moved(float(by)) - value).values})
+    return value.copy(data=quantiles.at_probability()[_CALL])
 
 
 def _insolation(

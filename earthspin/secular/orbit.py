@@ -104,3 +104,23 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
         strength.constant(times, e2),
         strength.geodesic_rate(e2) * normal,
     )
+
+
+def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
+    """Rate in longitude by the Moon over her constant of precession, shape (..., n).
+
+    It is the cosine of the obliquity, but for the lag of the Moon's plane.
+
+    Parameters
+    ----------
+    shape : Shape
+        Of arrays that broadcast against the axis.
+    axis : ndarray, shape (3, ..., n)
+        Unit vector of the spin axis.
+    node_rate : float
+        rad/s.
+    """
+    normal, _, turning = shape
+    moons, across = normal + cross(normal, turning) / node_rate, cross(axis, normal)
+    along = dot(cross(axis, moons), across) / np.maximum(dot(across, across), 1e-300)
+    return np.asarray(dot(moons, axis) * along)

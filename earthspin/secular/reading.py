@@ -7,8 +7,8 @@ all but round, along looks at the orbit alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -18,9 +18,10 @@ from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.nutation.angles import followed, general_precession
 from earthspin.secular.angles import beside, seasons
-from earthspin.secular.budget import Setting, Solved
-from earthspin.secular.orbit import Orbit
-from earthspin.secular.trajectory import Trajectory
+from earthspin.secular.budget import Setting, Solved, changed
+from earthspin.secular.orbit import Orbit, moons_height
+from earthspin.secular.sample import Quantiles, draws
+from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
@@ -30,6 +31,12 @@ FloatArray = NDArray[np.float64]
 LOOK = 200 * JULIAN_YEAR
 #: Sine of the obliquity below which there is no equinox.
 NO_EQUINOX = 1e-9
+#: Phase error, rad, up to which causes are changed one at a time, and from which on half-widths are
+#: quantiles over a sample; in between, weighted means of the two. A million years of the Earth stay
+#: below.
+LINEAR_TO, SAMPLED_FROM = 0.09, 0.1
+#: What depends on the orbit alone, whose changes are small throughout.
+OF_THE_ORBIT = ("eccentricity",)
 _TURN = 2 * np.pi
 
 
@@ -62,32 +69,57 @@ class Readings:
     mine : Read
     moved : tuple of (str, Read)
         By cause; a cause may stand there more than once, in independent directions.
+    weight : ndarray, shape (..., n)
+        Weight of the sampled half-widths, from 0 to 1.
+    sampled : dict of str to ndarray, shape (..., n)
+        Half-widths by name, and that of the `pole` (rad), as quantiles over a sample; empty where
+        the weight is 0 throughout.
     """
 
     mine: Read
     moved: tuple[tuple[str, Read], ...]
+    weight: FloatArray | float = 0.0
+    sampled: Mapping[str, FloatArray] = field(default_factory=dict)
+
+    def half_width(self, name: str) -> FloatArray:
+        """95 % half-width of a value."""
+        return self._with_sampled(name, together(self.apart(name)))
+
+    def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
+        """95 % half-width of the direction of the pole, or of the normal of the orbit, rad."""
+        return self._with_sampled(which, together(self.poles_apart(which)))
+
+    def _with_sampled(self, name: str, linear: FloatArray) -> FloatArray:
+        if name not in self.sampled:
+            return linear
+        return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
         """By cause, how far a value of the answer is moved."""
-        return _by_cause((cause, self._moved_by(of, name)) for cause, of in self.moved)
+        return _by_cause((cause, moved_by(of, self.mine, name)) for cause, of in self.moved)
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
         """By cause, how far the pole, or the normal of the orbit, is moved, rad."""
         mine = getattr(self.mine, which)
-        return _by_cause(
-            (cause, np.linalg.norm(getattr(of, which) - mine, axis=0)) for cause, of in self.moved
-        )
+        return _by_cause((cause, angle(getattr(of, which), mine)) for cause, of in self.moved)
 
-    def _moved_by(self, of: Read, name: str) -> FloatArray:
-        mine = self.mine.values
-        moved = of.values[name] - mine[name]
-        if name != "longitude_of_perihelion":
-            return moved
-        # an orbit that is all but round may pass on the other side of a circle: of how far its
-        # perihelion itself is moved, whole turns say nothing
-        by_axis = of.values["general_precession"] - mine["general_precession"]
-        by_orbit = moved - by_axis
-        return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+
+def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
+    """How far a value lies from that of the answer."""
+    moved = of.values[name] - mine.values[name]
+    if name != "longitude_of_perihelion":
+        return moved
+    # an orbit that is all but round may pass on the other side of a circle: of how far its
+    # perihelion itself is moved, whole turns say nothing
+    by_axis = of.values["general_precession"] - mine.values["general_precession"]
+    by_orbit = moved - by_axis
+    return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+
+
+def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
+    """Angle between unit vectors, rad, shape (...) from (3, ...)."""
+    half = np.linalg.norm(of - mine, axis=0) / 2
+    return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
@@ -120,19 +152,57 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
         If the axis stands upright on the orbit at one of the times; an ApartError if that of a
         member does.
     """
-    own = solved.setting.orbit
-    with_now = np.append(times, 0.0)
-    perihelion = followed_perihelion(own, with_now, fixed)
-    mine = read(solved.path, solved.setting, times, fixed, perihelion)
+    setting = solved.setting
+    perihelion = followed_perihelion(setting.orbit, np.append(times, 0.0), fixed)
+    mine = read(solved.path, setting, times, fixed, perihelion)
     _refuse_upright(mine.values["obliquity"], times)
-    moved = []
-    for cause, path, setting in solved.others:
-        same = setting.orbit is own
-        orbits = perihelion if same else followed_perihelion(setting.orbit, with_now, fixed)
-        other = read(path, setting, times, fixed, orbits)
-        _on_the_same_side(other.values, mine.values)
-        moved.append((cause, other))
-    return Readings(mine, tuple(moved))
+    linear = Readings(
+        mine,
+        tuple(
+            (cause, read(path, of, times, fixed, perihelion)) for cause, path, of in solved.others
+        ),
+    )
+    phase = phase_error(solved, times)
+    weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
+    if not np.any(weight > 0):
+        return linear
+    return replace(linear, weight=weight, sampled=_sampled(solved, mine, times, fixed, perihelion))
+
+
+def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
+    """Largest phase error between J2000.0 and some times, rad, shape (..., n).
+
+    It is the half-width of the axis over the sine of its obliquity. It may shrink again, as that of
+    Mars does, but changes are no longer proportional to their causes after it was large.
+    """
+    edges = solved.path.windows.edges
+    axis = solved.path.at(edges)
+    normal = beside(axis, solved.setting.orbit.at(edges)[0])
+    sine = np.maximum(np.linalg.norm(np.cross(axis, normal, axis=0), axis=0), NO_EQUINOX)
+    squares = sum(angle(path.at(edges), axis) ** 2 for _, path, _ in solved.others)
+    error = np.sqrt(squares) / sine
+    past, future = edges <= 0, edges >= 0
+    error[..., future] = np.maximum.accumulate(error[..., future], axis=-1)
+    backward = np.maximum.accumulate(error[..., past][..., ::-1], axis=-1)
+    error[..., past] = backward[..., ::-1]
+    after = np.clip(np.searchsorted(edges, times), 1, len(edges) - 1)
+    share = (times - edges[after - 1]) / (edges[after] - edges[after - 1])
+    return np.asarray(error[..., after - 1] * (1 - share) + error[..., after] * share)
+
+
+def _sampled(
+    solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
+) -> dict[str, FloatArray]:
+    """95 % quantiles of the distances of a sample from the answer, by name, and of the pole's."""
+    names = [name for name in mine.values if name not in OF_THE_ORBIT]
+    span, quantiles = (float(times.min()), float(times.max())), Quantiles()
+    for amounts in draws(len(solved.uncertainty.causes)):
+        of = changed(solved.setting, solved.uncertainty, amounts)
+        path = solve(of.strength, of.orbit, of.start, span)
+        member = read(path, of, times, fixed, perihelion)
+        distances = {name: moved_by(member, mine, name) for name in names}
+        quantiles.add(distances | {"pole": angle(member.pole, mine.pole)})
+    return quantiles.at_probability()
 
 
 def read(
@@ -150,12 +220,14 @@ def read(
     fixed : ndarray, shape (3, 3)
         Orbit and equinox of J2000.0 in the GCRS.
     orbits : ndarray, shape (n + 1,)
-        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps.
+        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps: that
+        of the orbit, or of the one that it was moved from.
     """
     with_now = np.append(times, 0.0)
     axis = path.at(with_now)
-    normal, eccentricity, _ = setting.orbit.at(with_now)
-    n, e = beside(axis, normal), beside(axis, eccentricity)
+    shape = setting.orbit.at(with_now)
+    normal, eccentricity, _ = shape
+    n, e, turning = (beside(axis, of) for of in shape)
     of = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
@@ -163,10 +235,11 @@ def read(
     perihelion = followed(perihelion, orbits + general)
     perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
     e2 = np.sum(eccentricity**2, axis=0)
-    height = np.sum(axis * n, axis=0)
     strength = setting.strength
-    sun = replace(strength, moon=0.0).constant(with_now, e2) * height
-    both = strength.constant(with_now, e2) * height
+    by_sun = replace(strength, moon=0.0).constant(with_now, e2)
+    by_moon = strength.constant(with_now, e2) - by_sun
+    sun = by_sun * dot(n, axis)
+    moon = by_moon * moons_height((n, e, turning), axis, strength.node_rate)
     values = {
         "obliquity": of.obliquity,
         "longitude_of_perihelion": perihelion,
@@ -177,8 +250,8 @@ def read(
         "climatic_precession": of.climatic_precession,
         "coprecession": of.coprecession,
         "sun": sun,
-        "moon": both - sun,
-        "total": both - strength.geodesic_rate(e2),
+        "moon": moon,
+        "total": sun + moon - strength.geodesic_rate(e2),
     }
     told = {name: of[..., :-1] for name, of in values.items()}
     return Read(told, axis[..., :-1], normal[:, :-1])
@@ -212,16 +285,6 @@ def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> F
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
     nearest = np.rint(times / LOOK - first).astype(int)
     return followed(angle, np.unwrap(coarse)[nearest])
-
-
-def _on_the_same_side(moved: dict[str, FloatArray], mine: dict[str, FloatArray]) -> None:
-    """Bring a longitude of perihelion into the turn of the answer's.
-
-    Where the orbit is all but a circle, one that is a little other goes round the other side of
-    it: from then on it would be a turn off, in an orbit that is hardly another.
-    """
-    own, true = (of["longitude_of_perihelion"] - of["general_precession"] for of in (moved, mine))
-    moved["longitude_of_perihelion"] += _TURN * np.rint((true - own) / _TURN)
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:

@@ -19,6 +19,7 @@ import re
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -29,7 +30,7 @@ from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.sky.columns import checksum, is_number, lines_of, numbers
 from earthspin.sky.equator import direction
-from earthspin.sky.orbit_table import OrbitTable, fitted, load
+from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,6 +66,9 @@ LARGEST_MOVE = 0.1
 #: How far the Earth's orbit may lean on the ecliptic at J2000.0, rad: short periods reach 3 arcsec,
 #: and the axes that are taken for one another differ by a degree and more.
 NEAR_ECLIPTIC = 60 * ARCSEC
+#: Eccentricities may exceed the largest in the body's own table by this factor. Over ten million
+#: years those of the Earth reach 0.061; over fifty million, 0.067 (file of Laskar et al. 2004).
+MOST_ECCENTRIC = 1.5
 #: Obliquity of the ecliptic that defines ECLIPJ2000 (SPICE, after IAU 1976), rad.
 OBLIQUITY = 84381.448 * ARCSEC
 #: Pole of the Sun, ICRF, deg (IAU_SUN of SPICE; Archinal et al. 2018, CMDA 130, 22).
@@ -147,7 +151,8 @@ def read_orbit(
     ------
     SeriesError
         In one line: gaps, rows out of order or twice, wrong units or axes, an eccentricity of 1 or
-        more, missing numbers, too few rows, an unknown layout.
+        more, or beyond what that of the body reaches, missing numbers, too few rows, an unknown
+        layout.
 
     Examples
     --------
@@ -346,6 +351,7 @@ def _table(
     now = np.array([np.interp(0.0, times, component) for component in n.T])
     if body == "earth":
         _check_ecliptic(rows, now, axes, frame)
+    _check_body(rows, np.linalg.norm(e, axis=1), body)
     n, e = n @ axes, e @ axes
     third = np.mean(n, axis=0)
     third /= np.linalg.norm(third)
@@ -482,3 +488,25 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
         "J2000.0",
         f"it fits frame = '{fits[0]}'" if fits else "other axes or angles? or another body: body =",
     )
+
+
+def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
+    """Refuse eccentricities that the orbit of a body whose table is shipped does not reach."""
+    largest = _largest_eccentricity(body)
+    if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
+        row = int(np.argmax(e > MOST_ECCENTRIC * largest))
+        raise rows.error(
+            f"an eccentricity of {e[row]:g}, where that of {body} stays below {largest:.2g}",
+            "is it another body? body =",
+            row,
+        )
+
+
+@cache
+def _largest_eccentricity(body: str) -> float | None:
+    """Largest eccentricity in the table that is shipped of a body, or nothing."""
+    table = shipped(body)
+    if table is None:
+        return None
+    times = np.arange(table.edges[0], table.edges[-1], TIMES["kyr"])
+    return float(np.linalg.norm(table.at(times)[1], axis=0).max())

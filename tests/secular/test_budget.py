@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
-from earthspin.secular.budget import Setting, changes, moved
+from earthspin.secular.budget import Setting, Uncertainty, changed, changes, moved
 from earthspin.secular.trajectory import solve
 from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 
@@ -14,22 +14,28 @@ SETTING = Setting(earths(), EARTHS, POLE)
 TILT = NORMAL_95 * 0.001 * ARCSEC
 
 
+def uncertainty(
+    constant: float = 1e-6, earth: bool = True, start: tuple[float, ...] = (TILT,)
+) -> Uncertainty:
+    return Uncertainty(constant=constant, start=start, orbit=EARTHS.error, earth=earth)
+
+
 def causes(
-    constant: float = 1e-6, earth: bool = True, pole: tuple[float, ...] = (TILT,)
+    constant: float = 1e-6, earth: bool = True, start: tuple[float, ...] = (TILT,)
 ) -> dict[str, Setting]:
     """By cause; of the orbit's two ways the second."""
-    return dict(changes(SETTING, constant=constant, pole=pole, earth=earth, error=EARTHS.error))
+    return dict(changes(SETTING, uncertainty(constant, earth, start)))
 
 
 def test_what_is_known_of_the_earth_alone_is_left_out_elsewhere() -> None:
     assert set(causes(earth=False)) == {"constant", "start", "orbit"}
-    assert set(causes(earth=False, pole=())) == {"constant", "orbit"}
+    assert set(causes(earth=False, start=())) == {"constant", "orbit"}
     assert set(causes()) == {"constant", "start", "orbit", "J2 rate", "tides", "ellipticity"}
 
 
 @pytest.mark.parametrize("tilt", [TILT, 0.9 * ARCSEC])
 def test_the_start_is_tilted_by_its_half_width_towards_the_orbit_or_away(tilt: float) -> None:
-    start = causes(pole=(tilt,))["start"].start
+    start = causes(start=(tilt,))["start"].start
     assert np.linalg.norm(start) == pytest.approx(1.0, rel=1e-15, abs=0)
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
     moved = np.arccos(start @ normal) - np.arccos(POLE @ normal)
@@ -38,7 +44,7 @@ def test_the_start_is_tilted_by_its_half_width_towards_the_orbit_or_away(tilt: f
 
 
 def test_the_start_is_moved_in_two_directions_across_one_another() -> None:
-    found = changes(SETTING, constant=1e-6, pole=(TILT, TILT), earth=False, error=EARTHS.error)
+    found = changes(SETTING, uncertainty(earth=False, start=(TILT, TILT)))
     tilted, turned = (of.start - POLE for cause, of in found if cause == "start")
     assert np.linalg.norm(turned) == pytest.approx(TILT, rel=1e-6, abs=0)
     assert abs(tilted @ turned) < 1e-6 * TILT**2
@@ -70,7 +76,7 @@ def test_the_j2_band_widens_where_its_rate_has_faded() -> None:
 @pytest.mark.parametrize("way", [0, 1])
 def test_a_moved_orbit_is_moved_by_its_error_and_still_an_orbit(way: int) -> None:
     times = np.linspace(-900, 900, 37) * KYR
-    other = moved(EARTHS, EARTHS.error, way)
+    other = moved(EARTHS, EARTHS.error, np.eye(2)[way])
     n, e, turning = other.at(times)
     n0, e0, turning0 = EARTHS.at(times)
     by_normal, by_shape = EARTHS.error(times)
@@ -85,7 +91,7 @@ def test_a_moved_orbit_is_moved_by_its_error_and_still_an_orbit(way: int) -> Non
 def test_an_orbit_is_moved_in_two_directions_across_one_another() -> None:
     now = np.zeros(1)
     n, e, _ = EARTHS.at(now)
-    found = changes(SETTING, constant=1e-6, pole=(TILT,), earth=True, error=EARTHS.error)
+    found = changes(SETTING, uncertainty())
     (n1, e1, _), (n2, e2, _) = (of.orbit.at(now) for cause, of in found if cause == "orbit")
     by_normal, by_shape = EARTHS.error(now)
     assert abs(np.sum((n1 - n) * (n2 - n))) < 1e-5 * by_normal[0] ** 2
@@ -107,6 +113,29 @@ def test_a_circular_orbit_can_be_moved() -> None:
     circle = replace(
         EARTHS, coefficients=EARTHS.coefficients * [[[1.0]], [[1.0]], [[0.0]], [[0.0]]]
     )
-    n, e, _ = moved(circle, lambda times: np.full((2, times.size), 1e-6), 0).at(np.zeros(1))
+    half_widths = lambda times: np.full((2, times.size), 1e-6)  # noqa: E731
+    n, e, _ = moved(circle, half_widths, (1.0, 0.0)).at(np.zeros(1))
     assert np.linalg.norm(n - circle.at(np.zeros(1))[0]) == pytest.approx(1e-6, rel=1e-6, abs=0)
     assert np.linalg.norm(e) == pytest.approx(1e-6, rel=1e-6, abs=0)
+
+
+def test_all_causes_change_at_once() -> None:
+    """Each as far as alone: the orbit's two ways add as vectors."""
+    amounts = np.array([0.5, -1.0, 0.3, -0.4, 2.0, -0.7, 1.5])
+    now, far, e2 = np.zeros(1), np.array([-1e5 * JULIAN_YEAR]), np.array([0.0167**2])
+    together = changed(SETTING, uncertainty(3e-6), amounts)
+    factors = [1.0, 1.0]
+    for place in (0, 4, 5, 6):
+        alone = changed(SETTING, uncertainty(3e-6), amounts * (np.arange(7) == place))
+        for at, time in enumerate((now, far)):
+            before = SETTING.strength.constant(time, e2)
+            factors[at] *= float((alone.strength.constant(time, e2) / before).item())
+    for factor, time in zip(factors, (now, far), strict=True):
+        changed_by = together.strength.constant(time, e2) / SETTING.strength.constant(time, e2)
+        # products of two changes are left out
+        assert changed_by - 1 == pytest.approx([factor - 1], rel=1e-3, abs=0)
+    assert arcsec(together.start, POLE) == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)
+    n, _, _ = together.orbit.at(now)
+    by_normal = EARTHS.error(now)[0, 0]
+    tilt = np.linalg.norm(n - EARTHS.at(now)[0])
+    assert tilt == pytest.approx(0.5 * by_normal, rel=1e-6, abs=0)

@@ -199,6 +199,18 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         "row 7: an eccentricity of 1; it lies between",
     ),
     "k of 1": (lambda: read_orbit(la2010().assign(k=1.0)), "an eccentricity of 1"),
+    "an Earth with e = 0.6": (
+        lambda: read_orbit(elements().assign(e=0.6)),
+        "an eccentricity of 0.6, where that of earth stays below 0.061; is it another body",
+    ),
+    "an Earth that is all but lost": (
+        lambda: read_orbit(elements().assign(e=0.999999)),
+        "where that of earth stays below",
+    ),
+    "a Mars with e = 0.3": (
+        lambda: read_orbit(elements(world="mars").assign(e=0.3), body="mars"),
+        "that of mars stays below 0.1",
+    ),
     "few rows": (lambda: read_orbit(elements().iloc[150:160]), "10 rows are too few"),
     "no names": (lambda: read_orbit(pd.DataFrame({"x": [1.0]})), "no column t and none e"),
     "words": (

@@ -183,3 +183,34 @@ def test_series_are_legendre_series(tmp_path: Path) -> None:
     time = of.edges[500] + 0.3 * (of.edges[501] - of.edges[500])
     n1 = legendre.legval(-0.4, stored[0, 500])
     assert of.axes[0] @ of.at(np.array([time]))[0][:, 0] == pytest.approx(n1, rel=1e-9, abs=0)
+
+
+#: Eccentricities every 100 kyr: kyr; La2010a, La2010d, La2004 of the Earth; La2004 of Mars.
+ECCENTRICITIES = Path(__file__).parent.parent / "data" / "eccentricities-excerpt.txt"
+
+
+@pytest.mark.parametrize(
+    ("column", "name"), [(1, "earth"), (2, "earth"), (3, "earth"), (4, "mars")]
+)
+def test_half_widths_of_eccentricities_contain_the_solutions_of_others(
+    column: int, name: str
+) -> None:
+    rows = np.loadtxt(ECCENTRICITIES)
+    times, theirs = rows[:, 0] * KYR, rows[:, column]
+    apart = np.abs(np.linalg.norm(table(name).at(times)[1], axis=0) - theirs)
+    half_width = table(name).error(times)[1]
+    for first, last in ((0, 5000), (5000, 10_001)):
+        at = (-rows[:, 0] >= first) & (-rows[:, 0] < last)
+        assert np.mean(apart[at] <= half_width[at]) >= 0.9
+        # not wider than they have to be: 1.96 standard deviations would be a ratio of 0.51
+        assert np.sqrt(np.mean((apart[at] / half_width[at]) ** 2)) > 0.3
+
+
+def test_half_widths_of_a_table_that_is_read_do_not_grow(tmp_path: Path) -> None:
+    """An orbit that is given is taken at its word; one of ours that was written keeps its own."""
+    times = np.arange(-9000.0, 1.0, 1.0) * KYR
+    normal, eccentricity, _ = table("earth").at(times)
+    given_ = fitted("earth", times, normal.T, eccentricity.T, table("earth").axes, "test")
+    assert given_.error(np.array([-8e6 * JULIAN_YEAR]))[1] < 1e-5
+    table("earth").to_file(tmp_path / "own.npz")
+    assert np.array_equal(load(tmp_path / "own.npz").errors, table("earth").errors)

@@ -13,10 +13,14 @@ from astropy.coordinates import SkyCoord
 
 import earthspin
 from data_tools import long_term
+from earthspin.bodies import EARTH
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, SOLAR_CONSTANT
 from earthspin.secular.budget import ELLIPTICITY_DRIFT
-from earthspin.secular.strength import FADES_FROM, FADES_TO
+from earthspin.secular.reading import LINEAR_TO, SAMPLED_FROM
+from earthspin.secular.sample import MEMBERS
+from earthspin.secular.strength import FADES_FROM, FADES_TO, Strength
 from earthspin.sky import orbit_table
+from earthspin.sky.orbit_table import GROWTH
 from tests import shipped
 from tests.docs.numbers.sentence import Sentence, Told
 
@@ -38,9 +42,9 @@ def beside() -> dict[int, tuple[float, float, float, float]]:
 
 
 @cache
-def beside_la2004() -> dict[int, tuple[float, float, float, float]]:
-    """Ours less La2004, with our half-widths."""
-    return long_term.beside_la2004()
+def strength() -> Strength:
+    """The Earth's constant of precession."""
+    return long_term.solution(EARTH, np.zeros(1)).setting.strength
 
 
 def share(cause: str, years: float) -> float:
@@ -83,14 +87,6 @@ def _beside(year: int) -> Callable[[], Sequence[float]]:
     return lambda: list(beside()[year])
 
 
-def _beside_la2004(kyr: int) -> Callable[[], Sequence[float]]:
-    def row() -> list[float]:
-        obliquity, climatic, *half = beside_la2004()[kyr]
-        return [obliquity, half[0], climatic, half[1]]
-
-    return row
-
-
 def _without(name: str) -> Callable[[], Sequence[float]]:
     return lambda: list(effects()[name])
 
@@ -110,8 +106,8 @@ MEASURED = [
     *(
         Sentence(PAGE, f"| {words} | {{}} | {{}} | {{}} | {{}} |", _shares(name))
         for words, name in (
-            ("constant of precession | error of `precession`", "constant"),
-            ("orbit, two ways | steps half as long, and what the series leave out", "orbit"),
+            ("constant of precession | error of `precession`, and closure", "constant"),
+            ("orbit, two ways | as measured against others, see below", "orbit"),
             ("rate of $J_2$ | a fifth of it; later, all that has faded", "J2 rate"),
             ("tides | a fifth of today's, an assumption", "tides"),
             (
@@ -131,15 +127,6 @@ MEASURED = [
             (2000, "+2000"),
         )
     ),
-    *(
-        Sentence(PAGE, f"| {words} | {{}} | {{}} | {{}} | {{}} |", _beside_la2004(kyr))
-        for kyr, words in (
-            (0, "J2000.0"),
-            (-100, "−100 kyr"),
-            (-200, "−200 kyr"),
-            (-1000, "−1 Myr"),
-        )
-    ),
     Sentence(PAGE, "by {}″ at −10,000.", lambda: apart(-1e4, of_iau)),
     Sentence(PAGE, "not verified) beyond; {}″ part us", lambda: apart(-1e4, of_series)),
     Sentence(
@@ -154,10 +141,7 @@ MEASURED = [
     Sentence(
         PAGE,
         "no constant of precession is pasted in: {} and {} ″/yr",
-        lambda: [
-            part * JULIAN_YEAR / ARCSEC
-            for part in (long_term.earths().strength.sun, long_term.earths().strength.moon)
-        ],
+        lambda: [part * JULIAN_YEAR / ARCSEC for part in (strength().sun, strength().moon)],
     ),
 ]
 
@@ -234,7 +218,7 @@ MEASURED += [
     Sentence(
         PAGE,
         "is geodesic precession, {}″ a century",
-        lambda: long_term.earths().strength.geodesic * JULIAN_YEAR * 100 / ARCSEC,
+        lambda: strength().geodesic * JULIAN_YEAR * 100 / ARCSEC,
     ),
     Sentence(
         PAGE,
@@ -267,6 +251,37 @@ MEASURED += [
     ),
 ]
 
+MEASURED += [
+    Sentence(
+        PAGE,
+        "From a phase error\nof {} to {} rad on",
+        lambda: [LINEAR_TO, SAMPLED_FROM],
+    ),
+    Sentence(PAGE, "are therefore quantiles: {} solutions", lambda: MEMBERS),
+    Sentence(
+        PAGE,
+        "Earth that is {} in a million years, measured beside",
+        lambda: GROWTH["earth"].eccentricity * 1e6 * JULIAN_YEAR,
+    ),
+    Sentence(
+        PAGE,
+        "of Mars {}, beside La2004",
+        lambda: GROWTH["mars"].eccentricity * 1e6 * JULIAN_YEAR,
+    ),
+    Sentence(
+        PAGE,
+        "normals differ by {} rad (Earth)\nand {} rad (Mars) in a million years",
+        lambda: [GROWTH[name].normal * 1e6 * JULIAN_YEAR for name in ("earth", "mars")],
+    ),
+    Sentence(
+        PAGE,
+        "our pole would lie {}″ elsewhere two thousand years ago",
+        lambda: effects()["Moon's plane"][2],
+    ),
+]
+#: Of files that others publish.
+OF_FILES = "python -m data_tools long-term --solutions, and orbits --left-out"
+
 #: Right angles, turns and the like.
 BY_DEFINITION = (
     "Julian years of {} days (TDB)",
@@ -286,14 +301,32 @@ TOLD = [
         for text in (
             "$p_A$, deg | pole at {} kyr, ″ | source |",
             "half-width of it | {} kyr | {} kyr | {} kyr | {} Myr back |",
-            "\n| {} kyr | 1.08",
-            "\n| {} kyr | 1.83",
-            "\n| {} Myr | 29.2",
         )
     ),
     Told(PAGE, "## Sunlight in summer at {}° north", "given"),
     Told(PAGE, "$H$ larger by {} %", "given"),
     Told(PAGE, "the\npole at {} years (`python -m data_tools long-term`)", "given: the epoch"),
+    Told(
+        PAGE, "without terms of less than some {} years", "what the smoothing of the samples passes"
+    ),
+    Told(PAGE, "the {} % quantile of how far", "what an error is, by definition"),
+    Told(
+        PAGE,
+        "inside the half-widths in {} to {} % of cases",
+        "docs/measured/coverage-long-term.inc",
+    ),
+    Told(PAGE, "three times what {} stands for", OF_FILES),
+    Told(PAGE, "between {} and {} kyr falls from {}″ to {}″. IAU", OF_FILES),
+    Told(
+        PAGE,
+        "from {} to {} Myr falls from {} to {}, of which {} are short periods",
+        OF_FILES,
+    ),
+    Told(PAGE, "in a million years at {} %", "what an error is, by definition"),
+    Told(PAGE, "**Obliquity, up to {} kyr**: the difference exceeds", OF_FILES),
+    Told(PAGE, "our half-width, which is {}″ to {}″ there", OF_FILES),
+    Told(PAGE, "comes to within {}″ of ZB18a over {} kyr, and to {}″ to {}″ from there", OF_FILES),
+    Told(PAGE, "beyond {} kyr**: the difference from La2004 grows to {}″ and ${}$", OF_FILES),
     Told(PAGE, "| method | windows half as long | < {} | < {} | < {} | < {} |", BOUND),
     Told(
         PAGE,

@@ -1,0 +1,125 @@
+"""Coverage of the half-widths of `long_term`: IAU 2006, and solutions drawn afresh."""
+
+from __future__ import annotations
+
+import erfa
+import numpy as np
+from astropy import units
+from numpy.typing import NDArray
+
+import earthspin
+from data_tools.coverage import Row
+from data_tools.long_term import solution
+from earthspin.bodies import EARTH, MARS, Body
+from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
+from earthspin.secular.budget import changed
+from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
+from earthspin.secular.trajectory import solve
+
+FloatArray = NDArray[np.float64]
+
+#: Members, their seed, and the step between epochs, kyr.
+MEMBERS, SEED, STEP = 1000, 20260101, 10
+#: What is compared, and the unit of its half-width.
+DEGREES = np.pi / 180
+QUANTITIES = {
+    "obliquity": DEGREES,
+    "climatic_precession": 1.0,
+    "longitude_of_perihelion": DEGREES,
+    "general_precession": DEGREES,
+    "psi_A": DEGREES,
+    "eccentricity": 1.0,
+    "pole": ARCSEC,
+}
+#: Epochs, kyr, are counted in bins as long as this.
+BIN = 1000
+
+
+def rows() -> list[Row]:
+    """Beside IAU 2006; by body, quantity and million years, fresh members."""
+    return [*beside_iau(), *of_body(EARTH, 10), *of_body(MARS, 10)]
+
+
+def beside_iau() -> list[Row]:
+    """Angles and poles beside ERFA's p06e, pmat06 and ecm06, every ten years."""
+    years = np.arange(-1000.0, 1001.0, 10.0)
+    claimed = earthspin.long_term(times=years * units.yr)
+    days = 365.25 * years
+    angles = erfa.p06e(J2000_JD, days)
+    apart = {
+        name: np.abs(claimed[name].values - np.degrees(angles[place]))
+        for name, place in (
+            ("psi_A", 1),
+            ("omega_A", 2),
+            ("obliquity", 7),
+            ("general_precession", 12),
+        )
+    }
+    for name, matrix in (("pole", erfa.pmat06), ("ecliptic_pole", erfa.ecm06)):
+        theirs = matrix(J2000_JD, days)[:, 2]
+        apart[name] = np.linalg.norm(claimed[name].values - theirs, axis=1) / ARCSEC
+    ratios = {name: of / claimed[f"{name}_error"].values for name, of in apart.items()}
+    return [
+        Row(
+            f"`{name}` of Earth",
+            "1,000 years either way",
+            "IAU 2006 (ERFA)",
+            float(ratio.max()),
+            float(np.mean(ratio <= 1)),
+            ratio.size,
+        )
+        for name, ratio in ratios.items()
+    ]
+
+
+def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) -> list[Row]:
+    """Rows of a body, `reach` million years either way."""
+    claimed = earthspin.long_term(
+        f"-{reach} Myr", f"{reach} Myr", f"{STEP} kyr", body=body, perturbers=_pulling(body)
+    )
+    times = claimed.epoch.values * JULIAN_YEAR
+    solved = solution(body, times)
+    fixed = body.needed("pole").orbit_axes(body.orbit_pole)
+    perihelion = followed_perihelion(solved.setting.orbit, np.append(times, 0.0), fixed)
+    mine = read(solved.path, solved.setting, times, fixed, perihelion)
+    half = {name: claimed[f"{name}_error"].values * unit for name, unit in QUANTITIES.items()}
+    worst = {name: np.zeros(times.size) for name in QUANTITIES}
+    inside = {name: np.zeros(times.size) for name in QUANTITIES}
+    draws = np.random.default_rng(seed).standard_normal((members, len(solved.uncertainty.causes)))
+    for amounts in draws / NORMAL_95:
+        setting = changed(solved.setting, solved.uncertainty, amounts)
+        span = float(times[0]), float(times[-1])
+        path = solve(setting.strength, setting.orbit, setting.start, span)
+        member = read(path, setting, times, fixed, perihelion)
+        for name, width in half.items():
+            apart = (
+                angle(member.pole, mine.pole)
+                if name == "pole"
+                else np.abs(moved_by(member, mine, name))
+            )
+            ratio = apart / width
+            worst[name] = np.maximum(worst[name], ratio)
+            inside[name] += ratio <= 1
+    years = np.abs(claimed.epoch.values) / 1e3
+    found = []
+    for name in QUANTITIES:
+        for first in range(0, 1000 * reach, BIN):
+            for sign, word in ((-1, "before"), (1, "after")):
+                at = (years > first) & (years <= first + BIN)
+                at &= np.sign(claimed.epoch.values) == sign
+                stretch = f"{first // 1000} to {(first + BIN) // 1000} Myr {word} J2000.0"
+                found.append(
+                    Row(
+                        f"`{name}` of {body.name.title()}",
+                        stretch,
+                        "members with all causes drawn afresh",
+                        float(worst[name][at].max()),
+                        float(inside[name][at].mean() / members),
+                        members * int(at.sum()),
+                    )
+                )
+    return found
+
+
+def _pulling(body: Body) -> tuple[str, ...]:
+    return ("sun", "moon") if body == EARTH else ("sun",)
