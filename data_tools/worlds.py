@@ -22,7 +22,7 @@ from earthspin.constants import PSI_A_RATE, Constant
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.table import NUMBERS_ONLY
+from earthspin.views.table import NUMBERS_ONLY, some_unknown
 
 #: Signs of units; smaller obliquities stand in minutes of arc, deg.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
@@ -130,8 +130,9 @@ def world(name: str) -> World:
 
 def left_out(tree: xr.DataTree) -> float:
     """Sum of the sizes of what a model leaves out, in the unit of its section; NaN if not known."""
-    sizes = tree["neglected"].neglected_effect.values
-    return float(np.abs(sizes).sum()) if sizes.size else math.nan
+    section = tree["neglected"].to_dataset()
+    sizes = section.neglected_effect.values
+    return float(np.abs(sizes).sum()) if sizes.size and not some_unknown(section) else math.nan
 
 
 def in_all(error: float, left_out: float, sign: str = "") -> str:

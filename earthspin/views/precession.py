@@ -195,9 +195,9 @@ def rates(tree: Result) -> Table:
 
 def _largest_left_out(answer: xr.Dataset) -> str:
     """Largest effect on the rate that the model leaves out; its size may be unknown."""
-    name, _, size = answer.attrs["neglected"].partition(": ")
-    size, unit, _ = size.partition(" arcsec/yr")
-    return f"{size} ({name})" if unit else "size unknown"
+    name, _, rest = answer.attrs["neglected"].partition(": ")
+    size, unit, more = rest.partition(" arcsec/yr")
+    return f"{size} ({name})" if unit and "unknown size" not in more else "size unknown"
 
 
 def sky_and_calendar(tree: Result) -> Table:

@@ -114,14 +114,19 @@ def beside_observed(
         The half-width holds the input numbers only.
     left_out : Dataset or None
         The section `neglected` in the same unit: its sizes, which are systematic, are added to the
-        half-width. Without sizes the value is followed by "numbers only".
+        half-width. Where no size is known, or not all are, the value is followed by "numbers only".
     unit : str
         Written after the numbers.
     """
-    if left_out is not None and left_out.sizes["effect"]:
+    if left_out is not None and left_out.sizes["effect"] and not some_unknown(left_out):
         return with_error(value, float(error) + float(abs(left_out.neglected_effect).sum()), unit)
     plain = with_error(value, error, unit)
     return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
+
+
+def some_unknown(left_out: xr.Dataset) -> bool:
+    """Whether the section `neglected` names effects of unknown size."""
+    return bool(left_out.neglected_effect.attrs.get("of_unknown_size"))
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
