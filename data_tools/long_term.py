@@ -1,8 +1,8 @@
 """The tables of docs/long_term.md: effects, the error by cause, and other solutions beside ours.
 
 Files of other solutions are given by path: `--solutions INSOLN.LA2004.BTL.ASC La2010a_ecc3L.dat`.
-The package inso (PyPI) holds those of Laskar and others, for the Earth and Mars; the repository
-japhir/paleoinsolation (GitHub) holds out/ZB18a_insolation.dat.
+The package inso holds those of Laskar and others, for the Earth and Mars; the repository
+japhir/paleoinsolation holds out/ZB18a_insolation.dat.
 """
 
 from __future__ import annotations

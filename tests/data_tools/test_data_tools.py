@@ -1,9 +1,11 @@
 """The tools that measure: on the kernel that comes along, in short."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from data_tools import error_models, free_wobble, neglected
+from data_tools import error_models, free_wobble, long_term, neglected
 from data_tools.__main__ import main
 from data_tools.kernels import largest_differences
 from data_tools.windows import rates, scatter
@@ -135,3 +137,18 @@ def test_a_cell_of_the_free_wobble_is_as_stored() -> None:
     bias, scatter = (float(stored[n].split("±")[0]) for n in (4, 5))
     assert abs(float(row[4].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
     assert 90 <= float(stored[7]) <= 100
+    stored = next(x for x in table if x.startswith("| 100 | 65 | 19% |")).split("|")[1:-1]
+    bias, scatter = (float(stored[n].split("±")[0]) for n in (3, 4))
+    assert abs(float(row[3].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
+    assert 90 <= float(stored[5]) <= 100
+
+
+def test_files_of_other_solutions_are_read_in_their_layouts(tmp_path: Path) -> None:
+    (tmp_path / "La2010a.dat").write_text("0 0.0167\n-1 0.0171\n-20000 0.03\n")
+    (tmp_path / "LA2004").write_text("0.0 0.167D-01 0.409D+00 0.18D+01\n")
+    (tmp_path / "ZB18a").write_text("0.0 1.67E-002 23.5 103.0 478.0\n")
+    found = long_term.read_solution(tmp_path / "La2010a.dat")
+    assert found["eccentricity"].tolist() == [0.0167, 0.0171]  # beyond ten million years is none
+    assert long_term.read_solution(tmp_path / "LA2004")["obliquity"].tolist() == [0.409]
+    degrees = long_term.read_solution(tmp_path / "ZB18a")["obliquity"]
+    assert degrees == pytest.approx([np.radians(23.5)], rel=1e-14, abs=0)
