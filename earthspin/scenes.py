@@ -274,7 +274,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(list(tree.children))
     ['seasons', 'plan']
     >>> print(tree["seasons"].time_per_degree.round(2).values)
-    71.56
+    71.59
     """
     tree = answering.run_tree(load_scene(scene), sections)
     _say_what_differs(scene, tree)

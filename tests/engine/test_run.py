@@ -30,7 +30,7 @@ def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]
 
 def test_the_moon_is_never_evaluated_under_the_sun_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     opened = opened_kernels(monkeypatch)
-    run("sun-only")
+    run(load_scene("sun-only", {"source": "jplephem"}))
     (kernel,) = opened
     assert (3, 301) not in kernel.evaluations
     assert kernel.evaluations[(0, 10)] > 0
@@ -49,7 +49,7 @@ def test_a_thousand_bodies_evaluate_the_kernel_once(monkeypatch: pytest.MonkeyPa
     counts = []
     for body in (earthspin.EARTH, earthspin.EARTH.replace(dynamical_flattening=h)):
         opened = opened_kernels(monkeypatch)
-        earthspin.precession(body=body)
+        earthspin.precession(body=body, source="jplephem")
         counts.append(opened[0].evaluations)
     assert counts[0] == counts[1]
     assert counts[0][(3, 301)] > 0

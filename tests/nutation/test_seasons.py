@@ -40,9 +40,9 @@ def test_the_motion_of_the_ecliptic_is_taken_off() -> None:
 
 def test_results_are_near_the_iaus(precession_tree: xr.DataTree) -> None:
     seasons_there = precession_tree["seasons"]
-    # ours lacks the geodesic precession, 0.0192 arcsec/yr
-    assert abs(float(seasons_there.general_precession) - P_A_RATE.value) < 0.02
-    assert abs(float(seasons_there.tropical_year) * DAY - TROPICAL_YEAR.value) < 1.0
+    # 3.8e-5 arcsec/yr and 0.007 s measured, with the published effects that the torques leave out
+    assert abs(float(seasons_there.general_precession) - P_A_RATE.value) < 1e-4
+    assert abs(float(seasons_there.tropical_year) * DAY - TROPICAL_YEAR.value) < 0.02
     assert float(precession_tree["free_wobble/observed_period"]) == 430.9
     longest = precession_tree["convergence/window_length"].max()
     assert abs(float(longest) - 5 * 18.6129) < 1e-3

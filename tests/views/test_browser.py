@@ -54,7 +54,7 @@ def test_every_picture_is_painted_and_the_console_is_clean(
     browser: str, page: Path, tmp_path: Path
 ) -> None:
     html, log = opened(browser, page, tmp_path, "--dump-dom")
-    assert html.count('data-painted="yes"') == len(gallery()) == 7
+    assert html.count('data-painted="yes"') == len(gallery()) == 8
     assert "CONSOLE" not in log, log
 
 

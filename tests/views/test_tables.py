@@ -30,11 +30,12 @@ def test_digits(value: float, error: float, text: str) -> None:
 def test_tables_of_each_question(precession_tree: xr.DataTree) -> None:
     titles = [table.title for table in tables_for(precession_tree)]
     assert titles == [
+        "Which period to quote",
         "Precession",
+        "Comparison with IAU 2006",
         "Equinox and calendar",
         "Three models of the figure",
         "Free wobble",
-        "Comparison with IAU 2006",
         "Lunar standstills",
     ]
     assert [t.title for t in tables_for(earthspin.run_tree("wobble"))] == [
@@ -65,7 +66,7 @@ def test_the_first_of_many_bodies_is_shown() -> None:
 def test_a_plain_answer_has_the_tables_of_no_section(precession_tree: xr.DataTree) -> None:
     answer = precession_tree.to_dataset()
     (table,) = tables_for(answer)
-    assert table == tables_for(precession_tree)[0]
+    assert table.rows == tables_for(precession_tree)[1].rows
     assert what_ran(answer) == []
 
 
