@@ -19,7 +19,6 @@ from earthspin.views.drawing import (
     axes,
     drawn,
     empty,
-    few_dates,
     for_phone,
     legend_above,
     note,
@@ -375,10 +374,10 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     """
     figure = empty(8, 6.6) if figure is None else figure
     upper, middle, lower = figure.subplots(3, 1)
+    upper.sharex(middle)
     torque.plot_declination(year, ax=upper)
     torque.plot_torque(year, ax=middle)
-    for ax in (upper, middle):
-        few_dates(ax)
+    upper.tick_params(labelbottom=False)
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
     for colour, (window, one) in zip(CYCLE, along(curve, "window"), strict=False):
         lower.plot(curve.window_length, one.rate_by_window, color=colour, lw=1.1, label=window)
