@@ -18,7 +18,6 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 from earthspin.constants import NORMAL_95
 
@@ -32,6 +31,8 @@ PROBABILITY = 0.95
 
 def draws(causes: int) -> FloatArray:
     """Half-widths by which each member has each cause changed, shape (MEMBERS, causes)."""
+    from scipy.special import ndtri  # 0.1 s, which spans without a sample need not wait for
+
     member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)
     factors = np.array([pow(FACTOR, int(k), MEMBERS) for k in cause])
     stratum = (member * factors + cause * OFFSET) % MEMBERS
