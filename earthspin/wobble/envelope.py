@@ -80,9 +80,10 @@ def envelope(
     solver = np.linalg.pinv(columns)
     starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
     series = np.lib.stride_tricks.sliding_window_view(p, size)[starts]
-    found = series @ solver.T
+    # Plain sums: a BLAS rounds otherwise with another number of threads.
+    found = np.einsum("ws,ks->wk", series, solver)
     middle = time[starts] + local[-1]
-    left = series - found @ columns.T
+    left = series - np.einsum("wk,sk->ws", found, columns)
     back = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
     turned = found[:, 2:5] * back
     return Envelope(
