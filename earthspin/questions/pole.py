@@ -30,7 +30,7 @@ from earthspin.parts.path import (
     response_apart,
     turns_of,
 )
-from earthspin.parts.predicted import no_layers, prediction
+from earthspin.parts.predicted import SOURCES, no_layers, prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
@@ -46,17 +46,20 @@ if TYPE_CHECKING:
 class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the axes under the torques, in the GCRS.
 
-    The path starts at J2000.0 from the pole of the body; for the Earth, from that of IAU
+    The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
     2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
     `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A, with what that adds
-    to a response, or `predicted` from its layers.
+    to a response, or `predicted` from its layers. With it the rigid axes start where their mean
+    pole meets that of the IAU, and all axes receive the published contribution of the non-rigid
+    Earth to the rate of precession.
 
     Returns
     -------
     Dataset
         Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
         (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
-        defined; over `time` `direction_error` (uas).
+        defined; over `time` `direction_error` (uas) and its shares, with `nonrigid` also
+        `direction_error_response`.
 
     Raises
     ------
@@ -223,11 +226,18 @@ RESPONSE = covered_by(
 
 @part(gives=RESPONSE, unless=not_nonrigid)
 def response_error(
-    axes: xr.Dataset, interior_shift: Shift, epochs: TimeGrid | TimeList, block: Block | None = None
+    axes: xr.Dataset,
+    interior_shift: Shift,
+    epochs: TimeGrid | TimeList,
+    response: str,
+    block: Block | None = None,
 ) -> xr.Dataset:
     """Share of the direction's error that the response of the interior leaves."""
     half_width = interior_shift.half_width(_days(epochs, block))
-    return build(RESPONSE, {"direction_error_response": half_width}, coords={"time": axes.time})
+    result = build(RESPONSE, {"direction_error_response": half_width}, coords={"time": axes.time})
+    if response == "predicted":
+        result["direction_error_response"].attrs["references"] = SOURCES
+    return result
 
 
 def _days(epochs: TimeGrid | TimeList, block: Block | None) -> FloatArray:
