@@ -121,3 +121,8 @@ def test_an_answer_says_which_of_its_numbers_are_not_verified(
 ) -> None:
     answer = getattr(earthspin, call)(body=body)
     assert (c.UNVERIFIED in words_of(answer)) == marked
+
+
+def test_a_predicted_pole_says_which_of_its_numbers_are_not_verified() -> None:
+    answer = earthspin.pole(times=["2000-01-01T12:00"], effects=["nonrigid"], response="predicted")
+    assert c.UNVERIFIED in words_of(answer)

@@ -158,7 +158,8 @@ def test_both_readers_answer_every_question_that_opens_a_kernel() -> None:
             for source in ("jplephem", "skyfield")
         ]
         for name, values in answers[0].data_vars.items():
-            if values.dtype.kind == "f" and "error" not in str(name):
+            # a closure is a small difference of large rates, which are compared themselves
+            if values.dtype.kind == "f" and not {"error", "closure"} & {*str(name).split("_")}:
                 scale = float(abs(values).max()) or 1.0
                 difference = float(abs(values - answers[1][name]).max())
                 assert difference <= 1e-9 * scale, (word, name, difference / scale)
