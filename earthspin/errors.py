@@ -367,7 +367,8 @@ def _rebuild(
     kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
 ) -> EarthspinError:
     """Make an error again from its message and its facts."""
-    error = kind.__new__(kind, *args)
+    error = kind.__new__(kind)
+    error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
     return error
 
