@@ -105,7 +105,7 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     UnitsError
         If the unit is missing, unknown or of another kind, or it is no number at all.
     SceneError
-        If a number is masked, missing or not finite.
+        If a number is masked, missing or not finite, or there is none.
     """
     wanted = _Wanted(unit, what, example)
     try:
@@ -113,6 +113,8 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     except RecursionError:  # lists in lists in lists
         raise wanted.wrong(value) from None
     plain = getattr(converted, "values", converted)
+    if np.size(plain) == 0:
+        raise _where(what).error(f"shape {np.shape(plain)}", "give one number or more")
     if not np.all(np.isfinite(plain)):
         raise _where(what).error(value, "give finite numbers")
     return converted
@@ -158,7 +160,11 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     if hasattr(value, "dims") and hasattr(value, "dtype"):
         own = None if value.dtype.kind == "m" else value.attrs.get("units")
         plain = _plain(value.values, wanted)  # one that says its units is converted
-        return value.copy(data=plain if own is None else plain * wanted.factor(own, own))
+        if own is None:
+            return value.copy(data=plain)
+        converted = value.copy(data=plain * wanted.factor(own, own))
+        converted.attrs["units"] = wanted.unit or "1"
+        return converted
     if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
         try:
             return np.stack([np.asarray(_convert(inner, wanted), dtype=float) for inner in value])
@@ -168,7 +174,9 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
 
 
 def is_masked(value: object) -> bool:
-    """Whether an array or a Time hides some of its numbers; `mask` of pandas is a method."""
+    """Whether an array, a list of arrays or a Time hides a number; `mask` of pandas is a method."""
+    if isinstance(value, (list, tuple)):
+        return any(map(is_masked, value))
     mask = getattr(value, "mask", False)
     return not callable(mask) and bool(np.any(mask))
 
@@ -187,10 +195,10 @@ def _by_astropy(value: Any, wanted: _Wanted) -> Any:
         if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
-        converted = read.to_value(u.Unit(wanted.unit))
+        converted = real_numbers(read.to_value(u.Unit(wanted.unit)))
     except (TypeError, ValueError, OverflowError, AttributeError, u.UnitConversionError):
         raise wanted.wrong(value) from None
-    return float(converted) if np.ndim(converted) == 0 else np.asarray(converted, dtype=float)
+    return float(converted) if converted.ndim == 0 else converted
 
 
 def _length_of_time(value: dt.timedelta | np.timedelta64, wanted: _Wanted) -> float:
@@ -210,15 +218,32 @@ def _plain(value: Any, wanted: _Wanted) -> Any:
     """Numbers that are in the unit already."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits
-            array = array.astype(np.float64)
+        if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
+            return array / np.timedelta64(1, "us") * 1e-6
+        numbers = real_numbers(array)
     except Exception:  # whatever somebody's class says of being no array
         raise wanted.wrong(value) from None
-    if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
-        return array / np.timedelta64(1, "us") * 1e-6
+    return float(numbers) if numbers.ndim == 0 else numbers
+
+
+def real_numbers(value: Any) -> FloatArray:
+    """Floats of an array or list; NaN and infinity stay.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a number is masked, complex, a truth value or text, or lists are uneven.
+    """
+    if is_masked(value):
+        raise ValueError("a masked value; give numbers that are all known")
+    array = np.asarray(value)
+    if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits, None
+        if any(isinstance(one, (str, bytes, bool, np.bool_)) for one in array.flat):
+            raise ValueError("text or truth values; give numbers")
+        return array.astype(np.float64)
     if array.dtype.kind not in "fiu":
-        raise wanted.wrong(value)
-    return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
+        raise ValueError(f"an array of {array.dtype}; give real numbers")
+    return array.astype(np.float64, copy=False)
 
 
 def _where(what: object) -> Where:

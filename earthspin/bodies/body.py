@@ -193,7 +193,8 @@ class Body(FromMass):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
             table = isinstance(value, Mapping)
-            if type(value) is str or pair or table or hasattr(value, "to_value"):
+            array = hasattr(value, "to_value") or hasattr(value, "dims")
+            if type(value) is str or pair or table or array:
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 

@@ -97,13 +97,12 @@ def _layer(given: Any, where: Where) -> Layer:
 
 def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody:
     """Samples as a table of columns, or anything with columns of these names."""
-    import numpy as np
-
     from earthspin.interior.samples import from_samples
+    from earthspin.units import real_numbers
 
     try:
         columns = {
-            column: [float(v) for v in np.asarray(given[column], dtype=float)]
+            column: real_numbers(given[column]).tolist()
             for column in COLUMNS
             if column != "shear_q" or column in given
         }

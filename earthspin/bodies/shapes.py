@@ -124,9 +124,12 @@ def _read(file: Path) -> Any:
     if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
         raise SeriesError(file, problem)
     try:
-        return trimesh.load_mesh(file, process=True)
+        mesh = trimesh.load_mesh(file, process=True)
     except Exception as error:  # each reader has kinds of its own
         raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
+    if not np.size(getattr(mesh, "vertices", ())):
+        raise SeriesError(file, "it holds no mesh")
+    return mesh
 
 
 def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:

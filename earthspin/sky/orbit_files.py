@@ -31,6 +31,7 @@ from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.sky.columns import checksum, is_number, lines_of, numbers
 from earthspin.sky.equator import direction
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
+from earthspin.units import real_numbers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -186,7 +187,10 @@ def _axes(frame: object, where: Where) -> FloatArray:
         if frame not in FRAMES:
             raise where.at("frame").error(frame, nearest(frame, FRAMES))
         return axes_of(frame)
-    axes = np.asarray(frame, dtype=float)
+    try:
+        axes = real_numbers(frame)
+    except (TypeError, ValueError):
+        axes = np.empty(0)
     if axes.shape != (3, 3) or not np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-9):
         raise where.at("frame").error(frame, "give three unit vectors at right angles, as rows")
     return axes
@@ -228,7 +232,7 @@ class _Rows:
         columns = {}
         for name, place in chosen.items():
             try:
-                columns[name] = np.asarray(frame.iloc[:, place], dtype=float)
+                columns[name] = real_numbers(frame.iloc[:, place])
             except (TypeError, ValueError):
                 raise SeriesError(
                     _FRAME, f"column '{frame.columns[place]}' holds more than numbers"

@@ -175,7 +175,7 @@ def test_time_is_counted_from_the_start_and_axes_are_the_bodys() -> None:
         (lambda t, q, omega: 1 / 0, "division by zero"),
         (lambda t, q, omega: np.zeros(5), "shapes"),
         (lambda t, q, omega: np.nan * omega, "not finite"),
-        (lambda t, q, omega: "much", "could not convert"),
+        (lambda t, q, omega: "much", "real numbers"),
         (5, "give a function"),
     ],
 )
