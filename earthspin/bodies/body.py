@@ -463,6 +463,8 @@ class Body(FromMass):
         for key, value in changes.items():
             if key not in _READ_AS:
                 raise BodyError(self.name, key, value, nearest(key, _READ_AS))
+            if value is None and key not in self.KINDS:
+                raise BodyError(self.name, key, value, f"give {_READ_AS[key].words}")
             if type(value) is not float and value is not None:
                 changes[key] = _READ_AS[key].read(value, Where(key))
         if "mass" in changes:

@@ -488,3 +488,46 @@ def test_what_is_wrong_is_one_line_that_names_it(call: Any, name: str, value: An
 def test_all_forms_of_a_value_give_the_same(one: Any, two: Any) -> None:
     first, second = one(), two()
     xr.testing.assert_allclose(first, second, rtol=1e-15, atol=0)
+
+
+# --- arguments of newer calls ----------------------------------------------------------------
+
+_ROWS = pd.DataFrame({"t": np.arange(-20.0, 1.0), "k": 0.01, "h": 0.0, "q": 0.0, "p": 0.0})
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: earthspin.Orbit(a=4e8, e=[0.1, 0.2]),
+        lambda: earthspin.Orbit(a=4e8, node=[0.1, 0.2]),
+        lambda: earthspin.Orbit(a=4e8, epoch=10**400),
+        lambda: Body.from_masses(["1 kg", "2 kg"], _PLACES),
+        lambda: Body.from_masses([1.0, 1, 1], _PLACES, radius=[]),
+        lambda: Body.from_masses([1.0, 1, 1], _PLACES, radius=[1.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=[1.0, 2.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), mass=[1.0, 2.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=1.0, radius=5e-324),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=1.0, radius=1e308),
+        lambda: Body.from_layers("prem", spin_period=np.array([8e4, 9e4])),
+        lambda: Body.from_layers("prem", spin_period=xr.DataArray([8e4], dims="case")),
+        lambda: Body.from_layers("prem", spin_period=None),
+        lambda: Body.from_layers("prem", spin_period=0),
+        lambda: earthspin.read_orbit(_ROWS, angles=pd.Series(["deg"])),
+        lambda: earthspin.read_orbit(_ROWS, time=["d"]),
+        lambda: earthspin.read_orbit(_ROWS, body=None),
+        lambda: earthspin.read_orbit(_ROWS, frame=[[1], [1, 2]]),
+        lambda: earthspin.ensemble("precession", {"n": 2}, impossible=1j),
+        lambda: earthspin.ensemble("precession", {"n": 2, "only": 3}),
+        lambda: earthspin.ensemble("precession", {"n": 2, "correlations": 3}),
+        lambda: earthspin.daily_insolation(
+            earthspin.long_term("-5 kyr", "0 kyr", "5 kyr"), [], "90 deg"
+        ),
+        lambda: EARTH.replace(moments=None),
+        lambda: EARTH.replace(mass=None),
+        lambda: earthspin.wobble_ladder(body={"j2": xr.DataArray(np.empty(0), dims="case")}),
+    ],
+)
+def test_what_no_call_can_use_is_refused_on_one_line(call: Any) -> None:
+    with pytest.raises(EarthspinError) as error:
+        call()
+    assert "\n" not in str(error.value)
