@@ -490,11 +490,13 @@ def _setting(text: str) -> tuple[str, Any]:
     """Read KEY=VALUE; the value as TOML if it is that, as text otherwise."""
     import tomllib
 
+    from earthspin.scenes import toml
+
     key, equals, value = text.partition("=")
     if not equals or not key.strip():
         raise SceneError("--set", text, "write it as KEY=VALUE", source="command line")
     try:
-        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+        return key.strip(), toml(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value.strip()
     except (ValueError, RecursionError) as error:  # a number of 5000 digits, lists in lists

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
@@ -46,6 +47,10 @@ QUESTIONS: dict[str, type[Question]] = {
         FreeRotor, Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
     )
 }  # fmt: skip
+
+#: Most parts of a key between dots.
+MOST_PARTS = 32
+_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){{{MOST_PARTS}}}""")
 
 #: How many times a long series is written at once.
 BLOCK = 1 << 17
@@ -155,7 +160,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     else:
         text, source, title = _read(os.fspath(scene))
     try:
-        table = tomllib.loads(text)
+        table = toml(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError("file", source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
@@ -429,8 +434,23 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
         raise SceneError("scene", text, "it cannot be read: it is not text in UTF-8") from None
 
 
+def toml(text: str) -> dict[str, Any]:
+    """Table of a text in TOML.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or a key has more than `MOST_PARTS` parts, which would take minutes.
+    """
+    if _DEEP_KEY.search(text):
+        raise ValueError(f"a key has more than {MOST_PARTS} parts between dots")
+    return tomllib.loads(text)
+
+
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
     """Set a key, dotted or not, in a table as read."""
+    if key.count(".") >= MOST_PARTS:
+        raise SceneError(key, value, f"give a key of at most {MOST_PARTS} parts", source=source)
     *path, last = key.split(".")
     for step in path:
         inner = table.get(step, {})

@@ -11,6 +11,7 @@ import base64
 import datetime as dt
 import math
 import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +31,9 @@ T = TypeVar("T")
 
 #: More times than this are never held whole (0.5 GB in memory).
 LONGEST_IN_MEMORY = 4_000_000
+
+#: Longest text of a number with its unit; parsers of longer ones take minutes.
+LONGEST_QUANTITY = 200
 
 #: Lists longer than this are written as bytes; shorter ones as numbers that people can read.
 LONGEST_LIST = 32
@@ -136,7 +140,11 @@ class _Wanted:
         import astropy.units as u
 
         try:
-            return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
+            if len(unit) > LONGEST_QUANTITY:
+                raise ValueError("no unit is that long")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", u.UnitsWarning)
+                return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
         except (TypeError, ValueError, u.UnitConversionError):
             raise self.wrong(given) from None
 
@@ -147,6 +155,8 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
         return _plain(value, wanted)
     if isinstance(value, str):
+        if len(value) > LONGEST_QUANTITY:
+            raise wanted.wrong(value)
         found = _NUMBER_AND_UNIT.fullmatch(value)
         if found and found[2] in COMMON and COMMON[found[2]][0] == wanted.unit:
             return float(found[1]) * COMMON[found[2]][1]
@@ -191,7 +201,9 @@ def _by_astropy(value: Any, wanted: _Wanted) -> Any:
     import astropy.units as u
 
     try:
-        read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
+        with warnings.catch_warnings():  # several slashes, which are read from left to right
+            warnings.simplefilter("ignore", u.UnitsWarning)
+            read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
         if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.

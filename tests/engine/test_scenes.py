@@ -131,3 +131,28 @@ def test_a_scene_in_python_takes_bodies_and_words() -> None:
     assert scene.replace(step="1 h").perturbers == scene.perturbers
     with pytest.raises(SceneError, match="either times"):
         Scene(compute="torque", times=["2000-01-01"], step="1 h")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"step": "1" * 1_000_000 + "x"},
+        {"step": "1 h" + "/h" * 1_000_000},
+        {"a." * 1_000_000 + "a": 1},
+        {"body." * 1_000 + "j2": 1},
+    ],
+    ids=["digits", "slashes", "dots", "deep"],
+)
+def test_long_texts_are_refused_before_they_are_parsed(change: dict[str, Any]) -> None:
+    """The parsers of numbers, units and keys would take hours."""
+    with pytest.raises(EarthspinError) as error:
+        load_scene("torque", change)
+    assert "\n" not in str(error.value)
+
+
+def test_a_file_with_a_key_of_many_parts_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "deep.toml"
+    for text in ("a." * 1_000_000 + "a = 1", "body = {" + "a." * 1_000_000 + "a = 1}"):
+        path.write_text(f'compute = "torque"\n{text}\n')
+        with pytest.raises(SceneError, match="parts"):
+            load_scene(path)
