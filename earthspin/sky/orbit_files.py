@@ -28,7 +28,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
-from earthspin.sky.columns import checksum, is_number, lines_of, numbers
+from earthspin.sky.columns import (
+    FORTRAN,
+    checksum,
+    is_number,
+    lines_of,
+    numbers,
+    refuse_text_between,
+)
 from earthspin.sky.equator import direction
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.units import real_numbers
@@ -257,10 +264,11 @@ class _Rows:
         names: list[str] = []
         rows: list[list[float]] = []
         lines: list[int] = []
-        for number, line in enumerate(lines_of(file), start=1):
+        text = lines_of(file)
+        refuse_text_between(file, text)
+        for number, line in enumerate(text, start=1):
             words = re.split(r"[\s,;]+", line.strip(" \t,;"))
-            # Fortran writes 1.5D-03
-            plain = [re.sub(r"(?<=\d)[dD](?=[-+]?\d)", "e", word) for word in words]
+            plain = [FORTRAN.sub("e", word) for word in words]
             if not is_number(plain[0]):
                 if not rows and words != [""]:
                     names = [word for word in words if word.strip("#%!")]

@@ -339,6 +339,17 @@ def test_the_obliquity_on_an_orbit_from_a_file_is_that_on_our_own() -> None:
     assert "DataFrame" in read.obliquity.attrs["orbit"]
 
 
+def test_a_line_of_text_after_the_rows_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "orbit.txt"
+    lines = text(la2010()).splitlines()
+    path.write_text("\n".join([*lines, "# made by hand", ""]))
+    read_orbit(path)
+    path.write_text("\n".join([*lines[:-1], "x" + lines[-1]]))
+    with pytest.raises(SeriesError) as error:
+        read_orbit(path)
+    assert error.value.line == len(lines)
+
+
 def _arrays(file: Path) -> dict[str, np.ndarray]:
     with np.load(file) as archive:
         return dict(archive)
