@@ -478,12 +478,12 @@ def _stability(given: argparse.Namespace) -> int:
 
 def _question(given: argparse.Namespace) -> Question:
     """Question of the command line: the scene, then --set, then --ephemeris."""
-    from earthspin.scenes import load_scene
+    from earthspin.scenes import typed_scene
 
     changes = dict(_setting(text) for text in given.settings)
     if given.ephemeris is not None:
         changes["ephemeris"] = given.ephemeris
-    return load_scene(given.scene, changes)
+    return typed_scene(given.scene, changes)
 
 
 def _setting(text: str) -> tuple[str, Any]:

@@ -87,10 +87,14 @@ class Where:
         As the reader would write it, ``"body.j2"``.
     source : str
         The file or call; empty if there is nothing to name.
+    typed : bool
+        Whether it is text that a person typed, where numbers carry their units; in Python, in
+        answers and in tables of columns plain numbers are in SI units.
     """
 
     key: str
     source: str = ""
+    typed: bool = False
 
     def __str__(self) -> str:
         return f"{self.source}: {self.key}" if self.source else self.key
@@ -101,7 +105,7 @@ class Where:
 
     def at(self, inner: str) -> Where:
         """Place of something inside."""
-        return Where(f"{self.key}.{inner}", self.source)
+        return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
 class BodyError(EarthspinError, ValueError):

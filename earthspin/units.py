@@ -112,6 +112,8 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
         If a number is masked, missing or not finite, or there is none.
     """
     wanted = _Wanted(unit, what, example)
+    if unit and getattr(what, "typed", False) and _is_bare(value):
+        raise _where(what).error(value, f"give it with its unit, like '{example}'")
     try:
         converted = _convert(value, wanted)
     except RecursionError:  # lists in lists in lists
@@ -181,6 +183,13 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
         except ValueError as error:
             raise error if isinstance(error, EarthspinError) else wanted.wrong(value) from None
     return _plain(value, wanted)
+
+
+def _is_bare(value: object) -> bool:
+    """Whether it is a number without a unit, or a list with one."""
+    if isinstance(value, (list, tuple)):
+        return any(map(_is_bare, value))
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def is_masked(value: object) -> bool:

@@ -42,6 +42,7 @@ class Layers:
         if ("layers" in given) == ("samples" in given):
             raise where.error("a table", "give either layers or samples")
         name, reference = str(given.get("name", "layers")), str(given.get("reference", ""))
+        where = Where(where.key, where.source)  # columns and coefficients are in SI units
         if "samples" in given:
             return _sampled(given["samples"], name, reference, where.at("samples"))
         layers = tuple(

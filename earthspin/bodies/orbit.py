@@ -180,7 +180,8 @@ def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
             continue
         if hasattr(value, "dims") or isinstance(value, Mapping):
             raise where.at(name).error("an array", "an element is one number")
-        plain = type(value) is float and math.isfinite(value)  # in SI: nothing to load for it
+        # in SI: nothing to load for it
+        plain = type(value) is float and math.isfinite(value) and not where.typed
         read[name] = value if plain else _KINDS[name].read(value, where.at(name))
         if not isinstance(read[name], (float, str)):
             raise where.at(name).error(value, "an element is one number")
