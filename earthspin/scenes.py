@@ -127,7 +127,8 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table.
+        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table. Plain
+        numbers are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
