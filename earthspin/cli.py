@@ -478,23 +478,25 @@ def _stability(given: argparse.Namespace) -> int:
 
 def _question(given: argparse.Namespace) -> Question:
     """Question of the command line: the scene, then --set, then --ephemeris."""
-    from earthspin.scenes import load_scene
+    from earthspin.scenes import typed_scene
 
     changes = dict(_setting(text) for text in given.settings)
     if given.ephemeris is not None:
         changes["ephemeris"] = given.ephemeris
-    return load_scene(given.scene, changes)
+    return typed_scene(given.scene, changes)
 
 
 def _setting(text: str) -> tuple[str, Any]:
     """Read KEY=VALUE; the value as TOML if it is that, as text otherwise."""
     import tomllib
 
+    from earthspin.scenes import toml
+
     key, equals, value = text.partition("=")
     if not equals or not key.strip():
         raise SceneError("--set", text, "write it as KEY=VALUE", source="command line")
     try:
-        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+        return key.strip(), toml(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value.strip()
     except (ValueError, RecursionError) as error:  # a number of 5000 digits, lists in lists

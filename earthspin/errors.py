@@ -87,10 +87,14 @@ class Where:
         As the reader would write it, ``"body.j2"``.
     source : str
         The file or call; empty if there is nothing to name.
+    typed : bool
+        Whether it is text that a person typed, where numbers carry their units; in Python, in
+        answers and in tables of columns plain numbers are in SI units.
     """
 
     key: str
     source: str = ""
+    typed: bool = False
 
     def __str__(self) -> str:
         return f"{self.source}: {self.key}" if self.source else self.key
@@ -101,7 +105,7 @@ class Where:
 
     def at(self, inner: str) -> Where:
         """Place of something inside."""
-        return Where(f"{self.key}.{inner}", self.source)
+        return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
 class BodyError(EarthspinError, ValueError):
@@ -367,7 +371,8 @@ def _rebuild(
     kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
 ) -> EarthspinError:
     """Make an error again from its message and its facts."""
-    error = kind.__new__(kind, *args)
+    error = kind.__new__(kind)
+    error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
     return error
 

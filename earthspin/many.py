@@ -14,6 +14,7 @@ from earthspin.engine.given import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics import sampling
 from earthspin.scenes import load_scene
+from earthspin.units import real_numbers
 
 
 def ensemble(
@@ -111,7 +112,7 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
         If it is no ensemble, or a share is not between 0 and 1.
     """
     try:
-        wanted = np.atleast_1d(np.asarray(shares, dtype=float))
+        wanted = np.atleast_1d(real_numbers(shares))
     except (TypeError, ValueError):
         wanted = np.empty(0)
     if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
@@ -46,6 +47,10 @@ QUESTIONS: dict[str, type[Question]] = {
         FreeRotor, Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
     )
 }  # fmt: skip
+
+#: Most parts of a key between dots.
+MOST_PARTS = 32
+_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){{{MOST_PARTS}}}""")
 
 #: How many times a long series is written at once.
 BLOCK = 1 << 17
@@ -122,7 +127,8 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table.
+        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table. Plain
+        numbers are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
@@ -136,13 +142,31 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     >>> print(question)
     Precession(title='Precession of the equinoxes', perturbers='sun')
     """
+    return _load(scene, changes, typed=False)
+
+
+def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
+    """Read a question as `load_scene` does, with changes that were typed as text.
+
+    Parameters
+    ----------
+    scene : str
+    changes : mapping
+        Their numbers carry units where they have a dimension.
+    """
+    return _load(scene, changes, typed=True)
+
+
+def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Question:
+    """Read a question; `typed` says where the changes come from."""
+    own = True  # written by an answer, whose plain numbers are in SI units
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
     if isinstance(scene, Question):
         if not changes:
             return scene
         table = scene.to_table(given=True) | {"title": scene.title}
-        return _changed(table, changes, "", "")
+        return _changed(table, changes, "", "", set())
     if hasattr(scene, "attrs"):
         text, source, title = _scene_of(scene), "", ""
     elif not isinstance(scene, (str, os.PathLike)):
@@ -154,25 +178,50 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         text, source, title = _scene_of(answer), str(scene), ""
     else:
         text, source, title = _read(os.fspath(scene))
+        own = False
     try:
-        table = tomllib.loads(text)
+        table = toml(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError("file", source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError("file", source, f"it cannot be read: {error}") from None
-    return _changed(table, changes or {}, source, title)
+    with_units = set() if own else _names(table)
+    changed = _names(_nested(changes or {}))
+    with_units = with_units | changed if typed else with_units - changed
+    return _changed(table, changes or {}, source, title, with_units)
+
+
+def _names(table: Mapping[str, Any]) -> set[str]:
+    """Keys of a scene, and those of its tables of settings."""
+    return {*table} | {inner for of in table.values() if isinstance(of, Mapping) for inner in of}
+
+
+def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Changes with the first two parts of their keys, as a scene has them."""
+    table: dict[str, Any] = {}
+    for key, value in changes.items():
+        first, dot, rest = str(key).partition(".")
+        inner = {rest.partition(".")[0]: None} if dot else value
+        if isinstance(inner, Mapping) and isinstance(table.get(first), Mapping):
+            inner = {**table[first], **inner}
+        table[first] = inner
+    return table
 
 
 def _changed(
-    table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str
+    table: dict[str, Any],
+    changes: Mapping[str, Any],
+    source: str,
+    title: str,
+    typed: set[str],
 ) -> Question:
-    """Question of a scene's table with some keys changed."""
+    """Question of a scene's table with some keys changed; numbers of typed keys carry units."""
     for key, value in changes.items():
         _set_key(table, str(key), value, source)
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)
-    return question.from_table(table, source=source, title=title)
+    return question.from_table(table, source=source, title=title, typed=typed)
 
 
 def shipped_scenes() -> dict[str, str]:
@@ -429,8 +478,23 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
         raise SceneError("scene", text, "it cannot be read: it is not text in UTF-8") from None
 
 
+def toml(text: str) -> dict[str, Any]:
+    """Table of a text in TOML.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or a key has more than `MOST_PARTS` parts, which would take minutes.
+    """
+    if _DEEP_KEY.search(text):
+        raise ValueError(f"a key has more than {MOST_PARTS} parts between dots")
+    return tomllib.loads(text)
+
+
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
     """Set a key, dotted or not, in a table as read."""
+    if key.count(".") >= MOST_PARTS:
+        raise SceneError(key, value, f"give a key of at most {MOST_PARTS} parts", source=source)
     *path, last = key.split(".")
     for step in path:
         inner = table.get(step, {})

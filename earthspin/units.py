@@ -11,6 +11,7 @@ import base64
 import datetime as dt
 import math
 import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +31,9 @@ T = TypeVar("T")
 
 #: More times than this are never held whole (0.5 GB in memory).
 LONGEST_IN_MEMORY = 4_000_000
+
+#: Longest text of a number with its unit; parsers of longer ones take minutes.
+LONGEST_QUANTITY = 200
 
 #: Lists longer than this are written as bytes; shorter ones as numbers that people can read.
 LONGEST_LIST = 32
@@ -105,14 +109,18 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     UnitsError
         If the unit is missing, unknown or of another kind, or it is no number at all.
     SceneError
-        If a number is masked, missing or not finite.
+        If a number is masked, missing or not finite, or there is none.
     """
     wanted = _Wanted(unit, what, example)
+    if unit and getattr(what, "typed", False) and _is_bare(value):
+        raise _where(what).error(value, f"give it with its unit, like '{example}'")
     try:
         converted = _convert(value, wanted)
     except RecursionError:  # lists in lists in lists
         raise wanted.wrong(value) from None
     plain = getattr(converted, "values", converted)
+    if np.size(plain) == 0:
+        raise _where(what).error(f"shape {np.shape(plain)}", "give one number or more")
     if not np.all(np.isfinite(plain)):
         raise _where(what).error(value, "give finite numbers")
     return converted
@@ -134,7 +142,11 @@ class _Wanted:
         import astropy.units as u
 
         try:
-            return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
+            if len(unit) > LONGEST_QUANTITY:
+                raise ValueError("no unit is that long")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", u.UnitsWarning)
+                return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
         except (TypeError, ValueError, u.UnitConversionError):
             raise self.wrong(given) from None
 
@@ -145,6 +157,8 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
         return _plain(value, wanted)
     if isinstance(value, str):
+        if len(value) > LONGEST_QUANTITY:
+            raise wanted.wrong(value)
         found = _NUMBER_AND_UNIT.fullmatch(value)
         if found and found[2] in COMMON and COMMON[found[2]][0] == wanted.unit:
             return float(found[1]) * COMMON[found[2]][1]
@@ -158,7 +172,11 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     if hasattr(value, "dims") and hasattr(value, "dtype"):
         own = None if value.dtype.kind == "m" else value.attrs.get("units")
         plain = _plain(value.values, wanted)  # one that says its units is converted
-        return value.copy(data=plain if own is None else plain * wanted.factor(own, own))
+        if own is None:
+            return value.copy(data=plain)
+        converted = value.copy(data=plain * wanted.factor(own, own))
+        converted.attrs["units"] = wanted.unit or "1"
+        return converted
     if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
         try:
             return np.stack([np.asarray(_convert(inner, wanted), dtype=float) for inner in value])
@@ -167,8 +185,17 @@ def _convert(value: Any, wanted: _Wanted) -> Any:
     return _plain(value, wanted)
 
 
+def _is_bare(value: object) -> bool:
+    """Whether it is a number without a unit, or a list with one."""
+    if isinstance(value, (list, tuple)):
+        return any(map(_is_bare, value))
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
 def is_masked(value: object) -> bool:
-    """Whether an array or a Time hides some of its numbers; `mask` of pandas is a method."""
+    """Whether an array, a list of arrays or a Time hides a number; `mask` of pandas is a method."""
+    if isinstance(value, (list, tuple)):
+        return any(map(is_masked, value))
     mask = getattr(value, "mask", False)
     return not callable(mask) and bool(np.any(mask))
 
@@ -183,14 +210,16 @@ def _by_astropy(value: Any, wanted: _Wanted) -> Any:
     import astropy.units as u
 
     try:
-        read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
+        with warnings.catch_warnings():  # several slashes, which are read from left to right
+            warnings.simplefilter("ignore", u.UnitsWarning)
+            read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
         if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
-        converted = read.to_value(u.Unit(wanted.unit))
+        converted = real_numbers(read.to_value(u.Unit(wanted.unit)))
     except (TypeError, ValueError, OverflowError, AttributeError, u.UnitConversionError):
         raise wanted.wrong(value) from None
-    return float(converted) if np.ndim(converted) == 0 else np.asarray(converted, dtype=float)
+    return float(converted) if converted.ndim == 0 else converted
 
 
 def _length_of_time(value: dt.timedelta | np.timedelta64, wanted: _Wanted) -> float:
@@ -210,15 +239,32 @@ def _plain(value: Any, wanted: _Wanted) -> Any:
     """Numbers that are in the unit already."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits
-            array = array.astype(np.float64)
+        if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
+            return array / np.timedelta64(1, "us") * 1e-6
+        numbers = real_numbers(array)
     except Exception:  # whatever somebody's class says of being no array
         raise wanted.wrong(value) from None
-    if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
-        return array / np.timedelta64(1, "us") * 1e-6
+    return float(numbers) if numbers.ndim == 0 else numbers
+
+
+def real_numbers(value: Any) -> FloatArray:
+    """Floats of an array or list; NaN and infinity stay.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a number is masked, complex, a truth value or text, or lists are uneven.
+    """
+    if is_masked(value):
+        raise ValueError("a masked value; give numbers that are all known")
+    array = np.asarray(value)
+    if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits, None
+        if any(isinstance(one, (str, bytes, bool, np.bool_)) for one in array.flat):
+            raise ValueError("text or truth values; give numbers")
+        return array.astype(np.float64)
     if array.dtype.kind not in "fiu":
-        raise wanted.wrong(value)
-    return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
+        raise ValueError(f"an array of {array.dtype}; give real numbers")
+    return array.astype(np.float64, copy=False)
 
 
 def _where(what: object) -> Where:

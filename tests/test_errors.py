@@ -1,6 +1,9 @@
 """Every error is one line and carries its data."""
 
+import copy
 import inspect
+import pickle
+from collections.abc import Callable
 
 import pytest
 
@@ -50,3 +53,17 @@ def test_a_coverage_error_names_what_the_kernel_covers() -> None:
 def test_the_nearest_word_comes_first() -> None:
     assert errors.nearest("torqe", ["torque", "wobble"]).startswith("did you mean 'torque'?")
     assert errors.nearest("xyz", ["torque", "wobble"]) == "allowed: torque, wobble"
+
+
+@pytest.mark.parametrize("error", EXAMPLES, ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize(
+    "again", [lambda e: pickle.loads(pickle.dumps(e)), copy.copy, copy.deepcopy],
+    ids=["pickle", "copy", "deepcopy"],
+)  # fmt: skip
+def test_a_copy_has_the_message_and_the_facts(
+    error: errors.EarthspinError, again: Callable[[Exception], Exception]
+) -> None:
+    same = again(error)
+    assert type(same) is type(error)
+    assert str(same) == str(error)
+    assert vars(same) == vars(error)

@@ -2,6 +2,7 @@
 
 import datetime as dt
 import math
+import warnings
 
 import astropy.units as u
 import numpy as np
@@ -98,6 +99,17 @@ def test_what_is_no_number_of_seconds(value: object) -> None:
 
 def test_a_masked_array_that_hides_nothing_is_an_array() -> None:
     assert units.quantity(np.ma.masked_array([1.0, 2.0]), "s", "it", "1 s").tolist() == [1.0, 2.0]
+
+
+def test_units_with_several_slashes_are_read_from_left_to_right_without_a_warning(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert units.quantity("2 km/s/s", "m/s2", "it", "1 m/s2") == 2000.0
+        array = xr.DataArray([2.0], dims="draw", attrs={"units": "km/s/s"})
+        assert units.quantity(array, "m/s2", "it", "1 m/s2").values == [2000.0]
+    assert capfd.readouterr() == ("", "")
 
 
 def test_a_labelled_array_that_says_its_units_is_converted() -> None:

@@ -193,7 +193,8 @@ class Body(FromMass):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
             table = isinstance(value, Mapping)
-            if type(value) is str or pair or table or hasattr(value, "to_value"):
+            array = hasattr(value, "to_value") or hasattr(value, "dims")
+            if type(value) is str or pair or table or array:
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 
@@ -462,6 +463,8 @@ class Body(FromMass):
         for key, value in changes.items():
             if key not in _READ_AS:
                 raise BodyError(self.name, key, value, nearest(key, _READ_AS))
+            if value is None and key not in self.KINDS:
+                raise BodyError(self.name, key, value, f"give {_READ_AS[key].words}")
             if type(value) is not float and value is not None:
                 changes[key] = _READ_AS[key].read(value, Where(key))
         if "mass" in changes:

@@ -42,8 +42,6 @@ class Magnitude:
         """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""
         if isinstance(given, Mapping):
             return _labelled(given, where)
-        if hasattr(given, "dims"):
-            return given
         from earthspin.units import quantity
 
         return quantity(given, self.unit, where, self.text)

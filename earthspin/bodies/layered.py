@@ -42,6 +42,7 @@ class Layers:
         if ("layers" in given) == ("samples" in given):
             raise where.error("a table", "give either layers or samples")
         name, reference = str(given.get("name", "layers")), str(given.get("reference", ""))
+        where = Where(where.key, where.source)  # columns and coefficients are in SI units
         if "samples" in given:
             return _sampled(given["samples"], name, reference, where.at("samples"))
         layers = tuple(
@@ -97,13 +98,12 @@ def _layer(given: Any, where: Where) -> Layer:
 
 def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody:
     """Samples as a table of columns, or anything with columns of these names."""
-    import numpy as np
-
     from earthspin.interior.samples import from_samples
+    from earthspin.units import real_numbers
 
     try:
         columns = {
-            column: [float(v) for v in np.asarray(given[column], dtype=float)]
+            column: real_numbers(given[column]).tolist()
             for column in COLUMNS
             if column != "shear_q" or column in given
         }

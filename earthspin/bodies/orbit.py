@@ -27,8 +27,8 @@ class Epoch:
         from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 
         if isinstance(given, (int, float)) and not isinstance(given, bool):
-            if not math.isfinite(given):
-                raise where.error(given, "give a date, or finite days from J2000.0 TDB")
+            if not abs(given) <= _LARGEST:
+                raise where.error(given, f"give a date, or at most {_LARGEST:g} days from J2000.0")
             return float(given)
         return microseconds(given, where) / MICROSECONDS_PER_DAY
 
@@ -178,10 +178,13 @@ def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
     for name, value in given.items():
         if value is None:
             continue
-        if hasattr(value, "dims") or (name in _RULES and isinstance(value, Mapping)):
+        if hasattr(value, "dims") or isinstance(value, Mapping):
             raise where.at(name).error("an array", "an element is one number")
-        plain = type(value) is float and math.isfinite(value)  # in SI: nothing to load for it
+        # in SI: nothing to load for it
+        plain = type(value) is float and math.isfinite(value) and not where.typed
         read[name] = value if plain else _KINDS[name].read(value, where.at(name))
+        if not isinstance(read[name], (float, str)):
+            raise where.at(name).error(value, "an element is one number")
         if name in _RULES and not _RULES[name][0](read[name]):
             raise where.at(name).error(value, _RULES[name][1])
     if "a" not in read and "period" not in read:

@@ -41,7 +41,7 @@ def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
         Shape.of_masses(
             _si(masses, "kg", "masses", "1e12 kg"),
             _si(positions, "m", "positions", "500 m"),
-            _si(radius, "m", "radius", "1 km"),
+            _optional(radius, "m", "radius", "1 km"),
         )
     )
 
@@ -52,7 +52,7 @@ def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields
 
     x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
     rho = _si(density, "kg/m3", "density", "2000 kg/m3")
-    return _of(Shape.of_density(rho, x, y, z, _si(radius, "m", "radius", "1 km")))
+    return _of(Shape.of_density(rho, x, y, z, _optional(radius, "m", "radius", "1 km")))
 
 
 def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
@@ -62,9 +62,9 @@ def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Field
     return _of(
         Shape.of_mesh(
             *_mesh(mesh, unit),
-            density=_si(density, "kg/m3", "density", "2000 kg/m3"),
-            mass=_si(mass, "kg", "mass", "1e12 kg"),
-            radius=_si(radius, "m", "radius", "1 km"),
+            density=_optional(density, "kg/m3", "density", "2000 kg/m3"),
+            mass=_optional(mass, "kg", "mass", "1e12 kg"),
+            radius=_optional(radius, "m", "radius", "1 km"),
         )
     )
 
@@ -83,8 +83,21 @@ def _of(shape: Shape) -> Fields:
 
 
 def _si(given: Any, unit: str, name: str, example: str) -> Any:
-    """Numbers in SI units: plain ones, Quantities, or one as text; None stays."""
-    return None if given is None else quantity(given, unit, Where(name), example)
+    """Numbers in SI units: plain ones, Quantities, or text with units."""
+    return quantity(given, unit, Where(name), example)
+
+
+def _single(given: Any, unit: str, name: str, example: str) -> float:
+    """One number in SI units, not zero."""
+    value = _si(given, unit, name, example)
+    if not isinstance(value, float) or value == 0:
+        raise Where(name).error(given, f"give one number other than zero, like '{example}'")
+    return value
+
+
+def _optional(given: Any, unit: str, name: str, example: str) -> float | None:
+    """The same; None stays."""
+    return None if given is None else _single(given, unit, name, example)
 
 
 def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
@@ -124,9 +137,12 @@ def _read(file: Path) -> Any:
     if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
         raise SeriesError(file, problem)
     try:
-        return trimesh.load_mesh(file, process=True)
+        mesh = trimesh.load_mesh(file, process=True)
     except Exception as error:  # each reader has kinds of its own
         raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
+    if not np.size(getattr(mesh, "vertices", ())):
+        raise SeriesError(file, "it holds no mesh")
+    return mesh
 
 
 def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
@@ -147,7 +163,7 @@ def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -
     from earthspin.interior.equilibrium import equilibrium, figure
 
     layers = Layers().read(layers, Where("layers"))
-    spin = 2 * math.pi / _si(spin_period, "s", "spin_period", "23.93 h")
+    spin = 2 * math.pi / _single(spin_period, "s", "spin_period", "23.93 h")
     gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
     ellipticity = figure(layers, spin).e
     # the surface is level: f = (k + 1) q/2

@@ -396,7 +396,7 @@ def asked_of_members(
         if own is not None and counted:
             asked = replace(own, n=asked.n)
     assert asked is not None
-    changes = {name: of for name, of in more.items() if of is not None}
-    if seed is not None:
-        changes["seed"] = Members.read({"n": 1, "seed": seed}, question.where("members")).seed
+    changes = {name: of for name, of in {"seed": seed, **more}.items() if of is not None}
+    read = Members.read({"n": 1} | changes, question.where("members"))
+    changes = {name: getattr(read, name) for name in changes}
     return question.replace(members=replace(asked, **changes))

@@ -230,14 +230,17 @@ class Members:
                 words = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
                 raise where.at(name).error(of, words)
         uncertainty = settings.get("uncertainty")
-        if uncertainty not in (None, "sample"):
+        if not (uncertainty is None or _is_word(uncertainty, ("sample",))):
             raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
         impossible = settings.get("impossible", "refuse")
-        if impossible not in ("refuse", "drop"):
+        if not _is_word(impossible, ("refuse", "drop")):
             raise where.at("impossible").error(impossible, nearest(impossible, ["refuse", "drop"]))
         values = settings.get("values", {})
         if not isinstance(values, Mapping):
             raise where.at("values").error(values, "give a table of inputs, each with its values")
+        for name in ("only", "correlations"):
+            if not isinstance(settings.get(name, ()), (list, tuple)):
+                raise where.at(name).error(settings[name], "give a list")
         n = settings.get("n")
         return cls(
             n=None if n is None else _whole(n, where.at("n"), 1),
@@ -268,6 +271,10 @@ class Members:
                 for name, of in self.values.items()
             }
         return told
+
+
+def _is_word(given: object, allowed: tuple[str, ...]) -> bool:
+    return isinstance(given, str) and given in allowed
 
 
 def _whole(given: Any, where: Where, low: int, high: int = MOST) -> int:

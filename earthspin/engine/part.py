@@ -78,6 +78,10 @@ class Part(Generic[P, R]):
         """Compute."""
         return self.function(*args, **kwargs)
 
+    def __reduce__(self) -> str:
+        # A module holds the part under the name of its function: pickle and copy refer to it.
+        return self.__name__
+
     def __repr__(self) -> str:
         return f"<part {self.title}: {self.does}>"
 

@@ -7,7 +7,7 @@ of the public call, completion in the shell, and the page of keys.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cached_property
 from typing import Any, ClassVar, Literal, Self, get_type_hints
@@ -158,6 +158,7 @@ class Question:
         source: str,
         in_scene: bool,
         known: Mapping[str, Any] | None = None,
+        typed: Collection[str] = (),
     ) -> None:
         """Read each key once, refuse those that there are not, and check them together.
 
@@ -173,7 +174,7 @@ class Question:
         object.__setattr__(self, "read_from", source)
         for name, one in keys.items():
             shown = f"{self.table}.{name}" if one.setting and in_scene else name
-            where = Where(shown, source)
+            where = Where(shown, source, name in typed)
             if name in chosen:
                 value = _read(one.kind, chosen[name], where)
             elif name in known:
@@ -219,8 +220,21 @@ class Question:
     # --- as a scene ------------------------------------------------------------------------------
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any], source: str = "", title: str = "") -> Self:
+    def from_table(
+        cls,
+        table: Mapping[str, Any],
+        source: str = "",
+        title: str = "",
+        typed: Collection[str] = (),
+    ) -> Self:
         """Read a question from the keys of a scene, `compute` aside.
+
+        Parameters
+        ----------
+        table : mapping
+        source, title : str
+        typed : collection of str
+            Keys whose numbers a person typed as text, and which need units.
 
         Raises
         ------
@@ -244,7 +258,7 @@ class Question:
             else:
                 flat[name] = value
         made = cls.__new__(cls)
-        made._fill(flat, source, in_scene=True)
+        made._fill(flat, source, in_scene=True, typed=typed)
         return made
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:

@@ -73,6 +73,7 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
         raise OutputError(
             place, f"{type(result).__name__} is no answer", "give a Dataset or DataTree"
         )
+    _refuse_attributes(result, place)
     if place.suffix == ".zarr":
         return _write_zarr(result, place)
     _refuse_other_endings(place)  # by its own name, not the draft's
@@ -101,6 +102,32 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
                 encoding=_netcdf_encoding(node),
             )
         last_line.append(path)
+
+
+#: Types of numbers that netCDF holds.
+_NUMBERS = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"}
+
+
+def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
+    """Refuse attributes that are neither text nor real numbers: no file can hold them."""
+    for node in getattr(result, "subtree", (result,)):
+        for owner, attrs in [("the answer", node.attrs)] + [
+            (f"'{name}'", variable.attrs) for name, variable in node.variables.items()
+        ]:
+            for name, value in attrs.items():
+                if not (isinstance(name, str) and _is_storable(value)):
+                    what = f"attribute {name!r} of {owner} is of type {type(value).__name__}"
+                    raise OutputError(path, what, "give text or real numbers, or remove it")
+
+
+def _is_storable(value: object) -> bool:
+    if isinstance(value, (str, bytes)):
+        return True
+    try:
+        dtype = np.asarray(value).dtype
+    except Exception:  # uneven lists, and whatever somebody's class says
+        return False
+    return dtype.kind in "US" or dtype.str[1:] in _NUMBERS
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:

@@ -176,11 +176,15 @@ class Shape:
         farthest = float(np.max(np.linalg.norm(outline - centre, axis=1)))
         a = farthest if radius is None else float(positive("shape", "radius", radius))
         j3 = j4 = 0.0
-        for m, r in pieces(4):
-            place = (r - centre) / a
-            z, r2 = place @ principal.axes[2], np.einsum("ki,ki->k", place, place)
-            z2 = z * z
-            j3 -= float(m @ (z * (5 * z2 - 3 * r2))) / (2 * mass)
-            j4 -= float(m @ ((35 * z2 - 30 * r2) * z2 + 3 * r2 * r2)) / (8 * mass)
-        bulge = (principal.c_minus_a + principal.c_minus_b) / 2
-        return cls(mass, centre, principal, a, float(bulge / (mass * a**2)), j3, j4)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            for m, r in pieces(4):
+                place = (r - centre) / a
+                z, r2 = place @ principal.axes[2], np.einsum("ki,ki->k", place, place)
+                z2 = z * z
+                j3 -= float(m @ (z * (5 * z2 - 3 * r2))) / (2 * mass)
+                j4 -= float(m @ ((35 * z2 - 30 * r2) * z2 + 3 * r2 * r2)) / (8 * mass)
+            bulge = (principal.c_minus_a + principal.c_minus_b) / 2
+            j2 = float(np.divide(bulge, mass * (a * a)))
+        if not (np.isfinite([j2, j3, j4]).all() and 0 < mass * (a * a) < np.inf):
+            raise BodyError("shape", "radius", a, "M a2 or a coefficient is out of a float's range")
+        return cls(mass, centre, principal, a, j2, j3, j4)

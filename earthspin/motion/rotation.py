@@ -9,7 +9,7 @@ What an uncertain number does is seen from a neighbour that has it changed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -191,13 +191,15 @@ class Motion:
             if reached >= self._end:
                 return
 
-    def at(self, times: FloatArray) -> Found:
+    def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> Found:
         """The rotation at some times, with its error.
 
         Parameters
         ----------
         times : ndarray, shape (t,)
             From the start, s, ascending; if they go back, the motion is made again.
+        tell : callable, optional
+            Called with the time that is reached, s, after each batch of windows.
 
         Returns
         -------
@@ -212,6 +214,8 @@ class Motion:
                 if self._now is not None:
                     self._worst = self._errors_until(self._now[0].edges)[..., -1:]
                 self._now = next(self._pieces)
+                if tell is not None:
+                    tell(float(self._now[1].edges[-1]))
             upto = int(np.searchsorted(times, self._now[1].edges[-1], side="right"))
             part = times[done:upto]
             found.append(self._now[1].at(part)[:, 0])

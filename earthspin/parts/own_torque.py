@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
-from earthspin.units import Plain
+from earthspin.units import Plain, real_numbers
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
@@ -72,8 +72,10 @@ class OwnTorque:
 
         def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
             try:
-                given: Any = np.asarray(self.law(times, q, omega), dtype=np.float64)
-                found = np.broadcast_to(given, omega.shape)
+                given: Any = self.law(times, q, omega)
+                if hasattr(given, "to_value"):  # a Quantity
+                    given = given.to_value("N m")
+                found = np.broadcast_to(real_numbers(given), omega.shape)
             except EarthspinError:
                 raise
             except Exception as error:  # whatever somebody's function meets

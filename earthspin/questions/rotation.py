@@ -18,6 +18,7 @@ from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
+from earthspin.errors import SceneError
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
@@ -33,6 +34,7 @@ from earthspin.parts.pulls import (
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.progress import progress
 from earthspin.units import AngleError, FloatArray, Numbers
 
 if TYPE_CHECKING:
@@ -42,10 +44,13 @@ if TYPE_CHECKING:
     from earthspin.motion.equations import Rigid
     from earthspin.motion.forces import Forces
     from earthspin.motion.march import Above
-    from earthspin.motion.rotation import Motion, State
+    from earthspin.motion.rotation import Found, Motion, State
 
 #: What a quaternion's length may be off by.
 _LENGTH = 1e-6
+#: Time to follow a body through one turn, s (measured: 2.6e-3 to 5e-3), and most turns that are
+#: followed at once: about an hour.
+SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
 class Rotation(Moved, word="rotation", call="rotation", positional=("start", "stop", "step")):
@@ -230,6 +235,28 @@ class Rotor:
             self.body, self.above, self.start, float(self.since(self.end)), tolerance=tolerance
         )
 
+    def turns(self, seconds: float) -> float:
+        """How often it turns in so long a time, at the speed of the start."""
+        return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
+
+    def refuse_many_turns(self, begin: float, end: float) -> None:
+        """Refuse a stretch that takes hours to follow, its ends in s from the start.
+
+        Raises
+        ------
+        SceneError
+            With the time that it would take.
+        """
+        turns, days = self.turns(end - begin), (end - begin) / DAY
+        if turns > MOST_TURNS:
+            raise SceneError(
+                "span",
+                f"{days:.6g} d",
+                f"the body turns {turns:.3g} times, which takes about "
+                f"{turns * SECONDS_PER_TURN / 3600:.2g} h to follow; give at most "
+                f"{days * MOST_TURNS / turns:.3g} d",
+            )
+
     def since(self, days: float | FloatArray) -> FloatArray:
         """Seconds from the start, exact to the microsecond."""
         return np.asarray(np.round((days - self.begin) * DAY, 6))
@@ -332,6 +359,20 @@ ROTATION = {
 }
 
 
+def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> Found:
+    """The motion at some times; a bar shows how many turns are left, if it takes long."""
+    total, told = round(rotor.turns(float(seconds[-1]) - begin)), 0
+    with progress("turns of the body", total) as advance:
+
+        def tell(reached: float) -> None:
+            nonlocal told
+            now = min(max(round(rotor.turns(reached - begin)), told), total)
+            advance(now - told)
+            told = now
+
+        return motion.at(seconds, tell)
+
+
 @part(gives=ROTATION)
 def turning(
     motion: Motion,
@@ -355,10 +396,12 @@ def turning(
     now = epochs.days(block.first, block.last)
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
-    found = motion.at(seconds)
+    begin = 0.0 if block.first == 0 else float(seconds[0])
+    rotor.refuse_many_turns(begin, float(seconds[-1]))
+    found = _followed(motion, rotor, seconds, begin)
     if accuracy is not None and float(found.error[0, 0].max()) > accuracy:
         motion = rotor.motion(FINEST)
-        found = motion.at(seconds)
+        found = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
     values: dict[str, FloatArray] = {
@@ -436,6 +479,7 @@ def parting(rotor: Rotor) -> Divergence:
     """The growth of the distance of a neighbour, brought back again and again."""
     from earthspin.motion.divergence import divergence
 
+    rotor.refuse_many_turns(0.0, float(rotor.since(rotor.end)))
     return divergence(rotor.body, rotor.above, rotor.start, float(rotor.since(rotor.end)))
 
 

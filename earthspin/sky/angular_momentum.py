@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import SeriesError, nearest
-from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers
+from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers, refuse_text_between
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -203,9 +203,10 @@ def _joined(files: list[Path]) -> AngularMomentum:
 
 
 def _rows(file: Path) -> Iterable[_Row]:
-    """Rows of one file; lines that do not start with a number are comments."""
-    last = -math.inf
-    for number, line in enumerate(lines_of(file), start=1):
+    """Rows of one file; lines above them that do not start with a number are comments."""
+    last, lines = -math.inf, lines_of(file)
+    refuse_text_between(file, lines)
+    for number, line in enumerate(lines, start=1):
         words = line.split()
         if not words or not is_number(words[0]):
             continue

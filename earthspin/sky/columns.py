@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import datetime
 import hashlib
+import re
+from collections.abc import Callable
 from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
 
+#: Letter of an exponent as Fortran writes it: 1.5D-03.
+FORTRAN = re.compile(r"(?<=\d)[dD](?=[-+]?\d)")
+#: First characters of lines that hold no row.
+COMMENTS = "#%!*"
 #: Proleptic day number of the modified Julian date 0, 1858 November 17.
 _FIRST_DAY = datetime.date(1858, 11, 17).toordinal()
 #: How far a modified Julian date may be from the calendar's beside it: what rounding does, d.
@@ -42,6 +48,49 @@ def is_number(word: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
+    """Numbers of the lines after the first row that are neither rows, blank, nor comments.
+
+    Parameters
+    ----------
+    lines : list of str
+    is_row : callable
+        Whether a line is a row of the table.
+    """
+    below, text = False, []
+    for number, line in enumerate(lines, start=1):
+        if is_row(line):
+            below = True
+        elif below and line.strip() and line.lstrip()[0] not in COMMENTS:
+            text.append(number)
+    return text
+
+
+def starts_with_number(line: str) -> bool:
+    """Whether the first word of a line is a number; commas divide words, too."""
+    words = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)
+    return is_number(FORTRAN.sub("e", words[0]))
+
+
+def refuse_text_between(file: Path, lines: list[str]) -> None:
+    """Refuse lines of text after the first row.
+
+    Raises
+    ------
+    SeriesError
+        If there are any; it gives their count and the first one.
+    """
+    text = text_between(lines, starts_with_number)
+    if text:
+        count = f"{len(text)} line{'s' * (len(text) > 1)}"
+        raise SeriesError(
+            file,
+            f"{count} among the rows does not begin with a number",
+            "correct it, or begin a comment with #",
+            text[0],
+        )
 
 
 def numbers(file: Path, line: int, words: list[str]) -> list[float]:

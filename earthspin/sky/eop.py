@@ -19,7 +19,15 @@ from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import SeriesError
-from earthspin.sky.columns import check_calendar, checksum, is_number, lines_of, numbers
+from earthspin.sky.columns import (
+    check_calendar,
+    checksum,
+    is_number,
+    lines_of,
+    numbers,
+    starts_with_number,
+    text_between,
+)
 
 Array = NDArray[np.float64]
 
@@ -32,6 +40,8 @@ FASTEST, JUMP = 0.01, 0.1
 #: Gaps up to this many steps are bridged by straight lines, but none of more days than this: the
 #: oldest tables have a row in a tenth of a year.
 LONGEST_BRIDGE, LONGEST_DAYS = 10, 37.0
+#: Largest share of rows without numbers that are left out; one row may always be.
+LOST = 0.01
 #: How far dates may be from even ones, as a share of a step.
 DATE_ROUNDING = 1e-3
 #: Period of the free wobble by which the error of a bridge is told, d.
@@ -143,7 +153,7 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
     rows = list(_READERS[kind](file, lines))
     repairs: list[str] = []
     _check_dates(file, rows)
-    rows = _drop_missing(rows, repairs)
+    rows = _drop_missing(file, rows, text_between(lines, _IS_ROW[kind]), repairs)
     if len(rows) < 2:
         raise SeriesError(file, f"it holds {len(rows)} rows of polar motion", "is it complete?")
     _check_size(file, rows)
@@ -160,7 +170,7 @@ def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
     columns = 0
     for number, line in enumerate(lines, start=1):
         words = line.split()
-        if not words or not words[0].isdigit():
+        if not words or not is_number(words[0]):
             continue
         columns = columns or len(words)
         if len(words) != columns or columns not in _C04_LAYOUTS:
@@ -234,6 +244,19 @@ _READERS: dict[str, Callable[[Path, list[str]], Iterator[_Row]]] = {
 }
 
 
+def _is_row_of_finals(line: str) -> bool:
+    """Whether a line has a flag and a date; beyond the predictions there is the date alone."""
+    return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
+
+
+#: Whether a line is a row, by kind of table.
+_IS_ROW: dict[str, Callable[[str], bool]] = {
+    "c04": starts_with_number,
+    "c01": starts_with_number,
+    "finals2000A": _is_row_of_finals,
+}
+
+
 def _kind(file: Path, lines: list[str]) -> str:
     """Tell the kind of table from the first row of numbers."""
     for line in lines:
@@ -256,11 +279,19 @@ def _kind(file: Path, lines: list[str]) -> str:
 # --- what can be wrong ---------------------------------------------------------------------------
 
 
-def _drop_missing(rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Rows without a position become gaps."""
+def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
+    """Leave out lines of text between rows, and rows without a position; these become gaps."""
     kept = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
-    if len(kept) < len(rows):
-        repairs.append(f"{len(rows) - len(kept)} rows without numbers left out")
+    lost = sorted([*text, *({row.line for row in rows} - {row.line for row in kept})])
+    if lost:
+        if len(lost) > max(1, LOST * (len(kept) + len(lost))):
+            raise SeriesError(
+                file,
+                f"{len(lost)} of {len(kept) + len(lost)} rows hold no numbers",
+                f"at most {LOST:.0%} are left out; is the file damaged?",
+                lost[0],
+            )
+        repairs.append(f"{len(lost)} rows without numbers left out, the first in line {lost[0]}")
     return kept
 
 

@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -24,13 +23,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
-from earthspin.sky.columns import checksum, is_number, lines_of, numbers
+from earthspin.sky.columns import (
+    FORTRAN,
+    checksum,
+    is_number,
+    lines_of,
+    numbers,
+    refuse_text_between,
+)
 from earthspin.sky.equator import direction
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
+from earthspin.units import real_numbers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -61,6 +69,8 @@ NAMELESS: dict[int, tuple[str, ...]] = {
 FEWEST, CLOSEST, FARTHEST = 16, JULIAN_YEAR, 5000 * JULIAN_YEAR
 #: A step longer than so many usual ones is a gap.
 GAP = 1.5
+#: Places in each window at which a table that was read is checked.
+SAMPLES = 33
 #: How far normal or eccentricity vector may move from one row to the next.
 LARGEST_MOVE = 0.1
 #: How far the Earth's orbit may lean on the ecliptic at J2000.0, rad: short periods reach 3 arcsec,
@@ -167,9 +177,11 @@ def read_orbit(
     where = Where("read_orbit")
     axes = _axes(frame, where)
     for word, allowed, name in ((time, TIMES, "time"), (angles, ANGLES, "angles")):
-        if word is not None and word not in allowed:
+        if word is not None and not (isinstance(word, str) and word in allowed):
             raise where.at(name).error(word, nearest(word, allowed))
-    if hasattr(path, "columns"):
+    if not isinstance(body, str):
+        raise where.at("body").error(body, "give the name of a body, like 'mars'")
+    if hasattr(path, "columns") and hasattr(path, "iloc"):
         given = _Rows.of_frame(path)
     elif not isinstance(path, (str, os.PathLike)) or not os.fspath(path).strip():
         raise where.at("path").error(path, "give the path of a file, or a DataFrame")
@@ -186,7 +198,10 @@ def _axes(frame: object, where: Where) -> FloatArray:
         if frame not in FRAMES:
             raise where.at("frame").error(frame, nearest(frame, FRAMES))
         return axes_of(frame)
-    axes = np.asarray(frame, dtype=float)
+    try:
+        axes = real_numbers(frame)
+    except (TypeError, ValueError):
+        axes = np.empty(0)
     if axes.shape != (3, 3) or not np.allclose(axes @ axes.T, np.eye(3), rtol=0, atol=1e-9):
         raise where.at("frame").error(frame, "give three unit vectors at right angles, as rows")
     return axes
@@ -196,11 +211,19 @@ def _load(file: Path) -> OrbitTable:
     if problem := no_plain_file(file):
         raise SeriesError(file, problem)
     try:
-        return load(file)
+        table = load(file)
     except OSError as error:
         raise SeriesError(file, f"it cannot be read: {error.strerror or error}") from None
-    except (ValueError, KeyError, zipfile.BadZipFile, EOFError):
+    except Exception:  # zipfile, zlib, tokenize and numpy have kinds of their own
         raise SeriesError(file, "it is no table that to_file wrote", "write it again") from None
+    # n.n = 1 needs that the components in the plane of the table's axes are shorter than 1
+    basis = legendre.legvander(
+        np.cos(np.linspace(0, np.pi, SAMPLES)), table.coefficients.shape[-1] - 1
+    )
+    n1, n2, e1, e2 = table.coefficients @ basis.T
+    if not (np.max(n1**2 + n2**2) < 1 and np.max(e1**2 + e2**2) < 1):
+        raise SeriesError(file, "its numbers are those of no orbit", "write it again")
+    return table
 
 
 @dataclass(frozen=True)
@@ -228,7 +251,7 @@ class _Rows:
         columns = {}
         for name, place in chosen.items():
             try:
-                columns[name] = np.asarray(frame.iloc[:, place], dtype=float)
+                columns[name] = real_numbers(frame.iloc[:, place])
             except (TypeError, ValueError):
                 raise SeriesError(
                     _FRAME, f"column '{frame.columns[place]}' holds more than numbers"
@@ -241,10 +264,11 @@ class _Rows:
         names: list[str] = []
         rows: list[list[float]] = []
         lines: list[int] = []
-        for number, line in enumerate(lines_of(file), start=1):
+        text = lines_of(file)
+        refuse_text_between(file, text)
+        for number, line in enumerate(text, start=1):
             words = re.split(r"[\s,;]+", line.strip(" \t,;"))
-            # Fortran writes 1.5D-03
-            plain = [re.sub(r"(?<=\d)[dD](?=[-+]?\d)", "e", word) for word in words]
+            plain = [FORTRAN.sub("e", word) for word in words]
             if not is_number(plain[0]):
                 if not rows and words != [""]:
                     names = [word for word in words if word.strip("#%!")]

@@ -9,13 +9,16 @@ rates at any time cost a few products.
 from __future__ import annotations
 
 import os
+import zipfile
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.lib import format as npy
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
@@ -32,6 +35,8 @@ DENSE = 3
 #: Times whose orbit is kept, and how many such sets: whoever follows an axis with each cause of its
 #: error changed asks for the same ones every time.
 LONGEST_REMEMBERED, SETS_REMEMBERED = 2048, 32
+#: Bytes that the arrays of a file may hold together; a billion years take 13 million.
+LARGEST = 1 << 26
 #: Smallest unit in which coefficients are stored.
 UNIT = 1e-9
 
@@ -295,17 +300,60 @@ def write(path: Path, table: OrbitTable) -> None:
 
 
 def load(path: Path) -> OrbitTable:
-    """Read a table that `write` wrote."""
-    with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-        return OrbitTable(
-            name=str(file["name"]),
-            edges=file["edges"] * JULIAN_YEAR,
-            coefficients=file["coefficients"] * UNIT,
-            axes=file["axes"],
-            source=str(file["source"]),
-            errors=file["errors"].astype(float),
-            sha256=checksum(path),
-        )
+    """Read a table that `write` wrote.
+
+    Raises
+    ------
+    ValueError
+        If arrays are too large, or their shapes or numbers are those of no table; what zipfile,
+        zlib and tokenize raise of a damaged file passes.
+    """
+    arrays = _arrays(path)
+    table = OrbitTable(
+        name=str(arrays["name"]),
+        edges=arrays["edges"] * JULIAN_YEAR,
+        coefficients=arrays["coefficients"] * UNIT,
+        axes=arrays["axes"],
+        source=str(arrays["source"]),
+        errors=arrays["errors"].astype(float),
+        sha256=checksum(path),
+    )
+    _, windows, terms = table.coefficients.shape
+    shapes = {
+        "name": (), "source": (), "edges": (windows + 1,), "axes": (3, 3), "errors": (2, windows),
+        "coefficients": (4, windows, terms),
+    }  # fmt: skip
+    wrong = [name for name, shape in shapes.items() if arrays[name].shape != shape]
+    if wrong or not (windows and terms):
+        raise ValueError(f"shapes of {wrong}")
+    if not (
+        all(np.isfinite(arrays[name]).all() for name in ("edges", "axes", "errors"))
+        and np.all(np.diff(table.edges) > 0)
+        and np.all(table.errors >= 0)
+        and np.allclose(table.axes @ table.axes.T, np.eye(3), rtol=0, atol=1e-9)
+    ):
+        raise ValueError("numbers of no table")
+    return table
+
+
+def _arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """Arrays of an .npz file, refused by their declared size before they are unpacked."""
+    arrays = {}
+    with zipfile.ZipFile(path) as archive:
+        members = archive.infolist()
+        if sum(member.file_size for member in members) > LARGEST:
+            raise ValueError(f"it unpacks to more than {LARGEST} bytes")
+        for member in members:
+            data = BytesIO(archive.read(member))
+            if npy.read_magic(data) != (1, 0):
+                raise ValueError("another version of .npy")
+            shape, by_columns, dtype = npy.read_array_header_1_0(data)
+            if dtype.kind not in "fiU":
+                raise ValueError(f"an array of {dtype}")
+            order: Literal["F", "C"] = "F" if by_columns else "C"
+            array = np.frombuffer(data.read(), dtype).reshape(shape, order=order)
+            arrays[member.filename.removesuffix(".npy")] = array
+    return arrays
 
 
 @cache

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 
-from earthspin.errors import UndefinedError
+from earthspin.errors import UndefinedError, one_line
 
 if TYPE_CHECKING:
     import numpy as np
@@ -149,8 +149,12 @@ def checked(found: FloatArray, place: Place, days: FloatArray) -> FloatArray:
     import numpy as np
 
     from earthspin.dates import datetime64
+    from earthspin.units import real_numbers
 
-    values = np.asarray(found, dtype=np.float64)
+    try:
+        values = real_numbers(found)
+    except (TypeError, ValueError) as error:
+        raise UndefinedError(f"{words(place)} gives positions that are {one_line(error)}") from None
     if values.shape != (days.size, 3):
         raise UndefinedError(
             f"{words(place)} gives positions of shape {values.shape} at {days.size} times; one "

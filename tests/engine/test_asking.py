@@ -43,14 +43,19 @@ HEADS = {n for q in QUESTIONS.values() for n, one in keys_of(q).items() if not o
 TABLES = {q.table for q in QUESTIONS.values() if q.table}
 #: A scene of each question that runs as it is, if anything does.
 FULL: dict[str, dict[str, Any]] = {
-    "free-rotor": {"rotor": {"moments": [1, 2, 2.5], "omega": [0.1, 1, 0.1]}},
-    "top": {
-        "top": {
-            **{"transverse_moment": 1.0, "axial_moment": 1.2, "weight_moment": 1.5},
-            **{"theta": "40 deg", "spin": 3.0},
+    "free-rotor": {
+        "rotor": {
+            "moments": ["1 kg m2", "2 kg m2", "2.5 kg m2"],
+            "omega": ["0.1 rad/s", "1 rad/s", "0.1 rad/s"],
         }
     },
-    "spheroid": {"spheroid": {"position": [[7e6, 0.0, 0.0]]}},
+    "top": {
+        "top": {
+            **{"transverse_moment": "1 kg m2", "axial_moment": "1.2 kg m2"},
+            **{"weight_moment": "1.5 N m", "theta": "40 deg", "spin": "3 rad/s"},
+        }
+    },
+    "spheroid": {"spheroid": {"position": [["7e6 m", "0 m", "0 m"]]}},
     "cassini-states": {
         "body": {"from": "mars"},
         "orbit": {"period": "687 d", "i": "3 deg", "node_period": "-70 kyr"},

@@ -1,5 +1,7 @@
 """Plans: the order of the parts, and what is left out and why."""
 
+import copy
+import pickle
 from dataclasses import replace
 from inspect import signature
 
@@ -28,6 +30,15 @@ def test_parts_run_after_what_they_need(scene: str, sections: str | tuple[str, .
     titles = {part.title for part in graph.parts.values()}
     assert {part.title for part in plan.parts} | set(plan.left_out) == titles
     assert not {part.title for part in plan.parts} & set(plan.left_out)
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_a_plan_can_be_pickled(scene: str) -> None:
+    plan = earthspin.plan(scene, "all")
+    for same in (pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert same.parts == plan.parts
+        assert str(same) == str(plan)
+        assert same.question.to_table() == plan.question.to_table()
 
 
 @pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)

@@ -7,7 +7,8 @@ import pytest
 
 from earthspin import EARTH, MOON, EarthspinError, Scene, SceneError, load_scene
 from earthspin.engine.question import Question
-from earthspin.scenes import QUESTIONS, question_named, shipped_scenes
+from earthspin.engine.run import scene_text
+from earthspin.scenes import QUESTIONS, question_named, shipped_scenes, typed_scene
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
@@ -131,3 +132,84 @@ def test_a_scene_in_python_takes_bodies_and_words() -> None:
     assert scene.replace(step="1 h").perturbers == scene.perturbers
     with pytest.raises(SceneError, match="either times"):
         Scene(compute="torque", times=["2000-01-01"], step="1 h")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"step": "1" * 1_000_000 + "x"},
+        {"step": "1 h" + "/h" * 1_000_000},
+        {"a." * 1_000_000 + "a": 1},
+        {"body." * 1_000 + "j2": 1},
+    ],
+    ids=["digits", "slashes", "dots", "deep"],
+)
+def test_long_texts_are_refused_before_they_are_parsed(change: dict[str, Any]) -> None:
+    """The parsers of numbers, units and keys would take hours."""
+    with pytest.raises(EarthspinError) as error:
+        load_scene("torque", change)
+    assert "\n" not in str(error.value)
+
+
+def test_a_file_with_a_key_of_many_parts_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "deep.toml"
+    for text in ("a." * 1_000_000 + "a = 1", "body = {" + "a." * 1_000_000 + "a = 1}"):
+        path.write_text(f'compute = "torque"\n{text}\n')
+        with pytest.raises(SceneError, match="parts"):
+            load_scene(path)
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "bare", "unit"),
+    [
+        ("precession", "body.spin_period", 43200.0, "s"),
+        ("precession", "body.spin_period", 43200, "s"),
+        ("precession", "body.radius", 6.4e6, "m"),
+        ("top-wave", "duration", 2.0, "s"),
+        ("rotation", "start_omega", [0.0, 0.0, 7e-5], "rad/s"),
+    ],
+)
+def test_numbers_that_are_typed_carry_units(
+    scene: str, key: str, bare: Any, unit: str, tmp_path: Path
+) -> None:
+    """In files and with --set; in Python plain numbers are in SI units."""
+    path = tmp_path / "scene.toml"
+    several = isinstance(bare, list)
+    with_unit = [f"{one} {unit}" for one in bare] if several else f"{bare} {unit}"
+    table = load_scene(scene).word
+    own = "top." if table == "top" else ""
+    in_python = load_scene(scene, {own + key: bare})
+    for value, fits in ((bare, False), (with_unit, True)):
+        written = f'compute = "{table}"\n{own}{key} = {value!r}\n'
+        if not own:
+            path.write_text(written)
+            if fits:
+                load_scene(path)
+            else:
+                with pytest.raises(SceneError, match="give it with its unit, like"):
+                    load_scene(path)
+        if fits:
+            typed = typed_scene(scene, {own + key: value})
+            assert typed.to_table() == in_python.to_table()
+        else:
+            with pytest.raises(SceneError, match="give it with its unit, like"):
+                typed_scene(scene, {own + key: value})
+
+
+@pytest.mark.parametrize("scene", shipped_scenes())
+def test_the_complete_scene_of_an_answer_is_read_from_a_file(scene: str, tmp_path: Path) -> None:
+    """It carries units, so that a person may store it and change it."""
+    question = load_scene(scene)
+    path = tmp_path / "complete.toml"
+    path.write_text(scene_text(question))
+    assert load_scene(path).to_table() == question.to_table()
+
+
+def test_an_element_of_an_orbit_that_is_typed_carries_its_unit(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    text = 'compute = "precession"\nperturbers = [{ from = "moon", orbit = { a = %s } }]\n'
+    path.write_text(text % '"3.84e8 m"')
+    load_scene(path)
+    path.write_text(text % "3.84e8")
+    with pytest.raises(SceneError, match="give it with its unit"):
+        load_scene(path)

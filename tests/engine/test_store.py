@@ -235,3 +235,22 @@ def test_files_have_units_for_machines_and_for_people(tmp_path: Path, kind: str)
     assert tree.precession_rate.attrs["units"] == "arcsec/yr"  # the answer itself is as it was
     back = store.open(path)
     assert back.precession_rate.attrs == tree.precession_rate.attrs
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+@pytest.mark.parametrize(
+    "value", [object(), 1j, None, {"a": 1}, True, [[1], [2, 3]], 10**400],
+    ids=["object", "complex", "None", "dict", "bool", "uneven", "long"],
+)  # fmt: skip
+def test_attributes_that_no_file_holds_are_refused(
+    tmp_path: Path, kind: str, value: object
+) -> None:
+    path = store.write(small(), tmp_path / f"r.{kind}")
+    answer, variable = small(), small()
+    answer.attrs["note"] = value
+    variable.x.attrs["note"] = value
+    for refused in (answer, variable):
+        with pytest.raises(OutputError, match="note") as error:
+            store.write(refused, path)
+        assert "\n" not in str(error.value)
+    xr.testing.assert_identical(store.open(path), small())

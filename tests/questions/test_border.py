@@ -2,6 +2,7 @@
 
 import datetime as dt
 import math
+import warnings
 from typing import Any
 
 import astropy.units as u
@@ -11,7 +12,7 @@ import pytest
 import xarray as xr
 
 import earthspin
-from earthspin import EARTH, BodyError, EarthspinError, SceneError, UnitsError
+from earthspin import EARTH, Body, BodyError, EarthspinError, SceneError, UnitsError
 from earthspin.constants import JULIAN_YEAR
 
 MOMENTS, OMEGA = [1.0, 2.0, 2.5], [0.1, 1.0, 0.1]
@@ -181,6 +182,104 @@ MASKED = np.ma.masked_array([1.0, 2.0, 2.5], [False, True, False])
 def test_masks_are_not_ignored(call: Any) -> None:
     with pytest.raises(SceneError, match="masked"):
         call()
+
+
+_PLACES = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0.5]]
+_CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+_FACES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+
+
+def _of_torque(torque: Any) -> Any:
+    return earthspin.rotation(
+        "2000-01-01", "2000-01-02", "12 h", perturbers=[], effects=[], torque=lambda *_: torque
+    )
+
+
+#: Calls that take arrays, each with arrays of the right shape, to which the shares of `SPOILT` are
+#: added.
+TAKES_ARRAYS = {
+    "masses": (np.ones(3), lambda m: Body.from_masses(m, _PLACES)),
+    "positions": (np.array(_PLACES), lambda r: Body.from_masses([1.0, 1, 1], r)),
+    "density": (np.ones((1, 1, 2)), lambda d: Body.from_density(d, [0, 1], [0, 1], [0, 1, 2])),
+    "edges": (np.arange(3.0), lambda z: Body.from_density(np.ones((1, 1, 2)), [0, 1], [0, 1], z)),
+    "vertices": (np.array(_CORNERS), lambda v: Body.from_mesh((v, _FACES), density=1.0)),
+    "faces": (np.array(_FACES), lambda f: Body.from_mesh((_CORNERS, f), density=1.0)),
+    "torque": (np.array([0.0, 0.0, 1e20]), _of_torque),
+    "start": (
+        np.array([0.0, 0.0, 7e-5]),
+        lambda w: earthspin.rotation(
+            "2000-01-01", "2000-01-02", "12 h", perturbers=[], effects=[], start_omega=w
+        ),
+    ),
+    "frame": (
+        np.eye(3),
+        lambda axes: earthspin.read_orbit(
+            pd.DataFrame(dict.fromkeys("tkhqp", np.arange(-20.0, 1.0))), frame=axes
+        ),
+    ),
+}
+
+
+def _of_objects(array: Any, last: object) -> Any:
+    array = array.astype(object)
+    array.flat[-1] = last
+    return array
+
+
+SPOILT = {
+    "masked": lambda a: np.ma.masked_array(a, np.arange(a.size).reshape(a.shape) == a.size - 1),
+    "rows masked": lambda a: [np.ma.masked_array(row, np.ones_like(row)) for row in a],
+    "complex": lambda a: a + 1j,
+    "complex Quantity": lambda a: (a + 1j) * u.one,
+    "text": lambda a: a.astype(str),
+    "objects, one a text": lambda a: _of_objects(a, "1"),
+    "objects, one complex": lambda a: _of_objects(a, 1j),
+    "objects, one None": lambda a: _of_objects(a, None),
+    "truth": lambda a: np.ones(a.shape, dtype=bool),
+    "nothing": lambda a: a[:0],
+}
+
+
+@pytest.mark.parametrize("spoilt", SPOILT.values(), ids=SPOILT)
+@pytest.mark.parametrize(("array", "call"), TAKES_ARRAYS.values(), ids=TAKES_ARRAYS)
+def test_no_array_loses_a_part_on_its_way_in(array: Any, call: Any, spoilt: Any) -> None:
+    """A masked number is not used, an imaginary part not dropped, text not read."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(EarthspinError) as error:
+            call(spoilt(array))
+    assert "\n" not in str(error.value)
+
+
+def test_columns_of_an_orbit_are_real_numbers() -> None:
+    rows = pd.DataFrame({"t": np.arange(-20.0, 1.0), "k": 0.01, "h": 0.0, "q": 0.0, "p": 0.0})
+    for k in (0.01 + 1e-9j, "0.01", True, None):
+        with pytest.raises(EarthspinError):
+            earthspin.read_orbit(rows.assign(k=k))
+
+
+def test_a_torque_is_converted_to_newton_metres() -> None:
+    plain, quantity = _of_torque([0.0, 0.0, 1e23]), _of_torque([0, 0, 1e20] * u.kN * u.m)
+    np.testing.assert_array_equal(plain.omega, quantity.omega)
+
+
+@pytest.mark.parametrize(
+    "values", [["a"], [1e-3 + 1j], [None], [True], []],
+    ids=["text", "complex", "None", "truth", "nothing"],
+)  # fmt: skip
+def test_labelled_arrays_of_a_body_are_real_numbers(values: list[Any]) -> None:
+    array = xr.DataArray(np.array(values), dims="case")
+    for call in (EARTH.replace, lambda j2: earthspin.wobble_ladder(body={"j2": j2})):
+        with pytest.raises(EarthspinError, match="j2") as error:
+            call(j2=array)
+        assert "\n" not in str(error.value)
+
+
+def test_labelled_arrays_of_a_body_are_converted_from_their_units() -> None:
+    plain = xr.DataArray([6.0e6, 6.5e6], dims="case")
+    in_km = xr.DataArray([6000.0, 6500.0], dims="case", attrs={"units": "km"})
+    found = EARTH.replace(radius=in_km).radius
+    np.testing.assert_array_equal(found, plain)
 
 
 def labelled(values: list[float], labels: list[Any] | None = None) -> xr.DataArray:
@@ -389,3 +488,46 @@ def test_what_is_wrong_is_one_line_that_names_it(call: Any, name: str, value: An
 def test_all_forms_of_a_value_give_the_same(one: Any, two: Any) -> None:
     first, second = one(), two()
     xr.testing.assert_allclose(first, second, rtol=1e-15, atol=0)
+
+
+# --- arguments of newer calls ----------------------------------------------------------------
+
+_ROWS = pd.DataFrame({"t": np.arange(-20.0, 1.0), "k": 0.01, "h": 0.0, "q": 0.0, "p": 0.0})
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: earthspin.Orbit(a=4e8, e=[0.1, 0.2]),
+        lambda: earthspin.Orbit(a=4e8, node=[0.1, 0.2]),
+        lambda: earthspin.Orbit(a=4e8, epoch=10**400),
+        lambda: Body.from_masses(["1 kg", "2 kg"], _PLACES),
+        lambda: Body.from_masses([1.0, 1, 1], _PLACES, radius=[]),
+        lambda: Body.from_masses([1.0, 1, 1], _PLACES, radius=[1.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=[1.0, 2.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), mass=[1.0, 2.0]),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=1.0, radius=5e-324),
+        lambda: Body.from_mesh((_CORNERS, _FACES), density=1.0, radius=1e308),
+        lambda: Body.from_layers("prem", spin_period=np.array([8e4, 9e4])),
+        lambda: Body.from_layers("prem", spin_period=xr.DataArray([8e4], dims="case")),
+        lambda: Body.from_layers("prem", spin_period=None),
+        lambda: Body.from_layers("prem", spin_period=0),
+        lambda: earthspin.read_orbit(_ROWS, angles=pd.Series(["deg"])),
+        lambda: earthspin.read_orbit(_ROWS, time=["d"]),
+        lambda: earthspin.read_orbit(_ROWS, body=None),
+        lambda: earthspin.read_orbit(_ROWS, frame=[[1], [1, 2]]),
+        lambda: earthspin.ensemble("precession", {"n": 2}, impossible=1j),
+        lambda: earthspin.ensemble("precession", {"n": 2, "only": 3}),
+        lambda: earthspin.ensemble("precession", {"n": 2, "correlations": 3}),
+        lambda: earthspin.daily_insolation(
+            earthspin.long_term("-5 kyr", "0 kyr", "5 kyr"), [], "90 deg"
+        ),
+        lambda: EARTH.replace(moments=None),
+        lambda: EARTH.replace(mass=None),
+        lambda: earthspin.wobble_ladder(body={"j2": xr.DataArray(np.empty(0), dims="case")}),
+    ],
+)
+def test_what_no_call_can_use_is_refused_on_one_line(call: Any) -> None:
+    with pytest.raises(EarthspinError) as error:
+        call()
+    assert "\n" not in str(error.value)

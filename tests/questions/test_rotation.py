@@ -1,5 +1,7 @@
 """The question of the whole attitude: starts, torques of one's own, blocks, worlds."""
 
+import io
+import json
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,6 +18,7 @@ from data_tools.coverage.rotation import kepler, moon
 from earthspin import BODIES, EARTH, Body, EarthspinError, SceneError, scenes
 from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.constants import ARCSEC, DAY, G
+from earthspin.progress import lines_to
 from earthspin.units import FloatArray
 
 MONTH = ("2000-01-01T12:00", "2000-01-31T12:00", "1 d")
@@ -175,7 +178,7 @@ def test_time_is_counted_from_the_start_and_axes_are_the_bodys() -> None:
         (lambda t, q, omega: 1 / 0, "division by zero"),
         (lambda t, q, omega: np.zeros(5), "shapes"),
         (lambda t, q, omega: np.nan * omega, "not finite"),
-        (lambda t, q, omega: "much", "could not convert"),
+        (lambda t, q, omega: "much", "real numbers"),
         (5, "give a function"),
     ],
 )
@@ -418,3 +421,37 @@ def test_an_effect_that_is_switched_off_is_neglected() -> None:
         sizes = earthspin.run_tree(scene, "neglected")["neglected"].neglected_effect
         assert ("j2-rate" in sizes.effect) == (not unknown)
         assert ("planets" in sizes.attrs.get("of_unknown_size", "")) == unknown
+
+
+def test_a_spin_that_takes_hours_to_follow_is_refused_with_the_time() -> None:
+    drum = ROUND.replace(spin_period=None)
+    alone = {"perturbers": [], "effects": [], "start_attitude": [1, 0, 0, 0]}
+    with pytest.raises(SceneError, match=r"turns 1\.38e\+06 times, .* about 1\.5 h") as error:
+        earthspin.rotation(
+            "2000-01-01", "2000-01-02", "12 h", body=drum, start_omega=[0, 0, 100.0], **alone
+        )
+    assert "\n" not in str(error.value)
+    with pytest.raises(SceneError, match="turns"):
+        earthspin.run_tree(
+            earthspin.Scene(
+                compute="rotation",
+                span=["2000-01-01", "2000-01-02"],
+                body=drum,
+                start_omega=[0, 0, 100.0],
+                **alone,
+            ),
+            "divergence",
+        )
+
+
+def test_a_long_rotation_says_how_much_is_left() -> None:
+    lines = io.StringIO()
+    with lines_to(lines):
+        earthspin.rotation(
+            "2000-01-01", "2000-01-01T01", "1 h", body=ROUND, start_omega=[0, 0, 1.0],
+            perturbers=[], effects=[], start_attitude=[1, 0, 0, 0],
+        )  # fmt: skip
+    told = [json.loads(line) for line in lines.getvalue().splitlines()]
+    turns = round(3600 / (2 * np.pi))
+    assert told[0]["of"] == turns
+    assert told[-1]["done"] == turns

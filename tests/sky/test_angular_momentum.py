@@ -48,6 +48,7 @@ def test_one_file(file: Path) -> None:
         (" 51544.125", " nan", "line 3: MJD nan stands beside"),
         ("  1  3  51544.125", "  1  2  51544.08333", "line 3: the step changes before MJD"),
         ("  1  3  51544.125", "  1 12  51544.500", "line 4: .*time runs backwards"),
+        (" 2000  1  1  6  51544", " x000  1  1  6  51544", "line 4: 1 line among the rows"),
         ("1.1e-07", "11.0", "line 3: .* radians"),
         ("1.1e-07", "nan", "line 3: .* radians"),
         ("1.1e-07", "pole", "line 3: could not convert"),

@@ -183,6 +183,24 @@ def test_what_can_be_put_right_is_said(lines: list[str], file: Path) -> None:
     assert np.all(np.diff(series.mjd) == 1)
 
 
+@pytest.mark.parametrize("kind", ["text", "nan"])
+def test_rows_that_are_lost_are_counted_and_named(lines: list[str], file: Path, kind: str) -> None:
+    def spoil(line: str) -> str:
+        return "x" + line if kind == "text" else line[:26] + "         nan" + line[38:]
+
+    start = next(at for at, line in enumerate(lines) if line.strip() and line[0] != "#")
+    rows = lines[start : start + 300]
+    few = [spoil(row) if at in (50, 200) else row for at, row in enumerate(rows)]
+    file.write_text("\n".join(few))
+    repairs = eop.read_polar_motion(file).repairs
+    assert "2 rows without numbers left out, the first in line 51" in repairs
+    many = [spoil(row) if at % 9 == 5 else row for at, row in enumerate(rows)]
+    file.write_text("\n".join(many))
+    with pytest.raises(SeriesError, match="line 6: 33 of 300 rows") as error:
+        eop.read_polar_motion(file)
+    assert error.value.line == 6
+
+
 def test_the_longest_gap_that_is_bridged(lines: list[str], file: Path) -> None:
     """Nine days without a row are ten steps; ten days are one too many."""
     file.write_text("\n".join(lines[:100] + lines[109:]))

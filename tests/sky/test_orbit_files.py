@@ -1,5 +1,7 @@
 """Orbits from files and frames: layouts, axes, units, and every refusal in one line."""
 
+import contextlib
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
@@ -335,3 +337,79 @@ def test_the_obliquity_on_an_orbit_from_a_file_is_that_on_our_own() -> None:
     off = np.abs(read.obliquity - ours.obliquity) * 3600
     assert float(off.max()) < 0.5
     assert "DataFrame" in read.obliquity.attrs["orbit"]
+
+
+def test_a_line_of_text_after_the_rows_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "orbit.txt"
+    lines = text(la2010()).splitlines()
+    path.write_text("\n".join([*lines, "# made by hand", ""]))
+    read_orbit(path)
+    path.write_text("\n".join([*lines[:-1], "x" + lines[-1]]))
+    with pytest.raises(SeriesError) as error:
+        read_orbit(path)
+    assert error.value.line == len(lines)
+
+
+def _arrays(file: Path) -> dict[str, np.ndarray]:
+    with np.load(file) as archive:
+        return dict(archive)
+
+
+@pytest.fixture
+def stored(tmp_path: Path) -> Path:
+    file = tmp_path / "mine.npz"
+    read_orbit(elements()).to_file(file)
+    return file
+
+
+def test_a_damaged_archive_is_refused_or_read_as_it_was(stored: Path) -> None:
+    """One flipped bit of a file: what is read is the table, or one line says that it is none."""
+    content, whole = stored.read_bytes(), read_orbit(stored)
+    flips = np.random.default_rng(1).integers(0, 8 * len(content), 300)
+    for flip in flips.tolist():
+        damaged = bytearray(content)
+        damaged[flip // 8] ^= 1 << (flip % 8)
+        stored.write_bytes(damaged)
+        with contextlib.suppress(SeriesError):
+            table = read_orbit(stored)
+            assert np.array_equal(table.coefficients, whole.coefficients)
+            assert np.array_equal(table.edges, whole.edges)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("name", lambda of: np.array(["a", "b"])),
+        ("name", lambda of: np.array(1 + 1j)),
+        ("edges", lambda of: of[:-1]),
+        ("edges", lambda of: of[::-1]),
+        ("edges", lambda of: of * np.nan),
+        ("edges", lambda of: of[:, np.newaxis]),
+        ("axes", lambda of: of[:2]),
+        ("axes", lambda of: 2 * of),
+        ("errors", lambda of: of[:1]),
+        ("errors", lambda of: -1 - of),
+        ("coefficients", lambda of: of[:3]),
+        ("coefficients", lambda of: of[:, :, :0]),
+        ("coefficients", lambda of: of + 2_000_000_000),
+        ("coefficients", lambda of: of.astype("M8[s]")),
+    ],
+)
+def test_arrays_of_no_table_are_refused(
+    stored: Path, name: str, change: Callable[[np.ndarray], np.ndarray]
+) -> None:
+    arrays = _arrays(stored)
+    np.savez_compressed(stored, **(arrays | {name: change(arrays[name])}))
+    with pytest.raises(SeriesError):
+        read_orbit(stored)
+
+
+def test_an_archive_that_unpacks_to_too_much_is_refused_before(stored: Path) -> None:
+    arrays = _arrays(stored)
+    np.savez_compressed(stored, **(arrays | {"more": np.zeros(50_000_000)}))
+    assert stored.stat().st_size < 2_000_000
+    tracemalloc.start()
+    with pytest.raises(SeriesError):
+        read_orbit(stored)
+    assert tracemalloc.get_traced_memory()[1] < 10_000_000
+    tracemalloc.stop()
