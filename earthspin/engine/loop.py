@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Seconds that a scheduler has to answer.
 PATIENCE = 10
+#: The only address on which a cluster started here listens, also for its pages in the browser.
+HERE = "127.0.0.1"
 #: Blocks that wait for each thread of a cluster, so that none is idle.
 WAITING = 3
 
@@ -226,7 +228,11 @@ def _client(given: object) -> Iterator[Client]:
         with (
             dask.config.set(quiet),
             distributed.LocalCluster(
-                n_workers=given, threads_per_worker=1, dashboard_address=":0", silence_logs=50
+                n_workers=given,
+                threads_per_worker=1,
+                dashboard_address=f"{HERE}:0",
+                silence_logs=50,
+                host=HERE,
             ) as cluster,
             distributed.Client(cluster, set_as_default=False) as made,
         ):

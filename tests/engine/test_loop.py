@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 import zarr
 
@@ -276,6 +277,19 @@ def test_killed_a_hundred_times(tmp_path: Path) -> None:
 def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path) -> None:
     path = loop.write(Squares(), tmp_path / "r.zarr", client=2)
     assert bytes_of(path) == bytes_of(undisturbed)
+
+
+def test_a_cluster_listens_to_this_machine_only() -> None:
+    with loop._client(1):
+        own = psutil.Process()
+        connections = [
+            connection
+            for process in (own, *own.children(recursive=True))
+            for connection in process.net_connections("all")
+            if connection.status == psutil.CONN_LISTEN
+        ]
+    assert len(connections) >= 3  # of the scheduler, the worker and its nurse
+    assert {connection.laddr.ip for connection in connections} == {"127.0.0.1"}
 
 
 def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
