@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -302,16 +303,19 @@ def _run(given: argparse.Namespace) -> None:
     wanted = _sections(given)
     everything = target is not None and wanted is None
     tree = run_tree(question, "all" if everything else wanted or ())
-    written = [] if target is None else _write(tree, target, name)
-    if given.json:
-        from earthspin.views.as_json import write_json
+    written = [] if target is None else [_store(tree, target, name)]
+    with _note_of_results([*written]):
+        if target is not None and written != [target]:
+            written.insert(0, _write_page(tree, target, name))
+        if given.json:
+            from earthspin.views.as_json import write_json
 
-        write_json(tree, sys.stdout)
-    else:
-        from earthspin.views.of_question import print_tables
+            write_json(tree, sys.stdout)
+        else:
+            from earthspin.views.of_question import print_tables
 
-        print_tables(tree)
-        _say_what_else(question, tree)
+            print_tables(tree)
+            _say_what_else(question, tree)
     for path in written:
         print(f"wrote {printable(str(path))}", file=sys.stderr if given.json else sys.stdout)
 
@@ -342,23 +346,38 @@ def _ensemble(given: argparse.Namespace) -> None:
         return
     from earthspin.views.of_question import print_tables
 
-    print_tables(answer)
+    with _note_of_results([Path(given.out)]):
+        print_tables(answer)
     print(f"wrote {printable(given.out)}")
 
 
-def _write(tree: Any, target: Path, name: str) -> list[Path]:
-    """Write one file, or a page and the data into a folder."""
-    from earthspin.engine import drafts, store
+def _store(tree: Any, target: Path, name: str) -> Path:
+    """Write the results: one file, or the data of a folder."""
+    from earthspin.engine import store
 
-    if target.suffix in (".nc", ".zarr"):
-        return [store.write(tree, target)]
+    is_file = target.suffix in (".nc", ".zarr")
+    return store.write(tree, target if is_file else target / f"{name}.nc")
+
+
+def _write_page(tree: Any, folder: Path, name: str) -> Path:
+    from earthspin.engine import drafts
     from earthspin.views.of_question import scene_page
 
-    files = [target / f"{name}.html", target / f"{name}.nc"]
-    with drafts.replacing(files[0]) as page, drafts.replacing(files[1]) as data:
-        page.write_text(scene_page(tree), encoding="utf-8")
-        store.write_netcdf(tree, data)
-    return files
+    page = folder / f"{name}.html"
+    with drafts.replacing(page) as draft:
+        draft.write_text(scene_page(tree), encoding="utf-8")
+    return page
+
+
+@contextmanager
+def _note_of_results(stored: Sequence[Path]) -> Iterator[None]:
+    """Add to whatever ends the views where the results are, which are stored before."""
+    try:
+        yield
+    except BaseException as error:
+        for path in stored:
+            error.add_note(f"the results are stored in {path}")
+        raise
 
 
 def _say_what_else(question: Question, tree: Any) -> None:

@@ -73,7 +73,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         return READER_GONE
     except Exception as error:
         status, words = _judged(error)
-        _say(words)
+        _say("; ".join([words, *getattr(error, "__notes__", ())]))
         if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
             _tell("".join(traceback.format_exception(error)).rstrip())
         return status
