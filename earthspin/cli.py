@@ -497,12 +497,17 @@ def _stability(given: argparse.Namespace) -> int:
 
 def _question(given: argparse.Namespace) -> Question:
     """Question of the command line: the scene, then --set, then --ephemeris."""
-    from earthspin.scenes import load_scene
+    from earthspin.scenes import files_of, load_scene
 
     changes = dict(_setting(text) for text in given.settings)
     if given.ephemeris is not None:
         changes["ephemeris"] = given.ephemeris
-    return load_scene(given.scene, changes)
+    question = load_scene(given.scene, changes)
+    if Path(given.scene).suffix in (".nc", ".zarr"):
+        for key, path, _ in files_of(question, changes):
+            words = f"{given.scene} names a file, which is opened: {key} = '{path}'"
+            print(f"earthspin: {printable(words)}", file=sys.stderr)
+    return question
 
 
 def _setting(text: str) -> tuple[str, Any]:

@@ -5,18 +5,22 @@ from __future__ import annotations
 import os
 import tomllib
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answering
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
-from earthspin.engine.question import Question
+from earthspin.engine.question import Question, keys_of
 from earthspin.errors import SceneError, nearest, no_plain_file
+from earthspin.parts.orbits import OWN, OrbitChoice
+from earthspin.parts.sky import KernelName
 from earthspin.questions.cassini import CassiniStates
 from earthspin.questions.compliances import Compliances
 from earthspin.questions.free_rotor import FreeRotor
@@ -24,7 +28,7 @@ from earthspin.questions.iau import IAU
 from earthspin.questions.long_term import LongTerm
 from earthspin.questions.love_numbers import LoveNumbers
 from earthspin.questions.nutation import NutationLadder
-from earthspin.questions.polar_motion import PolarMotion
+from earthspin.questions.polar_motion import C04, PolarMotion, TableFile
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
 from earthspin.questions.rotation import Rotation
@@ -32,6 +36,7 @@ from earthspin.questions.spheroid import Spheroid
 from earthspin.questions.top import Top
 from earthspin.questions.torque import Torque
 from earthspin.questions.wobble import Wobble
+from earthspin.sky.columns import is_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -127,7 +132,8 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     Raises
     ------
     SceneError
-        If there is no such scene, it is not TOML, or a key is unknown or wrong.
+        If there is no such scene, it is not TOML, a key is unknown or wrong, or an answer names a
+        file of another kind than its key takes.
 
     Examples
     --------
@@ -143,6 +149,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
             return scene
         table = scene.to_table(given=True) | {"title": scene.title}
         return _changed(table, changes, "", "")
+    stored = True
     if hasattr(scene, "attrs"):
         text, source, title = _scene_of(scene), "", ""
     elif not isinstance(scene, (str, os.PathLike)):
@@ -154,13 +161,22 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         text, source, title = _scene_of(answer), str(scene), ""
     else:
         text, source, title = _read(os.fspath(scene))
+        stored = False
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError("file", source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError("file", source, f"it cannot be read: {error}") from None
-    return _changed(table, changes or {}, source, title)
+    if not stored:
+        return _changed(table, changes or {}, source, title)
+    if isinstance(table.get("members"), str):
+        words = "a stored scene holds its members, not the path of a file"
+        raise SceneError("members", table["members"], words, source=source)
+    question = _changed(table, changes or {}, source, title)
+    for key, path, kind in files_of(question, changes or {}):
+        _check_kind(key, path, kind, source)
+    return question
 
 
 def _changed(
@@ -427,6 +443,66 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
         raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise SceneError("scene", text, "it cannot be read: it is not text in UTF-8") from None
+
+
+def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, type]]:
+    """Files that are read to answer a question: the key, the path, and the kind of the key.
+
+    Parameters
+    ----------
+    question : Question
+    but : iterable of str
+        Keys to leave out.
+    """
+    from earthspin.sky.ephemeris import NAMED_KERNELS
+
+    words = (*NAMED_KERNELS, OWN, C04)
+    members, files = question.members, []
+    for name, key in keys_of(type(question)).items():
+        dotted = f"{question.table}.{name}" if key.setting else name
+        if not isinstance(key.kind, tuple(_BEGINNINGS)) or dotted in but:
+            continue
+        values = [getattr(question, name)]
+        if members is not None and name in members.distributions:
+            values = [*members.distributions[name].numbers]
+        elif members is not None and name in members.values:
+            values = np.unique(members.values[name]).tolist()
+        files += [
+            (dotted, Path(value).absolute(), type(key.kind))
+            for value in values
+            if isinstance(value, str) and value.lower() not in words
+        ]
+    return files
+
+
+#: Kinds of keys that name a file, with the test of its first bytes.
+_BEGINNINGS: dict[type, tuple[str, Callable[[bytes], bool]]] = {
+    KernelName: ("an SPK kernel", lambda head: head.startswith((b"DAF/SPK", b"NAIF/DAF"))),
+    OrbitChoice: ("the table of an orbit", lambda head: head[:2] == b"PK" or is_table(head)),
+    TableFile: ("a table of polar motion", is_table),
+}
+#: How many first bytes are looked at: more than any table has above its numbers.
+_HEAD = 1 << 16
+
+
+def _check_kind(key: str, path: Path, kind: type, source: str) -> None:
+    """Refuse a file that a stored scene names and that is of another kind than the key takes.
+
+    Raises
+    ------
+    SceneError
+    """
+    what, is_like = _BEGINNINGS[kind]
+    problem = no_plain_file(path)
+    try:
+        if not problem and path.exists():
+            with path.open("rb") as file:
+                problem = "" if is_like(file.read(_HEAD)) else f"it is not {what}"
+    except OSError as error:
+        problem = f"it cannot be read: {error.strerror}"
+    if problem:
+        words = f"{problem}, so the file that the stored scene names is not read"
+        raise SceneError(key, str(path), words, source=source)
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:

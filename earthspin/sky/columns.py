@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import hashlib
+import re
 from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
@@ -28,6 +29,18 @@ def lines_of(file: Path) -> list[str]:
         return file.read_text(encoding="ascii", errors="replace").splitlines()
     except OSError as error:
         raise SeriesError(file, f"it cannot be read: {error.strerror}") from None
+
+
+def is_table(head: bytes) -> bool:
+    """Whether a file can be a table: it begins with text, and a line of that with a number.
+
+    Parameters
+    ----------
+    head : bytes
+        First bytes of the file.
+    """
+    rows = (re.split(rb"[\s,;]", line.strip(b" \t,;"), maxsplit=1) for line in head.splitlines())
+    return b"\0" not in head and any(is_number(row[0].decode("latin-1")) for row in rows)
 
 
 def checksum(file: Path) -> str:
