@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, SceneError, printable
-from earthspin.process import CHECK_FAILED, USAGE_ERROR, run_command
+from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
@@ -376,7 +376,7 @@ def _note_of_results(stored: Sequence[Path]) -> Iterator[None]:
         yield
     except BaseException as error:
         for path in stored:
-            error.add_note(f"the results are stored in {path}")
+            error.add_note(f"{RESULTS} {path}")
         raise
 
 

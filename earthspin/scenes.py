@@ -456,11 +456,12 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
     """
     from earthspin.sky.ephemeris import NAMED_KERNELS
 
-    words = (*NAMED_KERNELS, OWN, C04)
+    words = {KernelName: (*NAMED_KERNELS,), OrbitChoice: (OWN,), TableFile: (C04,)}
     members, files = question.members, []
     for name, key in keys_of(type(question)).items():
         dotted = f"{question.table}.{name}" if key.setting else name
-        if not isinstance(key.kind, tuple(_BEGINNINGS)) or dotted in but:
+        kind = type(key.kind)
+        if kind not in words or dotted in but:
             continue
         values = [getattr(question, name)]
         if members is not None and name in members.distributions:
@@ -468,9 +469,10 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
         elif members is not None and name in members.values:
             values = np.unique(members.values[name]).tolist()
         files += [
-            (dotted, Path(value).absolute(), type(key.kind))
+            (dotted, Path(value).absolute(), kind)
             for value in values
-            if isinstance(value, str) and value.lower() not in words
+            if isinstance(value, str)
+            and (value.lower() if kind is KernelName else value) not in words[kind]
         ]
     return files
 
