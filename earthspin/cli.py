@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, SceneError, printable
-from earthspin.process import CHECK_FAILED, USAGE_ERROR, run_command
+from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
@@ -302,16 +303,19 @@ def _run(given: argparse.Namespace) -> None:
     wanted = _sections(given)
     everything = target is not None and wanted is None
     tree = run_tree(question, "all" if everything else wanted or ())
-    written = [] if target is None else _write(tree, target, name)
-    if given.json:
-        from earthspin.views.as_json import write_json
+    written = [] if target is None else [_store(tree, target, name)]
+    with _note_of_results([*written]):
+        if target is not None and written != [target]:
+            written.insert(0, _write_page(tree, target, name))
+        if given.json:
+            from earthspin.views.as_json import write_json
 
-        write_json(tree, sys.stdout)
-    else:
-        from earthspin.views.of_question import print_tables
+            write_json(tree, sys.stdout)
+        else:
+            from earthspin.views.of_question import print_tables
 
-        print_tables(tree)
-        _say_what_else(question, tree)
+            print_tables(tree)
+            _say_what_else(question, tree)
     for path in written:
         print(f"wrote {printable(str(path))}", file=sys.stderr if given.json else sys.stdout)
 
@@ -342,23 +346,38 @@ def _ensemble(given: argparse.Namespace) -> None:
         return
     from earthspin.views.of_question import print_tables
 
-    print_tables(answer)
+    with _note_of_results([Path(given.out)]):
+        print_tables(answer)
     print(f"wrote {printable(given.out)}")
 
 
-def _write(tree: Any, target: Path, name: str) -> list[Path]:
-    """Write one file, or a page and the data into a folder."""
-    from earthspin.engine import drafts, store
+def _store(tree: Any, target: Path, name: str) -> Path:
+    """Write the results: one file, or the data of a folder."""
+    from earthspin.engine import store
 
-    if target.suffix in (".nc", ".zarr"):
-        return [store.write(tree, target)]
+    is_file = target.suffix in (".nc", ".zarr")
+    return store.write(tree, target if is_file else target / f"{name}.nc")
+
+
+def _write_page(tree: Any, folder: Path, name: str) -> Path:
+    from earthspin.engine import drafts
     from earthspin.views.of_question import scene_page
 
-    files = [target / f"{name}.html", target / f"{name}.nc"]
-    with drafts.replacing(files[0]) as page, drafts.replacing(files[1]) as data:
-        page.write_text(scene_page(tree), encoding="utf-8")
-        store.write_netcdf(tree, data)
-    return files
+    page = folder / f"{name}.html"
+    with drafts.replacing(page) as draft:
+        draft.write_text(scene_page(tree), encoding="utf-8")
+    return page
+
+
+@contextmanager
+def _note_of_results(stored: Sequence[Path]) -> Iterator[None]:
+    """Add to whatever ends the views where the results are, which are stored before."""
+    try:
+        yield
+    except BaseException as error:
+        for path in stored:
+            error.add_note(f"{RESULTS} {path}")
+        raise
 
 
 def _say_what_else(question: Question, tree: Any) -> None:
@@ -478,12 +497,17 @@ def _stability(given: argparse.Namespace) -> int:
 
 def _question(given: argparse.Namespace) -> Question:
     """Question of the command line: the scene, then --set, then --ephemeris."""
-    from earthspin.scenes import typed_scene
+    from earthspin.scenes import files_of, typed_scene
 
     changes = dict(_setting(text) for text in given.settings)
     if given.ephemeris is not None:
         changes["ephemeris"] = given.ephemeris
-    return typed_scene(given.scene, changes)
+    question = typed_scene(given.scene, changes)
+    if Path(given.scene).suffix in (".nc", ".zarr"):
+        for key, path, _ in files_of(question, changes):
+            words = f"{given.scene} names a file, which is opened: {key} = '{path}'"
+            print(f"earthspin: {printable(words)}", file=sys.stderr)
+    return question
 
 
 def _setting(text: str) -> tuple[str, Any]:

@@ -24,6 +24,9 @@ CHECK_FAILED, USAGE_ERROR = 1, 2
 #: A defect of the program (EX_SOFTWARE of sysexits), an interrupt, and a reader who has gone.
 DEFECT, INTERRUPTED, READER_GONE = 70, 130, 141
 
+#: Beginning of a note to an error that is shown after its line; libraries add notes of their own.
+RESULTS = "the results are stored in"
+
 #: Set to anything but nothing or 0, it asks for the traceback of whatever goes wrong.
 TRACEBACK = "EARTHSPIN_TRACEBACK"
 
@@ -73,7 +76,8 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         return READER_GONE
     except Exception as error:
         status, words = _judged(error)
-        _say(words)
+        notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(RESULTS))
+        _say("; ".join([words, *notes]))
         if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
             _tell("".join(traceback.format_exception(error)).rstrip())
         return status

@@ -6,18 +6,22 @@ import os
 import re
 import tomllib
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answering
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
-from earthspin.engine.question import Question
+from earthspin.engine.question import Question, keys_of
 from earthspin.errors import SceneError, nearest, no_plain_file
+from earthspin.parts.orbits import OWN, OrbitChoice
+from earthspin.parts.sky import KernelName
 from earthspin.questions.cassini import CassiniStates
 from earthspin.questions.compliances import Compliances
 from earthspin.questions.free_rotor import FreeRotor
@@ -25,7 +29,7 @@ from earthspin.questions.iau import IAU
 from earthspin.questions.long_term import LongTerm
 from earthspin.questions.love_numbers import LoveNumbers
 from earthspin.questions.nutation import NutationLadder
-from earthspin.questions.polar_motion import PolarMotion
+from earthspin.questions.polar_motion import C04, PolarMotion, TableFile
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
 from earthspin.questions.rotation import Rotation
@@ -33,6 +37,7 @@ from earthspin.questions.spheroid import Spheroid
 from earthspin.questions.top import Top
 from earthspin.questions.torque import Torque
 from earthspin.questions.wobble import Wobble
+from earthspin.sky.columns import is_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -133,7 +138,8 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
     Raises
     ------
     SceneError
-        If there is no such scene, it is not TOML, or a key is unknown or wrong.
+        If there is no such scene, it is not TOML, a key is unknown or wrong, or an answer names a
+        file of another kind than its key takes.
 
     Examples
     --------
@@ -159,7 +165,7 @@ def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
 
 def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Question:
     """Read a question; `typed` says where the changes come from."""
-    own = True  # written by an answer, whose plain numbers are in SI units
+    stored = True  # written with an answer: its plain numbers are in SI units
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
     if isinstance(scene, Question):
@@ -178,17 +184,25 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
         text, source, title = _scene_of(answer), str(scene), ""
     else:
         text, source, title = _read(os.fspath(scene))
-        own = False
+        stored = False
     try:
         table = toml(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError("file", source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError("file", source, f"it cannot be read: {error}") from None
-    with_units = set() if own else _names(table)
+    with_units = set() if stored else _names(table)
     changed = _names(_nested(changes or {}))
     with_units = with_units | changed if typed else with_units - changed
-    return _changed(table, changes or {}, source, title, with_units)
+    if not stored:
+        return _changed(table, changes or {}, source, title, with_units)
+    if isinstance(table.get("members"), str):
+        words = "a stored scene holds its members, not the path of a file"
+        raise SceneError("members", table["members"], words, source=source)
+    question = _changed(table, changes or {}, source, title, with_units)
+    for key, path, kind in files_of(question, changes or {}):
+        _check_kind(key, path, kind, source)
+    return question
 
 
 def _names(table: Mapping[str, Any]) -> set[str]:
@@ -489,6 +503,68 @@ def toml(text: str) -> dict[str, Any]:
     if _DEEP_KEY.search(text):
         raise ValueError(f"a key has more than {MOST_PARTS} parts between dots")
     return tomllib.loads(text)
+
+
+def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, type]]:
+    """Files that are read to answer a question: the key, the path, and the kind of the key.
+
+    Parameters
+    ----------
+    question : Question
+    but : iterable of str
+        Keys to leave out.
+    """
+    from earthspin.sky.ephemeris import NAMED_KERNELS
+
+    words = {KernelName: (*NAMED_KERNELS,), OrbitChoice: (OWN,), TableFile: (C04,)}
+    members, files = question.members, []
+    for name, key in keys_of(type(question)).items():
+        dotted = f"{question.table}.{name}" if key.setting else name
+        kind = type(key.kind)
+        if kind not in words or dotted in but:
+            continue
+        values = [getattr(question, name)]
+        if members is not None and name in members.distributions:
+            values = [*members.distributions[name].numbers]
+        elif members is not None and name in members.values:
+            values = np.unique(members.values[name]).tolist()
+        files += [
+            (dotted, Path(value).absolute(), kind)
+            for value in values
+            if isinstance(value, str)
+            and (value.lower() if kind is KernelName else value) not in words[kind]
+        ]
+    return files
+
+
+#: Kinds of keys that name a file, with the test of its first bytes.
+_BEGINNINGS: dict[type, tuple[str, Callable[[bytes], bool]]] = {
+    KernelName: ("an SPK kernel", lambda head: head.startswith((b"DAF/SPK", b"NAIF/DAF"))),
+    OrbitChoice: ("the table of an orbit", lambda head: head[:2] == b"PK" or is_table(head)),
+    TableFile: ("a table of polar motion", is_table),
+}
+#: How many first bytes are looked at: more than any table has above its numbers.
+_HEAD = 1 << 16
+
+
+def _check_kind(key: str, path: Path, kind: type, source: str) -> None:
+    """Refuse a file that a stored scene names and that is of another kind than the key takes.
+
+    Raises
+    ------
+    SceneError
+    """
+    what, is_like = _BEGINNINGS[kind]
+    problem = no_plain_file(path)
+    try:
+        if not problem and path.exists():
+            with path.open("rb") as file:
+                problem = "" if is_like(file.read(_HEAD)) else f"it is not {what}"
+    except OSError as error:
+        problem = f"it cannot be read: {error.strerror}"
+    if problem:
+        words = f"{problem}, so the file that the stored scene names is not read"
+        raise SceneError(key, str(path), words, source=source)
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:

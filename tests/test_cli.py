@@ -10,11 +10,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import earthspin
 from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
+from earthspin.engine.run import scene_text
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.sky.ephemeris import find_kernel
 from earthspin.views.play import PLAYS
 from tests.sky.test_ephemeris import bad_kernels
 
@@ -356,3 +359,62 @@ def test_a_failed_report_leaves_the_old_one(
     status, _, _ = run(capsys, "report", "--out", str(tmp_path), "--ephemeris", "none.bsp")
     assert status == 2
     assert (tmp_path / "index.html").read_text() == "old"
+
+
+#: Key that names a file, its question, and its word for a file that is shipped.
+NAMING = [
+    ("ephemeris", "precession", "de421"),
+    ("orbit", "long-term", "own"),
+    ("file", "polar-motion", "c04"),
+]
+
+
+def stored_naming(folder: Path, key: str, scene: str, word: str, file: object) -> Path:
+    """A file with an answer whose scene names a file."""
+    question = earthspin.load_scene(scene)
+    answer = xr.Dataset(attrs={"scene": scene_text(question).replace(f'"{word}"', f'"{file}"')})
+    assert f'{key} = "{file}"' in answer.attrs["scene"]
+    return store.write(answer, folder / "stored.nc")
+
+
+@pytest.mark.parametrize(("key", "scene", "word"), NAMING)
+@pytest.mark.parametrize("content", [b"root:x:0:0:root:/root:/bin/sh\n", b"\0" * 999, b""])
+def test_a_stored_scene_opens_no_file_of_another_kind(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    key: str,
+    scene: str,
+    word: str,
+    content: bytes,
+) -> None:
+    (tmp_path / "private").write_bytes(content)
+    path = stored_naming(tmp_path, key, scene, word, tmp_path / "private")
+    status, out, err = run(capsys, "run", str(path))
+    assert (status, out) == (2, "")
+    assert str(tmp_path / "private") in err
+    assert "stored scene" in err
+    assert "root" not in err.replace(str(tmp_path), "")
+
+
+def test_a_stored_scene_opens_no_file_of_members(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "m.csv").write_text("body.j2\n1.08e-3\n1.09e-3\n")
+    text = f'compute = "wobble"\nmembers = "{tmp_path / "m.csv"}"\n'
+    path = store.write(xr.Dataset(attrs={"scene": text}), tmp_path / "stored.nc")
+    status, _, err = run(capsys, "run", str(path))
+    assert status == 2
+    assert "stored scene" in err
+
+
+def test_a_file_that_a_stored_scene_names_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kernel = tmp_path / "copy.bsp"
+    shutil.copy(find_kernel("de421"), kernel)
+    path = stored_naming(tmp_path, *NAMING[0], kernel)
+    status, _, err = run(capsys, "plan", str(path))
+    assert (status, err.count("\n")) == (0, 1)
+    assert str(kernel) in err
+    assert run(capsys, "plan", str(path), "--ephemeris", "de421")[2] == ""
+    assert run(capsys, "plan", str(path), "--ephemeris", str(kernel))[2] == ""

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 import earthspin
-from earthspin import cli
+from earthspin import cli, process
+from earthspin.views import of_question
 
 
 def test_a_store_and_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -60,3 +61,46 @@ def test_members_must_be_said_by_someone(
 ) -> None:
     assert cli.main(["ensemble", "wobble", "--out", str(tmp_path / "r.zarr")]) == 2
     assert "say how many members" in capsys.readouterr().err
+
+
+#: Ensembles in which no number differs among the members, and one in which some differ.
+ALIKE = [
+    ("compliances", '{n=3,"body.dynamical_flattening"={normal=[0.00327,1e-6]}}'),
+    ("compliances", '{interior={grid=["prem"]}}'),
+    ("love-numbers", '{n=3,"anelastic_exponent"={uniform=[0.1,0.2]}}'),
+    ("precession", '{"body.dynamical_flattening"={grid=[3.27e-3,3.27e-3]}}'),
+    ("wobble", '{n=6,"body.j3"={normal=[-2.5e-6,1e-9]}}'),
+    ("wobble", '{n=6,"anelastic_exponent"={uniform=[0.1,0.2]}}'),
+]
+
+
+@pytest.mark.parametrize(("scene", "members"), ALIKE)
+def test_members_that_hardly_differ(
+    tmp_path: Path, scene: str, members: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["run", scene, "--set", f"members={members}"]
+    assert cli.main([*words, "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+    earthspin.verify(tmp_path / f"{scene}.nc")
+    assert (tmp_path / f"{scene}.html").exists()
+    assert "members" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("scene", ["wobble", "wobble-ensemble"])
+@pytest.mark.parametrize("fails", ["print_tables", "scene_page"])
+def test_results_are_stored_before_they_are_shown(
+    tmp_path: Path,
+    scene: str,
+    fails: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def failing(*_: object) -> None:
+        raise StopIteration
+
+    monkeypatch.setattr(of_question, fails, failing)
+    assert cli.main(["run", scene, "--out", str(tmp_path)]) == process.DEFECT
+    complaint = capsys.readouterr().err
+    data = tmp_path / f"{scene}.nc"
+    assert complaint.count("\n") == 1
+    assert str(data) in complaint
+    assert earthspin.verify(data) == data

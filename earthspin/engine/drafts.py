@@ -125,7 +125,8 @@ def replacing(path: str | Path) -> Iterator[Path]:
         If the place cannot be written; it is then as it was.
     """
     target = made_ready(path)
-    with told_as_output_error(path), box_of(target) as box:
+    remedy = "what stood there is kept" if target.exists() else ""
+    with told_as_output_error(path, remedy), box_of(target) as box:
         clear_up_after_the_dead(target, box)
         draft = box / target.name
         yield draft

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from earthspin.engine import drafts
-from earthspin.engine.store import MADE_OF, zarr_of
+from earthspin.engine.store import MADE_OF, verify, zarr_of
 from earthspin.engine.unfinished import (
     PARTIAL,
     Layout,
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Seconds that a scheduler has to answer.
 PATIENCE = 10
+#: The only address on which a cluster started here listens, also for its pages in the browser.
+HERE = "127.0.0.1"
 #: Blocks that wait for each thread of a cluster, so that none is idle.
 WAITING = 3
 
@@ -81,7 +83,8 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     Raises
     ------
     OutputError
-        If it cannot be written, another run writes it, or something else was asked there.
+        If it cannot be written, another run writes it, something else was asked there, or what
+        stands there is damaged.
     MissingExtraError
         If zarr is not installed; or distributed, if it is wanted.
     """
@@ -98,7 +101,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
         raise OutputError(place, "a store of something else stands there", "move it away")
     if there == digest(asked):
         _clear_up(target, work)
-        return place
+        return verify(place)
     with drafts.told_as_output_error(place, _remedy(target)):
         while True:
             with held(target, asked, work.layout) as unfinished:
@@ -141,12 +144,22 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 
 
 def _go_on(work: Work, unfinished: Unfinished, target: Path, client: object) -> None:
-    layout = work.layout
-    before = sum(map(layout.length, unfinished.done))
-    with _interrupts_told(unfinished), progress(work.what, layout.size, before) as advance:
-        for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
-            unfinished.note(number, sums)
-            advance(layout.length(number))
+    layout, own = work.layout, set[int]()
+    unfinished.check_frame()
+    with _interrupts_told(unfinished):
+        while True:
+            before = sum(map(layout.length, unfinished.done))
+            with progress(work.what, layout.size, before) as advance:
+                for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
+                    unfinished.note(number, sums)
+                    own.add(number)
+                    advance(layout.length(number))
+            damaged = unfinished.drop_damaged()
+            if own.intersection(damaged):
+                words = f"block {damaged[0]} is not what was just written"
+                raise OutputError(unfinished.folder, words, "check the disk and run it again")
+            if not damaged:
+                break
     unfinished.finish(target)
 
 
@@ -226,7 +239,11 @@ def _client(given: object) -> Iterator[Client]:
         with (
             dask.config.set(quiet),
             distributed.LocalCluster(
-                n_workers=given, threads_per_worker=1, dashboard_address=":0", silence_logs=50
+                n_workers=given,
+                threads_per_worker=1,
+                dashboard_address=f"{HERE}:0",
+                silence_logs=50,
+                host=HERE,
             ) as cluster,
             distributed.Client(cluster, set_as_default=False) as made,
         ):

@@ -10,7 +10,10 @@ first as it is used, and to the second by `verify`. A third, of the bytes of a n
 from __future__ import annotations
 
 import datetime as dt
+import errno
+import os
 import re
+import shutil
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,13 +23,18 @@ import numpy as np
 from earthspin.engine import last_line
 from earthspin.engine.drafts import as_path, put_back, replacing
 from earthspin.engine.labels import IN_FILES
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, one_line
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
 
 #: One thread at a time in the netCDF library, which is not made for more.
 _NETCDF = threading.RLock()
+
+#: Bytes that are written at once to learn why a file cannot be written.
+_PIECE = 1 << 20
+#: Bytes of a group of a netCDF file beside its numbers, at most about.
+_FRAME = 1 << 16
 
 #: Integer microseconds from a recent date hold every epoch of every kernel exactly.
 TIME_ENCODING = {
@@ -89,18 +97,24 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     ------
     OutputError
         If the name does not end in ``.nc``.
+    OSError
+        If the file cannot be written, with the reason of the system.
     """
     _refuse_other_endings(path)
     groups = _guarded(_groups(result))
     with _NETCDF:
-        for number, (group, node) in enumerate(groups.items()):
-            node.to_netcdf(
-                path,
-                mode="a" if number else "w",
-                group=group,
-                engine="netcdf4",
-                encoding=_netcdf_encoding(node),
-            )
+        try:
+            for number, (group, node) in enumerate(groups.items()):
+                node.to_netcdf(
+                    path,
+                    mode="a" if number else "w",
+                    group=group,
+                    engine="netcdf4",
+                    encoding=_netcdf_encoding(node),
+                )
+        except (RuntimeError, OSError) as error:  # "HDF error", whatever the system said
+            _raise_reason_of_system(path, sum(node.nbytes + _FRAME for node in groups.values()))
+            raise OSError(f"the netCDF library says: {one_line(error)}") from None
         last_line.append(path)
 
 
@@ -128,6 +142,29 @@ def _is_storable(value: object) -> bool:
     except Exception:  # uneven lists, and whatever somebody's class says
         return False
     return dtype.kind in "US" or dtype.str[1:] in _NUMBERS
+
+
+def _raise_reason_of_system(path: Path, size: int) -> None:
+    """Write so many bytes to a file of no more use, to learn what the system says of it.
+
+    Raises
+    ------
+    OSError
+        If they do not fit.
+    """
+    try:
+        with path.open("wb") as file:
+            for first in range(0, size, _PIECE):
+                file.write(bytes(min(_PIECE, size - first)))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        words = f"{one_line(error)}; it takes about {in_bytes(size)}"
+        if error.errno == errno.ENOSPC:
+            written = path.stat().st_size if path.exists() else 0
+            room = shutil.disk_usage(path.parent).free + written
+            words += f", and {in_bytes(room)} of the disk are free"
+        raise OSError(error.errno, words) from None
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:

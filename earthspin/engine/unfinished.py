@@ -5,7 +5,8 @@ complete. In it are the store, whose arrays have their full length from the begi
 the answer to (`ASKED`); and a ledger with a line for each block that is written and on the disk.
 Whoever asks the same again goes on with the blocks that are not in the ledger; whoever asks
 something else is refused, and nothing is touched. When the last block is in the ledger, the store
-gets its checksums and takes its place in one step.
+gets its checksums and takes its place in one step. Before that, all of it is read and compared
+with the ledger: a block whose bytes do not match is made again.
 
 A block is a chunk of every variable along one dimension, so that no two writers share a chunk, and
 a block that is made again is the same bytes again. The store holds no date, no seconds and no path.
@@ -13,6 +14,7 @@ a block that is made again is the same bytes again. The store holds no date, no 
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -25,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from earthspin.engine import drafts
-from earthspin.engine.checksums import BLOCKS, Checksum, of_block
+from earthspin.engine.checksums import BLOCKS, DATA, HEADER, Checksum, of_block
 from earthspin.engine.store import MADE_OF, TIME_ENCODING, ZARR, spelled, zarr_encoding, zarr_of
 from earthspin.errors import OutputError
 
@@ -34,8 +36,11 @@ if TYPE_CHECKING:
 
 #: Ending of the folder of a store that is not complete.
 PARTIAL = ".partial"
-#: What it holds: the store, what it answers, the blocks that are done, and the lock of its owner.
-STORE, ASKED, LEDGER, OWNER = "store", "asked.json", "ledger", "owner"
+#: Attribute by which `xarray` knows the dimensions of an array in a Zarr store.
+_DIMS = "_ARRAY_DIMENSIONS"
+#: What it holds: the store, what it answers, the blocks that are done, the lock of its owner, and
+#: the checksum of the frame: all files of the store that no block writes.
+STORE, ASKED, LEDGER, OWNER, FRAME = "store", "asked.json", "ledger", "owner", "frame"
 
 
 @dataclass(frozen=True)
@@ -131,7 +136,7 @@ class Unfinished:
 
     def __init__(self, folder: Path, layout: Layout) -> None:
         self.folder, self.layout = folder, layout
-        self.done = _read_ledger(folder / LEDGER)
+        self.done = _read_ledger(folder / LEDGER, layout.count)
 
     @property
     def missing(self) -> list[int]:
@@ -143,6 +148,54 @@ class Unfinished:
         if number not in self.done:
             self.done[number] = dict(sums)
             _append(self.folder / LEDGER, number, sums)
+
+    def check_frame(self) -> None:
+        """Refuse a store in which a file that no block writes is not what `begin` wrote.
+
+        Raises
+        ------
+        OutputError
+        """
+        try:
+            written = (self.folder / FRAME).read_text(encoding="ascii")
+            intact = written == _frame(self.folder / STORE, self.layout.along)
+        except (OSError, ValueError, AttributeError, TypeError):
+            intact = False
+        if not intact:
+            words = "its names, sizes or attributes are not what was written"
+            raise OutputError(self.folder, words, "take it away and run it again")
+
+    def drop_damaged(self) -> list[int]:
+        """Drop the blocks whose bytes do not match the ledger, and return their numbers.
+
+        Raises
+        ------
+        OutputError
+            If more than blocks is damaged.
+        """
+        self.check_frame()
+        store, along = self.folder / STORE, self.layout.along
+        group, grown = _group(store), _grown(store, along)
+        arrays = {name: group[name] for name in grown}
+        damaged = [number for number in sorted(self.done) if not self._matches(number, arrays)]
+        for number in damaged:
+            del self.done[number]
+            for name in grown:
+                for path in (store / name).glob(f"{number}*"):
+                    if path.name.partition(".")[0] == str(number):
+                        path.unlink()
+        return damaged
+
+    def _matches(self, number: int, arrays: Mapping[str, Any]) -> bool:
+        """Whether the store has the block that the ledger has."""
+        import xarray as xr
+
+        first, last = self.layout.bounds(number)
+        try:
+            block = {name: _decoded(array, array[first:last]) for name, array in arrays.items()}
+            return of_block(xr.Dataset(block), self.layout.along) == self.done[number]
+        except Exception:  # of a codec whose own checksum failed, or of a chunk that is not there
+            return False
 
     def finish(self, place: Path) -> None:
         """Give the store its checksums and put it in its place."""
@@ -157,24 +210,79 @@ class Unfinished:
         shutil.rmtree(self.folder)
 
 
+def _grown(store: Path, along: str) -> list[str]:
+    """Names of the variables that blocks write."""
+    dims = {
+        path.parent.name: json.loads(path.read_bytes()).get(_DIMS, ())
+        for path in store.glob("*/.zattrs")
+    }
+    return [name for name, names in dims.items() if along in names]
+
+
+def _frame(store: Path, along: str) -> str:
+    """Checksum of all files of a store that no block writes.
+
+    The checksums of a store that is about to take its place do not count.
+    """
+    grown, total = _grown(store, along), hashlib.sha256()
+    for path in sorted(store.rglob("*")):
+        of_block = path.parent.name in grown and not path.name.startswith(".")
+        if of_block or path.name.endswith(".partial") or path.is_dir():
+            continue
+        content = path.read_bytes()
+        if path == store / ".zattrs":
+            said = json.loads(content).items()
+            own = {name: value for name, value in said if name not in (HEADER, DATA)}
+            content = json.dumps(own, sort_keys=True).encode()
+        for part in (path.relative_to(store).as_posix().encode(), content):
+            total.update(b"%d:" % len(part) + part)
+    return total.hexdigest()
+
+
+def _group(store: Path) -> Any:
+    """The group of a store that is only read, and says which chunk is missing."""
+    from earthspin.engine.zarr_folder import ZarrFolder
+
+    return zarr_of().open_group(ZarrFolder(store), mode="r", zarr_format=ZARR["zarr_format"])
+
+
 @contextmanager
 def _unread(store: Path, along: str) -> Iterator[xr.Dataset]:
-    """Open a store without reading the labels along a dimension: at 10^8 they take gigabytes."""
+    """Open a store without reading the labels along a dimension: at 10^8 they take gigabytes.
+
+    Zero stands for every label.
+    """
     import xarray as xr
 
-    found = zarr_of().open_group(store, mode="r", zarr_format=ZARR["zarr_format"])
+    group = _group(store)
     options: dict[str, Any] = {"consolidated": False, "chunks": None, "zarr_format": 2}
-    with xr.open_zarr(store, drop_variables=[along], **options) as node:
-        if along not in found:
+    with xr.open_zarr(store, drop_variables=[along], decode_times=_coder(), **options) as node:
+        if along not in group:
             yield node
             return
-        labels = found[along]
-        attributes = {n: of for n, of in labels.attrs.items() if n != "_ARRAY_DIMENSIONS"}
-        first = np.broadcast_to(labels[:1], labels.shape)  # takes no memory
-        stands_for = xr.conventions.decode_cf_variable(
-            along, xr.Variable((along,), first, attributes)
-        )
+        labels = group[along]
+        zeros = np.broadcast_to(np.zeros(1, labels.dtype), labels.shape)  # takes no memory
+        stands_for = _decoded(labels, zeros)
         yield node.assign_coords(xr.Coordinates({along: stands_for}, indexes={}))
+
+
+def _decoded(array: Any, values: np.ndarray[Any, Any]) -> xr.Variable:
+    """Some numbers of an array in a store as `xarray` reads them."""
+    import xarray as xr
+
+    attributes = dict(array.attrs)
+    dims = attributes.pop(_DIMS)
+    if array.fill_value is not None:
+        attributes["_FillValue"] = array.fill_value
+    return xr.conventions.decode_cf_variable(
+        array.basename, xr.Variable(dims, values, attributes), decode_times=_coder()
+    )
+
+
+def _coder() -> Any:
+    import xarray as xr
+
+    return xr.coders.CFDatetimeCoder(time_unit="us")
 
 
 @contextmanager
@@ -217,8 +325,12 @@ def _refuse_another(folder: Path, asked: dict[str, str]) -> None:
     """Refuse to go on with a store of another question, another version or another layout."""
     try:
         begun = json.loads((folder / ASKED).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        begun = {}
+    except (OSError, ValueError, RecursionError):
+        begun = None
+    if not isinstance(begun, dict):
+        raise OutputError(
+            folder, f"its {ASKED} is not what was written", "take it away and run it again"
+        )
     differ = [name for name in asked | begun if asked.get(name) != begun.get(name)]
     if differ:
         what = " and ".join(name.replace("_", " ") for name in differ)
@@ -263,6 +375,7 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
             for name in grown:
                 group[name].resize((layout.size, *group[name].shape[1:]))
         (folder / ASKED).write_text(json.dumps(dict(asked), indent=1), encoding="utf-8")
+        (folder / FRAME).write_text(_frame(store, layout.along), encoding="ascii")
         _append(folder / LEDGER, 0, of_block(first, layout.along))
         drafts.sync(folder)
         there = place.with_name(place.name + PARTIAL)
@@ -273,8 +386,6 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
 
 def digest(asked: Mapping[str, str]) -> str:
     """One word for what is asked, which a complete store carries."""
-    import hashlib
-
     return hashlib.sha256(json.dumps(dict(asked), sort_keys=True).encode()).hexdigest()
 
 
@@ -289,13 +400,25 @@ def _append(ledger: Path, number: int, sums: Mapping[str, str]) -> None:
         os.fsync(file.fileno())
 
 
-def _read_ledger(ledger: Path) -> dict[int, dict[str, str]]:
-    """Lines of the ledger; one that was cut short by the end of its writer is taken away."""
+def _read_ledger(ledger: Path, count: int) -> dict[int, dict[str, str]]:
+    """Checksums of each block that the ledger has.
+
+    A last line that was cut short by the end of its writer is taken away. A line that is damaged
+    counts for nothing, so that its block is made again.
+    """
     try:
-        lines = ledger.read_bytes().splitlines(keepends=True)
+        content = ledger.read_bytes()
     except FileNotFoundError:
         return {}
-    whole = [line for line in lines if line.endswith(b"\n")]
-    if whole != lines:
-        os.truncate(ledger, sum(map(len, whole)))
-    return dict(json.loads(line) for line in whole)
+    *lines, rest = content.split(b"\n")
+    if rest:
+        os.truncate(ledger, len(content) - len(rest))
+    entries = {}
+    for line in lines:
+        try:
+            number, sums = json.loads(line)
+        except (ValueError, TypeError, RecursionError):
+            continue
+        if type(number) is int and 0 <= number < count and isinstance(sums, dict):
+            entries[number] = sums
+    return entries

@@ -57,6 +57,10 @@ OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 _MJD = 51544.5
 
 
+#: Word for the daily table of the IERS that astropy carries.
+C04 = "c04"
+
+
 @dataclass(frozen=True)
 class TableFile:
     """Kind of a table of polar motion: a known one, or a local file."""
@@ -101,7 +105,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
     file: Annotated[str, TableFile()] = setting(
-        "c04", doc="the daily table of the IERS that astropy carries, or a local file"
+        C04, doc="the daily table of the IERS that astropy carries, or a local file"
     )
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"

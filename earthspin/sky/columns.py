@@ -36,6 +36,18 @@ def lines_of(file: Path) -> list[str]:
         raise SeriesError(file, f"it cannot be read: {error.strerror}") from None
 
 
+def is_table(head: bytes) -> bool:
+    """Whether a file can be a table: it begins with text, and a line of that with a number.
+
+    Parameters
+    ----------
+    head : bytes
+        First bytes of the file.
+    """
+    rows = (re.split(rb"[\s,;]", line.strip(b" \t,;"), maxsplit=1) for line in head.splitlines())
+    return b"\0" not in head and any(is_number(row[0].decode("latin-1")) for row in rows)
+
+
 def checksum(file: Path) -> str:
     """SHA-256 of a file that was read, by which an answer knows it again."""
     return hashlib.sha256(file.read_bytes()).hexdigest()

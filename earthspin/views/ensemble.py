@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
 from itertools import product
@@ -11,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from earthspin.errors import SceneError
 from earthspin.many import inputs_of, members_needed, quantiles, sensitivity
+from earthspin.views import plain
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Drawing, axes, drawn, empty, style
 from earthspin.views.reading import Result
 from earthspin.views.table import Table, short_exponents, with_error
@@ -31,6 +34,9 @@ def tables(tree: Result) -> list[Table]:
     """Spread of each number, and shares of the inputs in it."""
     answer = _whole(tree)
     every = [*_numbers(answer)]
+    if not every:
+        alike, *others = plain.tables(answer)
+        return [replace(alike, note=" ".join(filter(None, [_alike(answer), alike.note]))), *others]
     shown = every if len(every) <= 4 * MOST_ROWS else every[: 4 * MOST_ROWS]
     ends = quantiles(answer)
     rows = []
@@ -77,6 +83,8 @@ def _shares_table(answer: xr.Dataset) -> list[Table]:
 def lead(tree: Result) -> str:
     """The chief number in a sentence, and what most of its spread comes from."""
     answer = _whole(tree)
+    if not _chiefs(answer):
+        return _alike(answer)
     name, labels, units = _chief(answer)
     low, middle, high = quantiles(answer)[name].sel(labels).values
     said = f"{answer.sizes[MEMBER]} members: {_words(name, labels)}, "
@@ -90,8 +98,10 @@ def lead(tree: Result) -> str:
 
 @style()
 def drawings(tree: Result) -> list[Drawing]:
-    """Spread of the chief number, and shares of the inputs."""
+    """Spread of the chief number, and shares of the inputs; none if all members are alike."""
     answer = _whole(tree)
+    if not _chiefs(answer):
+        return []
     name, labels, _ = _chief(answer)
     told = f"{answer.sizes[MEMBER]} members"
     made = [
@@ -116,6 +126,11 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     name : str
         The chief number of the question by default.
     ax : Axes, optional
+
+    Raises
+    ------
+    SceneError
+        If no number of that name differs among the members.
     """
     answer = _whole(result)
     name, labels, units = _chief(answer, name)
@@ -140,10 +155,17 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     ----------
     result : Dataset or DataTree
     ax : Axes, optional
+
+    Raises
+    ------
+    SceneError
+        If no number differs among the members, or they are too few.
     """
     answer = _whole(result)
     told, inputs = sensitivity(answer), _inputs(answer)
     chiefs = _chiefs(answer)
+    if not chiefs:
+        raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
     rows = [row for row in _numbers(answer) if row[0] in chiefs][:MOST_ROWS]
     shares = np.array([told[f"{name}_share"].sel(at).values for name, at, _ in rows])
     order = np.argsort(-shares.max(axis=0))
@@ -196,17 +218,32 @@ def _numbers(answer: xr.Dataset) -> Iterator[tuple[str, dict[str, Any], str]]:
                 yield str(name), labels, str(of.attrs.get("units", ""))
 
 
+def _alike(answer: xr.Dataset) -> str:
+    """Sentence about an ensemble without a spread."""
+    count, inputs = answer.sizes[MEMBER], ", ".join(_inputs(answer))
+    return f"No finite number differs among the members: {count} members, inputs {inputs}."
+
+
 def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """The numbers that a question is about, which its own view names; the first by default."""
+    """Names of the numbers that a question is about, as far as they differ among the members.
+
+    If the view of the question names none that differs, this is the first number that does; empty
+    if no number differs.
+    """
     module = f"earthspin.views.{str(answer.attrs['compute']).replace('-', '_')}"
     named = getattr(import_module(module), "CHIEF", ()) if find_spec(module) else ()
-    return named or (next(name for name, *_ in _numbers(answer)),)
+    differing = dict.fromkeys(name for name, *_ in _numbers(answer))
+    return tuple(name for name in named if name in differing) or tuple(differing)[:1]
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> tuple[str, dict[str, Any], str]:
     """The last value of the chief number: the total, the last rung, the last time."""
-    wanted = name or _chiefs(answer)[0]
-    return [row for row in _numbers(answer) if row[0] == wanted][-1]
+    wanted = (name,) if name else _chiefs(answer)[:1]
+    rows = [row for row in _numbers(answer) if row[0] in wanted]
+    if not rows:
+        words = f"'{name}' does not differ among the members" if name else _alike(answer)
+        raise SceneError("ensemble", answer.attrs["title"], words)
+    return rows[-1]
 
 
 def _words(name: str, labels: dict[str, Any]) -> str:

@@ -8,11 +8,14 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
+import xarray as xr
 import zarr
 
 import earthspin
@@ -215,6 +218,116 @@ def test_a_failure_is_told_and_what_was_made_is_kept(tmp_path: Path, undisturbed
     assert bytes_of(path) == bytes_of(undisturbed)
 
 
+# --- damaged while it was unfinished -------------------------------------------------------------
+
+
+def flip(path: Path) -> None:
+    """Turn one bit of a file."""
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 4
+    path.write_bytes(content)
+
+
+@pytest.mark.parametrize(
+    "chunk", ["square/0.0", "square/2.0", "member/0", "member/1", "day/0", "day/2"]
+)
+@pytest.mark.parametrize("damage", [flip, Path.unlink, lambda p: p.write_bytes(b"")])
+def test_a_damaged_block_is_made_again(
+    tmp_path: Path, undisturbed: Path, chunk: str, damage: Callable[[Path], object]
+) -> None:
+    path, work = tmp_path / "r.zarr", Squares()
+    damage(ended(path) / unfinished.STORE / chunk)
+    loop.write(work, path)
+    assert work.made == [3, 4, 5, 6, int(chunk.partition("/")[2][0])]
+    assert bytes_of(path) == bytes_of(undisturbed)
+    assert earthspin.verify(path) == path
+
+
+@pytest.mark.parametrize("name", ["square/6.0", "day/6"])
+def test_a_damaged_block_where_none_is_missing(
+    tmp_path: Path, undisturbed: Path, name: str
+) -> None:
+    path, work = tmp_path / "r.zarr", Squares()
+    folder = ended(path, 6)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(unfinished.Unfinished, "finish", lambda *_: None)
+        loop.write(Squares(), path)
+    flip(folder / unfinished.STORE / name)
+    loop.write(work, path)
+    assert work.made == [6]
+    assert bytes_of(path) == bytes_of(undisturbed)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"garbage\n",
+        b"\0" * 300 + b"\n", b"\0" * 300, b"\r\xff\r\n", b"[1]\n", b"[1, 2]\n", b"7\n",
+        b"[true, {}]\n", b"[99, {}]\n", b"[[], {}]\n", b"[1, {}]\n", b"[" * 100_000 + b"\n",
+        b'[1, {"square": "00", "member": "00", "day": "00"}]\n',
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("place", ["first", "last"])
+def test_a_damaged_line_of_the_ledger_counts_for_nothing(
+    tmp_path: Path, undisturbed: Path, line: bytes, place: str
+) -> None:
+    path = tmp_path / "r.zarr"
+    ledger = ended(path) / unfinished.LEDGER
+    content = ledger.read_bytes()
+    ledger.write_bytes(line + content if place == "first" else content + line)
+    loop.write(Squares(), path)
+    assert bytes_of(path) == bytes_of(undisturbed)
+    assert earthspin.verify(path) == path
+
+
+@pytest.mark.parametrize("damage", [flip, Path.unlink])
+@pytest.mark.parametrize(
+    "file",
+    [
+        f"store/{name}"
+        for name in (
+            ".zattrs", ".zgroup", "square/.zarray", "square/.zattrs", "member/.zattrs",
+            "constant/0", "constant/.zattrs", "column/0",
+        )
+    ] + [unfinished.ASKED, unfinished.FRAME],
+)  # fmt: skip
+def test_a_damaged_frame_is_refused(
+    tmp_path: Path, file: str, damage: Callable[[Path], object]
+) -> None:
+    path = tmp_path / "r.zarr"
+    folder = ended(path)
+    damage(folder / file)
+    work = Squares()
+    with pytest.raises(OutputError):
+        loop.write(work, path)
+    assert work.made == []
+    assert not path.exists()
+
+
+def test_a_damaged_finished_store_is_refused(undisturbed: Path) -> None:
+    flip(undisturbed / "square" / "1.0")
+    with pytest.raises(OutputError):
+        loop.write(Squares(), undisturbed)
+
+
+def test_a_disk_that_changes_what_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_block = unfinished.write_block
+
+    def damaging(folder: Path, layout: unfinished.Layout, number: int, block: xr.Dataset):  # type: ignore[no-untyped-def]
+        sums = write_block(folder, layout, number, block)
+        flip(folder / unfinished.STORE / "square" / f"{number}.0")
+        return sums
+
+    monkeypatch.setattr(loop, "write_block", damaging)
+    with pytest.raises(OutputError, match="not what was just written"):
+        loop.write(Squares(), tmp_path / "r.zarr")
+    monkeypatch.undo()
+    loop.write(Squares(), tmp_path / "r.zarr")
+    earthspin.verify(tmp_path / "r.zarr")
+
+
 # --- killed --------------------------------------------------------------------------------------
 
 KILLED = """
@@ -276,6 +389,19 @@ def test_killed_a_hundred_times(tmp_path: Path) -> None:
 def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path) -> None:
     path = loop.write(Squares(), tmp_path / "r.zarr", client=2)
     assert bytes_of(path) == bytes_of(undisturbed)
+
+
+def test_a_cluster_listens_to_this_machine_only() -> None:
+    with loop._client(1):
+        own = psutil.Process()
+        connections = [
+            connection
+            for process in (own, *own.children(recursive=True))
+            for connection in process.net_connections("all")
+            if connection.status == psutil.CONN_LISTEN
+        ]
+    assert len(connections) >= 3  # of the scheduler, the worker and its nurse
+    assert {connection.laddr.ip for connection in connections} == {"127.0.0.1"}
 
 
 def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

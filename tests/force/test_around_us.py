@@ -283,3 +283,26 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
         sections = {n: of.to_dataset().to_dict() for n, of in tree.children.items() if n != "plan"}
         expected = plain(tree.to_dataset().to_dict() | {"sections": sections})
         assert json.loads(found.stdout) == expected
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.7, 1.0])
+@pytest.mark.parametrize("scene", ["wobble", "torque"])
+def test_a_file_larger_than_the_system_allows_is_an_output_error(
+    tmp_path: Path, scene: str, share: float
+) -> None:
+    """As on a full disk: netCDF says "HDF error", whatever the system said."""
+    path = tmp_path / "r.nc"
+    words = ["run", scene, "--out", str(path)]
+    assert earthspin_says(*words).returncode == 0
+    before = path.read_bytes()
+    blocks = int(share * (len(before) - 1)) // 512
+    limited = ["sh", "-c", f'ulimit -f {blocks}; exec "$@"', "sh", sys.executable, "-m"]
+    ended = subprocess.run(
+        [*limited, "earthspin", *words], capture_output=True, cwd=ROOT, timeout=120
+    )
+    complaint = ended.stderr.decode()
+    assert ended.returncode == 2, complaint
+    assert complaint.count("\n") == 1
+    assert f"output '{path}': it cannot be written" in complaint
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
