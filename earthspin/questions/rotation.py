@@ -159,7 +159,8 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
     """A body whose spin is that of the start, where it has none of its own."""
     if body.spin_period is not None or start_omega is None:
         return body
-    speed = float(np.linalg.norm(start_omega))
+    with np.errstate(over="ignore"):  # one without end is above break-up
+        speed = float(np.linalg.norm(start_omega))
     return body.replace(spin_period=2 * np.pi / speed if speed else 2 * np.pi)
 
 
