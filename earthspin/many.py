@@ -113,7 +113,7 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
     """
     try:
         wanted = np.atleast_1d(np.asarray(shares, dtype=float))
-    except (TypeError, ValueError):
+    except Exception:  # somebody's class may raise anything
         wanted = np.empty(0)
     if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
         raise SceneError("quantiles", shares, "give numbers between 0 and 1")

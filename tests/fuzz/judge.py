@@ -262,6 +262,8 @@ KNOWN = {
     "sky/orbit_table.py": "a body of read_orbit that is no text",
     "parts/insolation.py": "arrays without numbers in daily_insolation",
     "mass/shape.py": "arrays without numbers in Body.from_masses and Body.from_density",
+    "bodies/shapes.py": "arguments of Body.from_mesh and Body.from_layers of a wrong type",
+    "bodies/labelled.py": "labelled text in Body.replace",
 }
 
 

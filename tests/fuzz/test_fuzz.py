@@ -65,6 +65,8 @@ WRONG = {
     "stability": lambda: earthspin.stability(quick=np.zeros(2)),
     "to_skycoord": lambda: inputs.ANSWER.earthspin.to_skycoord([1]),
     "rotation": lambda: earthspin.rotation(start_omega=[1e200, 0, 0]),
+    "attitude": lambda: earthspin.rotation(start_attitude=[1e200, 0, 0, 0]),
+    "quantiles": lambda: inputs.ANSWER.earthspin.quantiles([10**400]),
 }
 
 
