@@ -122,6 +122,8 @@ class Answer:
         from earthspin.errors import SceneError
 
         data = self._dataset
+        if not isinstance(name, str):
+            raise SceneError("to_skycoord", name, "give the name of a vector")
         if not name and {"X", "Y", "Z"} <= set(data.data_vars):
             x, y, z = (data[axis] for axis in "XYZ")
         elif name in data.data_vars and "component" in data[name].dims:

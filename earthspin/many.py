@@ -77,6 +77,7 @@ def ensemble(
     >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
     25712.1 +/- 0.016 years
     """
+    from earthspin.engine.drafts import as_path
     from earthspin.engine.ensemble import Ensemble, asked_of_members
     from earthspin.engine.store import open as open_store
     from earthspin.errors import OutputError
@@ -84,7 +85,7 @@ def ensemble(
     asked = asked_of_members(load_scene(question), members, seed, impossible=impossible)
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
         raise asked.error("block", block, "give a whole number, 1 or more")
-    if path is not None and Path(path).suffix != ".zarr":
+    if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
     work = Ensemble(asked, block=block)
     if path is None:
@@ -113,7 +114,7 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
     """
     try:
         wanted = np.atleast_1d(real_numbers(shares))
-    except (TypeError, ValueError):
+    except Exception:  # somebody's class may raise anything
         wanted = np.empty(0)
     if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
         raise SceneError("quantiles", shares, "give numbers between 0 and 1")

@@ -108,6 +108,9 @@ def chosen_cases(
         If there are none.
     """
     cases = all_cases()
+    for name, value in (("quick", quick), ("long", long)):
+        if not isinstance(value, bool):
+            raise SceneError(name, value, "give True or False", source="stability")
     if only is not None:
         if not isinstance(only, str):
             raise SceneError("only", only, "give a word", source="stability")

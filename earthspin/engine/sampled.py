@@ -47,7 +47,7 @@ def with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     beside: dict[str, Any] = {}
     for name in map(str, answer.data_vars):
         linear = answer.get(f"{name}_error_input", answer.get(f"{name}_error"))
-        if linear is None or answer[name].dtype.kind != "f":
+        if linear is None or answer[name].dtype.kind != "f" or linear.dims != answer[name].dims:
             continue
         values = sample[name]
         if MEMBER not in values.dims:

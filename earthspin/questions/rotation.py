@@ -127,7 +127,7 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
                 "body", self.body.name, "C does not follow from H = 0; give it some flattening"
             )
         if self.start_attitude is not None:
-            length = float(np.linalg.norm(self.start_attitude))
+            length = _length(self.start_attitude)
             if abs(length - 1) > _LENGTH:
                 raise self.error(
                     "start_attitude", self.start_attitude.tolist(), "a unit quaternion has length 1"
@@ -160,11 +160,17 @@ def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
     return None if perturbers else "nothing pulls on the body"
 
 
+def _length(vector: FloatArray) -> float:
+    """Length of a vector; infinite if its square is more than a float holds."""
+    with np.errstate(over="ignore"):
+        return float(np.linalg.norm(vector))
+
+
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
     """A body whose spin is that of the start, where it has none of its own."""
     if body.spin_period is not None or start_omega is None:
         return body
-    speed = float(np.linalg.norm(start_omega))
+    speed = _length(start_omega)
     return body.replace(spin_period=2 * np.pi / speed if speed else 2 * np.pi)
 
 

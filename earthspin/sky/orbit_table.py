@@ -190,6 +190,8 @@ class OrbitTable:
         OutputError
             If it does not, or cannot be written.
         """
+        if not isinstance(path, (str, os.PathLike)):
+            raise TypeError(f"path is of type {type(path).__name__}; give a str or a Path")
         file = Path(path)
         if file.suffix != ".npz":
             raise OutputError(file, "the table of an orbit ends in .npz", "name it so")

@@ -340,6 +340,16 @@ def test_published_uncertainties_are_the_bodies_own() -> None:
 # --- what they tell ------------------------------------------------------------------------------
 
 
+def test_a_sample_stands_beside_the_errors_of_the_same_numbers_alone() -> None:
+    """The error of a direction or an attitude is an angle, not one of its components."""
+    millennia = earthspin.long_term("-3 kyr", "0 kyr", "1 kyr", uncertainty="sample", n=3)
+    assert "obliquity_error_sampled" in millennia
+    assert "pole_error_sampled" not in millennia
+    four = earthspin.rotation("2000-01-01", "2000-01-02", "8 h", uncertainty="sample", n=3)
+    assert four.sizes["time"] == four.sizes["quaternion"] == 4
+    assert "attitude_error_sampled" not in four
+
+
 def test_quantiles_and_linear_errors_agree() -> None:
     answer = earthspin.precession(uncertainty="sample", n=4000)
     sampled, linear = answer.precession_rate_error_sampled, answer.precession_rate_error_input

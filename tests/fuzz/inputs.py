@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import inspect
 import random
 import tomllib
 from collections.abc import Callable
@@ -213,8 +214,8 @@ def call(rng: Random) -> tuple[Callable[..., Any], tuple[Any, ...], dict[str, An
         given = _required(question)
     else:
         name = rng.choice(list(OTHERS))
-        function = getattr(earthspin, name)
-        names, given = OTHERS[name], dict(SOUND.get(name, {}))
+        function = OTHERS[name]
+        names, given = arguments(name), dict(SOUND.get(name, {}))
     for name in rng.sample(names, min(len(names), rng.choice((1, 1, 2, 3)))):
         given[name] = any_value(rng)
     if rng.random() < 0.02:
@@ -242,10 +243,32 @@ def _required(question: type[Question]) -> dict[str, Any]:
 
 _TIMES = pd.date_range("2000-01-01", periods=200)
 _SERIES = ("time", np.sin(np.arange(200.0)), {"units": "mas"})
+_YEARS = np.arange(-100.0, 1.0)
+_ROWS = pd.DataFrame({"t": _YEARS, "k": 0.01 * np.cos(_YEARS), "h": 0.01, "q": 0.0, "p": 0.0})
+_CORNERS = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]
+ORBIT = earthspin.read_orbit(_ROWS)
+ANSWER = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
 #: What a sound call of them gives, where it computes little.
 SOUND: dict[str, dict[str, Any]] = {
     "Body": {"name": "x", "gm": 1e14},
+    "Body.from_density": {
+        "density": np.ones((1, 2, 3)),
+        "x": [1.0, 2.0],
+        "y": [1.0, 2.0, 3.0],
+        "z": [1.0, 2.0, 3.0, 4.0],
+    },
+    "Body.from_layers": {"layers": "prem", "spin_period": "1 d"},
+    "Body.from_masses": {"masses": [1.0, 2.0, 3.0, 4.0], "positions": _CORNERS},
+    "Body.from_mesh": {
+        "mesh": (_CORNERS, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+        "density": 1.0,
+    },
+    "Orbit": {"a": "384399 km"},
     "Scene": {"compute": "precession"},
+    "daily_insolation": {"result": ANSWER, "latitude": "65 deg", "solar_longitude": "90 deg"},
+    "ensemble": {"question": "precession", "members": 2},
+    "orbit.to_file": {"path": "orbit.npz"},
+    "read_orbit": {"path": _ROWS},
     "load_scene": {"scene": "torque"},
     "plan": {"scene": "torque"},
     "run_tree": {"scene": "torque"},
@@ -260,45 +283,46 @@ SOUND: dict[str, dict[str, Any]] = {
     },
 }
 
-#: Other public names, with their arguments.
-OTHERS: dict[str, list[str]] = {
-    "Body": ["name", "gm", "naif", "radius", "j2", "dynamical_flattening", "pole", "orbit_pole",
-             "spin_period", "relative_uncertainty", "interior", "observed_wobble", "cycle"],
-    "Scene": ["compute", "body", "span", "step"],
-    "load_scene": ["scene", "changes"],
-    "plan": ["scene", "sections"],
-    "run": ["scene"],
-    "run_tree": ["scene", "sections"],
-    "open": ["path"],
-    "read": ["path"],
-    "verify": ["path"],
-    "write": ["result", "path"],
-    "write_series": ["scene", "path"],
-    "accuracy": ["quantity"],
-    "stability": ["only"],
-    "fit_chandler": ["ds", "method", "window", "chi"],
-    "excitation": ["ds", "period", "quality_factor"],
-    "polar_motion_from": ["chi", "period", "quality_factor", "start"],
-    "read_excitation": ["path", "components", "terms", "daily"],
-}  # fmt: skip
+
+def _others() -> dict[str, Callable[..., Any]]:
+    """Public calls that are no questions, and public methods of what they give, by name."""
+    found = {
+        name: getattr(earthspin, name)
+        for name in earthspin.__all__
+        if name not in {question.call for question in QUESTIONS.values()}
+    }
+    for owner, holder, prefix in (
+        ("Body", earthspin.Body, "from_"),
+        ("EARTH", earthspin.EARTH, "replace"),
+        ("orbit", ORBIT, "to_file"),
+        ("answer.earthspin", ANSWER.earthspin, ""),
+    ):
+        public = [n for n in dir(holder) if n.startswith(prefix) and not n.startswith("_")]
+        # figures need answers, which calls that are only planned do not give
+        public = [name for name in public if name != "plot"]
+        found |= {f"{owner}.{name}": getattr(holder, name) for name in public}
+    return {
+        name: call
+        for name, call in found.items()
+        if callable(call) and not (isinstance(call, type) and issubclass(call, BaseException))
+    }
 
 
-# --- answers -------------------------------------------------------------------------------------
+def arguments(name: str) -> list[str]:
+    """Arguments of a public call that is no question; free ones are the fields of a body."""
+    parameters = inspect.signature(OTHERS[name]).parameters.values()
+    names = [
+        one.name for one in parameters if one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)
+    ]
+    free = any(one.kind == one.VAR_KEYWORD for one in parameters)
+    return names + [*earthspin.Body.KINDS, "mass", "moments", "span", "step"] * free
 
-#: Calls that cost little, and the numbers of theirs that may be anything.
-CHEAP: dict[str, tuple[dict[str, Any], list[str]]] = {
-    "free_rotor": (
-        {"moments": [1.0, 2.0, 2.5], "omega": [1.0, 0.1, 1.0], "duration": 3.0, "points": 3},
-        ["moments", "omega", "duration", "points"],
-    ),
-    "heavy_top": (
-        {"transverse_moment": 1.0, "axial_moment": 0.5, "weight_moment": 1.0, "theta": 0.5,
-         "spin": 5.0, "duration": 3.0, "points": 3},
-        ["transverse_moment", "axial_moment", "weight_moment", "theta", "spin", "duration"],
-    ),
-    "spheroid_field": ({"position": [7e6, 0.0, 1e6]}, ["position", "body"]),
-    "wobble_ladder": ({}, ["body"]),
-}  # fmt: skip
+
+#: Public calls that are no questions.
+OTHERS = _others()
+
+
+# --- numbers -------------------------------------------------------------------------------------
 
 
 def extreme_number(rng: Random) -> float:
@@ -306,21 +330,3 @@ def extreme_number(rng: Random) -> float:
     ends = (0.0, -0.0, 1.0, -1.0, 5e-324, 2.2e-308, 1e-160, 1e160, 1.7e308, 1e-16, 1 + 2.3e-16, 3.2)
     size = rng.choice((rng.choice(ends), 10 ** rng.uniform(-20, 20), 10 ** rng.uniform(-300, 300)))
     return -size if rng.random() < 0.2 else size
-
-
-def extreme(rng: Random) -> tuple[str, dict[str, Any]]:
-    """A cheap call with some of its numbers extreme."""
-    question = rng.choice(list(CHEAP))
-    sound, names = CHEAP[question]
-    given = dict(sound)
-    for name in rng.sample(names, min(len(names), rng.choice((1, 1, 2, 3)))):
-        if name == "body":
-            fields = ("gm", "radius", "j2", "dynamical_flattening", "spin_period", "flattening")
-            given[name] = {"from": "earth", rng.choice(fields): extreme_number(rng)}
-        elif name == "points":
-            given[name] = rng.choice((1, 2, 3, 100))
-        elif isinstance(sound[name], list):
-            given[name] = [rng.choice((one, extreme_number(rng))) for one in sound[name]]
-        else:
-            given[name] = extreme_number(rng)
-    return question, given
