@@ -86,6 +86,8 @@ def daily_insolation(
         raise SceneError(
             "result", type(result).__name__, "give an answer of long_term", source=_CALL
         )
+    if not isinstance(true_longitude, (bool, np.bool_)):
+        raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
     phi = _angle(latitude, "latitude", np.pi / 2)
     sun = _angle(solar_longitude, "solar_longitude", _TURN)

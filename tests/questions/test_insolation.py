@@ -171,3 +171,8 @@ def test_another_result_is_refused(past: xr.Dataset) -> None:
     unknown["obliquity"] = past.obliquity.assign_attrs(orbit_of="vulcan")
     with pytest.raises(EarthspinError, match="the year of vulcan is not known"):
         daily_insolation(unknown, "65 deg", "90 deg")
+
+
+def test_true_longitude_is_a_flag(past: xr.Dataset) -> None:
+    with pytest.raises(EarthspinError, match="give True or False"):
+        daily_insolation(past, "65 deg", "90 deg", true_longitude=np.ones(2))
