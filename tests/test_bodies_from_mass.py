@@ -49,7 +49,7 @@ def test_moments_of_a_body_are_those_it_was_made_of() -> None:
     body = earthspin.EARTH
     a, b, c = body.moments
     scale = body.mass * body.radius**2
-    # C/(M a2) = 0.330701, (B - A)/C = 2.196e-5 (Groten 2004, J. Geod. 77, 724, as recalled)
+    # C/(M a2) = 0.330701, (B - A)/C = 2.196e-5 (Groten 2004, J. Geod. 77, 724 (not verified))
     assert c / scale == pytest.approx(0.330701, rel=2e-5, abs=0)
     assert (b - a) / c == pytest.approx(2.196e-5, rel=1e-3, abs=0)
     assert body.replace(moments=[a, b, c]).j2 == pytest.approx(body.j2, rel=1e-12, abs=0)

@@ -128,13 +128,13 @@ def test_what_satellites_add() -> None:
     assert SATURN.j2 == pytest.approx(16290.57e-6 + q, rel=1e-14, abs=0)
     moment = SATURN.j2 / SATURN.dynamical_flattening
     assert moment == pytest.approx(SATURN_MOMENT.value + more, rel=1e-14, abs=0)
-    # French et al. 1993, recalled: q = 0.0516 with Iapetus, l = 0.0028
+    # French et al. 1993 (not verified): q = 0.0516 with Iapetus, l = 0.0028
     assert q == pytest.approx(0.049, rel=0, abs=5e-4)
     assert more == pytest.approx(0.0028, rel=0, abs=1e-4)
 
 
 def test_satellites_keep_keplers_third_law() -> None:
-    """Of numbers recalled apart: a, period and mass of the planet; J2 moves Io by 7e-4."""
+    """Of numbers that were not verified apart: a, period and mass of the planet; J2 moves Io by 7e-4."""
     for planet, moons in ((JUPITER, OF_JUPITER), (SATURN, OF_SATURN)):
         for one in moons:
             by_law = 2 * math.pi * math.sqrt(one.a.value**3 / planet.gm)
@@ -156,7 +156,7 @@ def test_the_moons_pole_goes_round_with_its_node() -> None:
 
 
 def test_the_pole_of_mars_precesses_as_observed() -> None:
-    """Along its orbit by 7.608 arcsec a year (Konopliv et al. 2016, recalled); nutations fade."""
+    """Along its orbit by 7.608 arcsec a year (Konopliv et al. 2016, not verified); nutations fade."""
     axes = MARS.pole.mean(DAYS)
     x, y, z = MARS.pole.orbit_axes(MARS.orbit_pole)
     longitude = np.unwrap(np.arctan2(axes @ y, axes @ x))
@@ -170,7 +170,7 @@ def test_the_pole_of_mars_precesses_as_observed() -> None:
 
 @pytest.mark.parametrize(("first", "last", "bound"), [(1900, 1910, 0.02), (2040, 2050, 0.012)])
 def test_the_sun_above_mars_of_date(first: int, last: int, bound: float) -> None:
-    """Declination after Allison & McEwen 2000 (Planet. Space Sci. 48, 215), as recalled.
+    """Declination after Allison & McEwen 2000 (Planet. Space Sci. 48, 215) (not verified).
 
     Theirs keeps 0.01 deg. Measured apart: 0.012 and 0.0075 deg; a pole that rests at J2000.0 is
     0.092 and 0.044 deg off.

@@ -111,7 +111,7 @@ def test_an_ocean_of_a_day_lags_and_falls_short() -> None:
 
 
 def test_the_response_of_a_sphere_across_the_resonance(rungs: dict[str, ladder.Rung]) -> None:
-    """k of O1, P1, K1 and psi1 beside Wahr 1981 (recalled), on an ellipse that turns."""
+    """k of O1, P1, K1 and psi1 beside Wahr 1981 (not verified), on an ellipse that turns."""
     from earthspin.interior.love import elastic
     from earthspin.interior.rotation import system
 

@@ -24,7 +24,7 @@ def test_the_shipped_scene_is_the_moon_in_state_2() -> None:
     found = earthspin.run("cassini-states")
     assert found.state.values.tolist() == [2, 3]
     assert float(found.obliquity.sel(state=2)) == pytest.approx(6.688, rel=0.007, abs=0)
-    # 1.543 deg to the ecliptic (Williams et al. 2014, recalled): Cassini's second law
+    # 1.543 deg to the ecliptic (Williams et al. 2014, not verified): Cassini's second law
     assert float(found.tilt.sel(state=2)) == pytest.approx(1.543, rel=0, abs=0.035)
     assert found.obliquity.attrs["spin"] == "locked, 1 turns in each orbit"
 

@@ -177,7 +177,7 @@ def test_the_matrices_join_iau_2006() -> None:
 
 def test_thuban_was_the_pole_star_some_4800_years_ago() -> None:
     """Nearest to the pole about 2800 BC, by some 0.1 degrees (Meeus, Mathematical Astronomy
-    Morsels: 2830 BC, as recalled); alpha Draconis without its small proper motion."""
+    Morsels: 2830 BC (not verified)); alpha Draconis without its small proper motion."""
     found = earthspin.long_term("-6 kyr", "-3 kyr", "10 yr")
     ra, dec = np.radians([211.0973, 64.3758])
     star = np.array([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)])

@@ -68,9 +68,9 @@ def test_two_states_vanish_where_the_orbit_precesses_too_fast(i: float, times: f
 
 
 def test_the_moon_is_in_state_2_at_the_tilt_that_is_observed() -> None:
-    """6.688 deg (Williams et al. 2014, JGR Planets 119, 1546, recalled); libration left out.
+    """6.688 deg (Williams et al. 2014, JGR Planets 119, 1546, not verified); libration left out.
 
-    J2 = 203.3e-6, C22 = 22.4e-6, C/(M R2) = 0.3930 (GRAIL, recalled).
+    J2 = 203.3e-6, C22 = 22.4e-6, C/(M R2) = 0.3930 (GRAIL, not verified).
     """
     n = 2 * np.pi / (27.321662 * DAY)
     axial, locked = strengths(n, n, 203.3e-6, 22.4e-6, 0.3930, 0.0549)
@@ -85,7 +85,7 @@ def test_mercury_is_in_state_1_at_two_minutes_of_arc() -> None:
     """2.04 +- 0.08 arcmin (Margot et al. 2012, JGR 117, E00L09), whose C/(M R2) is 0.346.
 
     J2 = 5.03216e-5, C22 = 0.80389e-5 (Mazarico et al. 2014), i = 8.533 deg, 325,513 yr (Stark
-    et al. 2015); all as recalled.
+    et al. 2015); all not verified.
     """
     n = 2 * np.pi / (87.9693 * DAY)
     axial, locked = strengths(n, 1.5 * n, 5.03216e-5, 0.80389e-5, 0.346, 0.20563)

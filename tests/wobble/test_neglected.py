@@ -13,7 +13,7 @@ from earthspin import EARTH
 from earthspin.interior.named import INTERIORS
 from tests import shipped
 
-#: k21 of an elastic Earth, IERS Conventions (2010), table 6.3, as recalled.
+#: k21 of an elastic Earth, IERS Conventions (2010), table 6.3 (not verified).
 K21 = 0.29470
 SIDEREAL_DAY = 0.99726966
 LEFT_OUT = INTERIORS["prem"].neglected
@@ -21,7 +21,7 @@ LEFT_OUT = INTERIORS["prem"].neglected
 
 @dataclass(frozen=True)
 class Earth:
-    """Shape and compliances of PREM as Mathews et al. 1991 give them, as recalled."""
+    """Shape and compliances of PREM as Mathews et al. 1991 give them (not verified)."""
 
     e: float = 1 / 304.456
     e_f: float = 2.548e-3

@@ -318,7 +318,7 @@ TOLD = [
     Told(PAGE, "for PREM ($\\gamma = {}$, $\\beta = {}$)", MATHEWS),
     Told(PAGE, "chose {}, within {} to {}, to fit", SMITH),
     Told(PAGE, "| $\\alpha$ | {} ({} to {}) |", SMITH),
-    Told(PAGE, "values range from {} to {}, a difference", "published: several, as recalled"),
+    Told(PAGE, "values range from {} to {}, a difference", "published: several (not verified)"),
     Told(PAGE, "$(B-A)/Ma^2 = {}$", "published: the figure of earthspin.EARTH"),
     Told(PAGE, "$k_2$ = {} (Konopliv", KONOPLIV),
     Told(PAGE, "a core of {} km", "published: Le Maistre et al. 2023"),
