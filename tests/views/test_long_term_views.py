@@ -66,7 +66,7 @@ def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:
 
 
 def test_the_path_passes_thuban_when_it_did(about_now: xr.Dataset) -> None:
-    """Thuban was nearest to the pole about 2800 BC, at less than 10' (Meeus 1983 (not verified))."""
+    """Thuban was nearest to the pole about 2800 BC, at less than 10' (Meeus 1983)."""
     names = [name for name, *_ in STARS]
     obliquity = np.radians(84381.406 / 3600)
     thuban = on_the_chart(star_vectors(), obliquity)[names.index("Thuban")]
