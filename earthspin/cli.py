@@ -435,13 +435,19 @@ def _keys_of(scene: str) -> str:
 def _accuracy(given: argparse.Namespace) -> int:
     from earthspin.checks.work_precision import QUANTITIES, accuracy
     from earthspin.engine import drafts
-    from earthspin.views.work_precision_views import print_accuracy, write_accuracy
+    from earthspin.views.work_precision_views import (
+        print_accuracy,
+        store_accuracy,
+        write_accuracy,
+    )
 
     if given.out is not None:
         drafts.check_writable(given.out)
     results = []
     for quantity in QUANTITIES if given.quantity is None else [given.quantity]:
         results.append(accuracy(quantity, quick=given.quick))
+        if given.out is not None:
+            store_accuracy(results[-1], given.out)
         print_accuracy(results[-1:])
     if given.out is not None:
         for path in write_accuracy(results, given.out):

@@ -63,11 +63,12 @@ def write_report(
     Raises
     ------
     EarthspinError
-        Whatever is wrong; the folder's old files are then as they were.
+        Whatever is wrong. The data are written before anything is drawn.
     """
     place = drafts.check_writable(folder)
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
+        data = _write_data(place, {"precession.nc": tree})
         advance(1)
         drawings = []
         if figures:
@@ -79,7 +80,7 @@ def write_report(
         if figures:
             pages["rotors.html"] = gallery_page()
         advance(1)
-    return tree, _write(place, pages, {"precession.nc": tree})
+    return tree, [*_write_pages(place, pages), *data]
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
@@ -156,7 +157,7 @@ def write_wobble_report(
     Raises
     ------
     EarthspinError
-        Whatever is wrong; the folder's old files are then as they were.
+        Whatever is wrong. The data are written before anything is drawn.
     """
     place = drafts.check_writable(folder)
     settings = {"polar_motion.file": file, "polar_motion.method": method}
@@ -164,6 +165,7 @@ def write_wobble_report(
         ladder = run_tree("wobble")
         advance(1)
         pole = run_tree(load_scene("polar-motion", settings))
+        data = _write_data(place, {"wobble.nc": ladder, "polar-motion.nc": pole})
         advance(1)
         text = page_of(
             ladder,
@@ -173,8 +175,7 @@ def write_wobble_report(
             drawings=None if figures else (),
         )
         advance(1)
-    written = _write(place, {"wobble.html": text}, {"wobble.nc": ladder, "polar-motion.nc": pole})
-    return [ladder, pole], written
+    return [ladder, pole], [*_write_pages(place, {"wobble.html": text}), *data]
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
@@ -192,12 +193,18 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     )
 
 
-def _write(place: Path, pages: Mapping[str, str], data: Mapping[str, xr.DataTree]) -> list[Path]:
-    """Write pages and data, all or none of them."""
+def _write_data(place: Path, data: Mapping[str, xr.DataTree]) -> list[Path]:
+    """Write the data, all files or none of them."""
+    with ExitStack() as together:
+        for name, tree in data.items():
+            store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))
+    return [place / name for name in data]
+
+
+def _write_pages(place: Path, pages: Mapping[str, str]) -> list[Path]:
+    """Write the pages, all files or none of them."""
     with ExitStack() as together:
         for name, text in pages.items():
             draft = together.enter_context(drafts.replacing(place / name))
             draft.write_text(text, encoding="utf-8")
-        for name, tree in data.items():
-            store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))
-    return [place / name for name in (*pages, *data)]
+    return [place / name for name in pages]

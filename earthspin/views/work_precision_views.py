@@ -237,7 +237,7 @@ def _drawing(result: xr.Dataset) -> Drawing:
 
 
 def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Path]:
-    """Write the data of each quantity, its figure, and one page of all.
+    """Write the data of each quantity, and then its figure and one page of all.
 
     Parameters
     ----------
@@ -256,20 +256,22 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
         If the folder cannot be written to.
     """
     place = drafts.check_writable(folder)
+    data = [store_accuracy(result, place) for result in results]
     drawn = [svg_of(result) for result in results]
-    page = accuracy_page(results, drawn)
-    names = [f"accuracy-{result.attrs['quantity']}" for result in results]
-    written = [place / "accuracy.html"]
+    page, pictures = place / "accuracy.html", [path.with_suffix(".svg") for path in data]
     with ExitStack() as together:
-        draft = together.enter_context(drafts.replacing(written[0]))
-        draft.write_text(page, encoding="utf-8")
-        for name, result, svg in zip(names, results, drawn, strict=True):
-            data, picture = place / f"{name}.nc", place / f"{name}.svg"
-            store.write_netcdf(result, together.enter_context(drafts.replacing(data)))
-            sketch = together.enter_context(drafts.replacing(picture))
-            sketch.write_text(svg, encoding="utf-8")
-            written += [data, picture]
-    return written
+        texts = (accuracy_page(results, drawn), *drawn)
+        for path, text in zip((page, *pictures), texts, strict=True):
+            together.enter_context(drafts.replacing(path)).write_text(text, encoding="utf-8")
+    return [page, *(path for pair in zip(data, pictures, strict=True) for path in pair)]
+
+
+def store_accuracy(result: xr.Dataset, folder: str | Path) -> Path:
+    """Write the data of one quantity, ``accuracy-QUANTITY.nc``, and return its path."""
+    path = Path(folder) / f"accuracy-{result.attrs['quantity']}.nc"
+    with drafts.replacing(path) as draft:
+        store.write_netcdf(result, draft)
+    return path
 
 
 def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:

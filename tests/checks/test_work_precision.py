@@ -4,6 +4,7 @@ import itertools
 import math
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import erfa
 import numpy as np
@@ -147,6 +148,18 @@ def test_it_goes_to_disk_and_back(result: xr.Dataset, tmp_path: object) -> None:
     assert np.array_equal(again.error.values, result.error.values)
     page = next(path for path in paths if path.suffix == ".html").read_text()
     assert page.count("<svg") == 1
+
+
+def test_the_data_are_stored_before_anything_is_drawn(
+    result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def cannot_draw(_: object) -> None:
+        raise ValueError("no picture")
+
+    monkeypatch.setattr("earthspin.views.work_precision_views.svg_of", cannot_draw)
+    with pytest.raises(ValueError, match="no picture"):
+        write_accuracy([result], tmp_path)
+    assert [path.suffix for path in tmp_path.iterdir()] == [".nc"]
 
 
 def test_unknown_quantity_is_one_line() -> None:

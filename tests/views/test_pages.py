@@ -145,6 +145,18 @@ def test_what_carries_no_question_is_refused_in_one_line() -> None:
     assert "\n" not in str(caught.value)
 
 
+def test_the_report_is_stored_before_it_is_drawn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def cannot_draw(*_: object, **__: object) -> None:
+        raise ValueError("no picture")
+
+    monkeypatch.setattr("earthspin.views.report.page_of", cannot_draw)
+    with pytest.raises(ValueError, match="no picture"):
+        write_report(tmp_path, figures=False)
+    assert earthspin.open(tmp_path / "precession.nc")["standstills"].sizes["standstill"] > 0
+
+
 def test_report_gives_the_tree_and_its_files(tmp_path: Path) -> None:
     tree, written = write_report(tmp_path, figures=False)
     assert [path.name for path in written] == ["index.html", "precession.nc"]

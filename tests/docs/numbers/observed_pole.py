@@ -11,6 +11,7 @@ import numpy as np
 
 import earthspin
 from data_tools.free_wobble import DRAWS, RED
+from earthspin.sky import eop
 from earthspin.sky.eop import LONGEST_DAYS
 from earthspin.wobble import likelihood, presence, simulation
 from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
@@ -193,6 +194,7 @@ LAYOUT = "published: the layout of the tables of the IERS"
 
 
 MEASURED = [
+    Sentence(PAGE, "or at most {} % of the rows; the first is named", lambda: 100 * eop.LOST),
     Sentence(
         PAGE,
         '| {} ± {} d, $Q$ = {} ({} to {}) |\n| `"likelihood"`',
