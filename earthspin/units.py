@@ -261,7 +261,10 @@ def real_numbers(value: Any) -> FloatArray:
     if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits, None
         if any(isinstance(one, (str, bytes, bool, np.bool_)) for one in array.flat):
             raise ValueError("text or truth values; give numbers")
-        return array.astype(np.float64)
+        try:
+            return array.astype(np.float64)
+        except OverflowError as error:
+            raise ValueError(f"{error}; give numbers that a float can hold") from None
     if array.dtype.kind not in "fiu":
         raise ValueError(f"an array of {array.dtype}; give real numbers")
     return array.astype(np.float64, copy=False)

@@ -61,7 +61,10 @@ def figure_of(
     BodyError
         If no body has such moments.
     """
-    small, middle, polar = moments
+    try:
+        small, middle, polar = moments
+    except (TypeError, ValueError):
+        raise BodyError(name, "moments", moments, "give three, the polar one last") from None
     if not all_of((small > 0) & (middle > 0) & (polar > 0)):
         raise BodyError(name, "moments", moments, "each moment is greater than zero")
     if not all_of(abs(small - middle) <= polar):

@@ -5,6 +5,7 @@ Numbers that are finite, or words that are all there.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -37,7 +38,8 @@ def read_file(path: Path) -> xr.Dataset:
     """
     import xarray as xr
 
-    if not path.exists():
+    # os.path.exists is false for a name that is too long, where Path.exists raises an error
+    if not os.path.exists(path):
         raise OutputError(path, "there is no such file", "give a .csv, .nc or .zarr, or a number")
     try:
         if path.suffix == ".csv":

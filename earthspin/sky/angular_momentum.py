@@ -8,6 +8,7 @@ They come as a file for each year and component, and the years may overlap.
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -143,7 +144,8 @@ def _files(
     given = [paths] if isinstance(paths, (str, Path)) else list(paths)
     found: dict[str, list[Path]] = {}
     for path in map(Path, given):
-        for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+        # os.path.isdir is false for a name that is too long, where Path.is_dir raises an error
+        for file in sorted(path.iterdir()) if os.path.isdir(path) else [path]:
             # SLAM holds no other; AAM is looked for in the name alone, not in the folder's.
             name = next((word for word in COMPONENTS if word in file.name.upper()), "")
             found.setdefault(name, []).append(file)

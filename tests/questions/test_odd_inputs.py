@@ -1,5 +1,6 @@
 """Inputs that were once taken for something else, or broke: each is right now, or refused."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from earthspin import (
     SceneError,
     UndefinedError,
     UnitsError,
+    units,
 )
 
 
@@ -217,3 +219,19 @@ def test_a_part_that_cannot_be_drawn_says_so() -> None:
     part = earthspin.precession()[["precession_rate"]]
     with pytest.raises(SceneError, match="draw the whole"):
         part.earthspin.plot()
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: EARTH.replace(moments=5e-324), "give three"),
+        (lambda: earthspin.Body.from_layers("prem", spin_period="1 d", moments=1.0), "give three"),
+        (lambda: earthspin.read_excitation("x" * 100_000), "name too long|no such file"),
+        (lambda: earthspin.ensemble("precession", "x" * 100_000), "no such file"),
+        (lambda: units.real_numbers([10**400]), "a float can hold"),
+    ],
+)
+def test_what_the_fuzzer_found_is_refused(call: Callable[[], object], words: str) -> None:
+    with pytest.raises((earthspin.EarthspinError, ValueError), match=f"(?i){words}") as caught:
+        call()
+    assert "\n" not in str(caught.value)
