@@ -21,7 +21,7 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import EarthspinError, UnitsError, Where, nearest
+from earthspin.errors import EarthspinError, UnitsError, Where, nearest, one_line
 from earthspin.text import Text
 
 FloatArray = NDArray[np.float64]
@@ -252,19 +252,22 @@ def real_numbers(value: Any) -> FloatArray:
 
     Raises
     ------
-    ValueError, TypeError
-        If a number is masked, complex, a truth value or text, or lists are uneven.
+    ValueError
+        If a number is masked, complex, a truth value, text or beyond a float, or lists are uneven.
     """
     if is_masked(value):
         raise ValueError("a masked value; give numbers that are all known")
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except Exception as error:  # uneven lists, and whatever somebody's class says
+        raise ValueError(one_line(error)) from None
     if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits, None
         if any(isinstance(one, (str, bytes, bool, np.bool_)) for one in array.flat):
             raise ValueError("text or truth values; give numbers")
         try:
             return array.astype(np.float64)
-        except OverflowError as error:
-            raise ValueError(f"{error}; give numbers that a float can hold") from None
+        except Exception as error:
+            raise ValueError(one_line(error)) from None
     if array.dtype.kind not in "fiu":
         raise ValueError(f"an array of {array.dtype}; give real numbers")
     return array.astype(np.float64, copy=False)
