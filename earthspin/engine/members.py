@@ -280,7 +280,7 @@ def _is_word(given: object, allowed: tuple[str, ...]) -> bool:
 def _whole(given: Any, where: Where, low: int, high: int = MOST) -> int:
     if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
         raise where.error(given, "give a whole number")
-    if not low <= given <= high:
+    if not low <= int(given) <= high:
         raise where.error(given, f"it lies between {low} and {high}")
     return int(given)
 

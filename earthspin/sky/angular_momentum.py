@@ -160,6 +160,9 @@ def _files(
             )
         return found
     wanted = list(components)
+    if not wanted:
+        words = f"give one or more of {', '.join(COMPONENTS)}"
+        raise SeriesError(", ".join(map(str, given)), "no component is named", words)
     for word in wanted:
         if word not in found:
             raise SeriesError(

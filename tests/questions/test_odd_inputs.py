@@ -229,6 +229,7 @@ def test_a_part_that_cannot_be_drawn_says_so() -> None:
         (lambda: earthspin.read_excitation("x" * 100_000), "name too long|no such file"),
         (lambda: earthspin.ensemble("precession", "x" * 100_000), "no such file"),
         (lambda: units.real_numbers([10**400]), "too large"),
+        (lambda: earthspin.read_excitation("aam.txt", components=[]), "no component is named"),
     ],
 )
 def test_what_the_fuzzer_found_is_refused(call: Callable[[], object], words: str) -> None:
