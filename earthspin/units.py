@@ -195,7 +195,10 @@ def _is_bare(value: object) -> bool:
 def is_masked(value: object) -> bool:
     """Whether an array, a list of arrays or a Time hides a number; `mask` of pandas is a method."""
     if isinstance(value, (list, tuple)):
-        return any(map(is_masked, value))
+        try:
+            return any(map(is_masked, value))
+        except RecursionError:  # lists in lists without end, which are no array either
+            return False
     mask = getattr(value, "mask", False)
     return not callable(mask) and bool(np.any(mask))
 

@@ -118,6 +118,8 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
     if not all_of((abs(j2) <= abs(h)) | (h == 0)):
         allowed = f"C = (j2/H) M a2 cannot exceed M a2, so it is at most H = {h!r}"
         raise BodyError(name, "j2", j2, allowed)
+    if triaxiality is None:
+        raise BodyError(name, "triaxiality", triaxiality, "give a number, 0 for a round body")
     if not all_of((triaxiality * abs(h) <= abs(j2)) | (h == 0)):
         raise BodyError(name, "triaxiality", triaxiality, "B - A cannot exceed C")
 

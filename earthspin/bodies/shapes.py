@@ -112,6 +112,8 @@ def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
     MissingExtraError
         If trimesh, which reads files, is not installed.
     """
+    if not isinstance(unit, str):
+        raise Where("unit").error(unit, "give a unit of length, like 'km'")
     scale = float(quantity(f"1 {unit}", "m", Where("unit"), "1 km"))
     if isinstance(given, (str, os.PathLike)):
         given = _read(Path(given))

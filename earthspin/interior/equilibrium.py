@@ -156,6 +156,8 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
             f"equilibrium at a spin period of {2 * np.pi / abs(spin_rate) / 3600:.3g} h; give more "
             f"than {2 * np.pi / fastest / 3600:.3g} h"
         )
+    if not spin_rate**2 * layers.radius**3 / (G.value * layers.mass) > np.finfo(float).tiny:
+        raise UndefinedError("the body spins too slowly to be flattened; give it a shorter period")
     rest = equilibrium(layers)
     scale = tidal_inertia(layers, spin_rate)  # over the mean moment
     whole = float(scale * rest.enclosed[-1])

@@ -16,7 +16,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from earthspin.errors import BodyError
+from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass._checks import FloatArray, positive
 from earthspin.mass.distribution import grid_masses, point_masses
 from earthspin.mass.mesh import closed_mesh, solid_points
@@ -167,6 +167,18 @@ class Shape:
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
         """Of points; the outline is what the farthest place is looked for among."""
+        try:
+            with np.errstate(over="raise", divide="raise", invalid="raise"):
+                return cls._summed(pieces, outline, radius)
+        except FloatingPointError as error:
+            words = (
+                f"masses and lengths go beyond what can be computed ({error}); check their sizes"
+            )
+            raise UndefinedError(words) from None
+
+    @classmethod
+    def _summed(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
+        """Add up the moments of points."""
         mass = sum(float(np.sum(m)) for m, _ in pieces(0))
         centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
         second = np.zeros((3, 3))

@@ -365,7 +365,8 @@ def shipped(name: str) -> OrbitTable | None:
     Its errors are those of its integration, which the file holds, and what `GROWTH` adds.
     """
     path = Path(__file__).parent / "orbits" / f"{name}.npz"
-    if not name.isidentifier() or not path.exists():
+    # os.path.exists is false for a name that is too long, where Path.exists raises an error
+    if not name.isidentifier() or not os.path.exists(path):
         return None
     table = load(path)
     middle = (table.edges[:-1] + table.edges[1:]) / 2

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import psutil
@@ -333,6 +334,7 @@ def test_a_disk_that_changes_what_is_written(
 KILLED = """
 import os, random, signal, sys, time
 from pathlib import Path
+from typing import Any
 import xarray, zarr, numcodecs                    # loaded once; each child is a copy
 from earthspin.engine import loop, unfinished
 from tests.engine.work import Squares
@@ -391,13 +393,19 @@ def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path
     assert bytes_of(path) == bytes_of(undisturbed)
 
 
+def _connections(process: psutil.Process) -> list[Any]:
+    """All of a process: the method has another name before psutil 6."""
+    method = getattr(process, "net_connections", None) or process.connections
+    return list(method("all"))
+
+
 def test_a_cluster_listens_to_this_machine_only() -> None:
     with loop._client(1):
         own = psutil.Process()
         connections = [
             connection
             for process in (own, *own.children(recursive=True))
-            for connection in process.net_connections("all")
+            for connection in _connections(process)
             if connection.status == psutil.CONN_LISTEN
         ]
     assert len(connections) >= 3  # of the scheduler, the worker and its nurse
