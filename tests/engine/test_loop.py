@@ -334,7 +334,6 @@ def test_a_disk_that_changes_what_is_written(
 KILLED = """
 import os, random, signal, sys, time
 from pathlib import Path
-from typing import Any
 import xarray, zarr, numcodecs                    # loaded once; each child is a copy
 from earthspin.engine import loop, unfinished
 from tests.engine.work import Squares
