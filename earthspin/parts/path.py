@@ -285,7 +285,9 @@ class Analysed:
     ----------
     days : ndarray, shape (t,)
     start : ndarray, shape (3,)
-        Axis to start with so that our mean pole meets the IAU's at J2000.0.
+        Axis to start with so that our mean pole meets the IAU's at the epoch.
+    epoch : float
+        J2000.0, or as near to it as the positions reach, s from J2000.0 TDB.
     path : AxisPath
         With all effects that are switched on.
     analysis : PoleAnalysis
@@ -297,6 +299,7 @@ class Analysed:
 
     days: NDArray[np.float64]
     start: NDArray[np.float64]
+    epoch: float
     path: AxisPath
     analysis: PoleAnalysis
     ours: Secular
@@ -373,6 +376,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
     return Analysed(
         days=days,
         start=start,
+        epoch=epoch,
         path=path,
         analysis=analysis,
         ours=analysis.secular(pole),
@@ -466,6 +470,8 @@ class Shift:
     ----------
     start : ndarray, shape (3,)
         Axis with which the rigid path starts: its mean pole then meets that of the IAU.
+    epoch : float
+        Time of the start, s from J2000.0 TDB.
     circles : Circles
         Non-rigid less rigid nutation, as a sum of circles.
     rate : float
@@ -477,6 +483,7 @@ class Shift:
     """
 
     start: NDArray[np.float64]
+    epoch: float
     circles: Circles
     rate: float
     closure: float
@@ -492,14 +499,14 @@ class Shift:
         """Move the axes in place: all of them precess, those of the mantle also nutate."""
         from earthspin.sky.iau import moved_by_nutation
 
-        precession, nutation = self.rate * days * DAY, self.eta(days)
+        precession, nutation = self.rate * (days * DAY - self.epoch), self.eta(days)
         for name in axes:
             of_mantle = 0.0 if name == "angular_momentum" else 1.0
             axes[name] = moved_by_nutation(axes[name], precession + of_mantle * nutation, days)
 
     def half_width(self, days: NDArray[np.float64]) -> NDArray[np.float64]:
         """95 % half-width of the direction, from the response and the closure of the rates, rad."""
-        return np.hypot(self.residual, self.closure * days * DAY)
+        return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
 def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Sequence[str]) -> Shift:
@@ -509,16 +516,18 @@ def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Seque
 
     circles = replace(analysed.our_circles, amplitude=amplitude)
     published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
-    # Effects that are switched off are neglected, with their published rates: no error.
+    # The published rate of the response is applied; those of effects that are switched off are
+    # neglected with their sizes, and are no error.
     off = sum(rate for name, rate in published.items() if name not in rigid(effects))
-    days = analysed.days
-    difference = analysed.difference + circles.at(iau.delaunay_arguments(days))
-    difference += off * sine * days * DAY
+    since = analysed.days * DAY - analysed.epoch
+    difference = analysed.difference + circles.at(iau.delaunay_arguments(analysed.days))
+    difference += off * sine * since
     pair = np.stack([difference.real, difference.imag], axis=1)
-    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(days * DAY, pair, 1)[1]))
-    remainder = np.abs(difference) ** 2 - (closure * days * DAY) ** 2
+    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
+    remainder = np.abs(difference) ** 2 - (closure * since) ** 2
     return Shift(
         analysed.start,
+        analysed.epoch,
         circles,
         rate=published[NONRIGID.name] * sine,
         closure=closure,
