@@ -15,7 +15,6 @@ a block that is made again is the same bytes again. The store holds no date, no 
 from __future__ import annotations
 
 import hashlib
-import hashlib
 import json
 import os
 import shutil
@@ -37,8 +36,6 @@ if TYPE_CHECKING:
 
 #: Ending of the folder of a store that is not complete.
 PARTIAL = ".partial"
-#: Attribute by which `xarray` knows the dimensions of an array in a Zarr store.
-_DIMS = "_ARRAY_DIMENSIONS"
 #: Attribute by which `xarray` knows the dimensions of an array in a Zarr store.
 _DIMS = "_ARRAY_DIMENSIONS"
 #: What it holds: the store, what it answers, the blocks that are done, the lock of its owner, and
@@ -200,63 +197,13 @@ class Unfinished:
         except Exception:  # of a codec whose own checksum failed, or of a chunk that is not there
             return False
 
-    def check_frame(self) -> None:
-        """Refuse a store in which a file that no block writes is not what `begin` wrote.
-
-        Raises
-        ------
-        OutputError
-        """
-        try:
-            written = (self.folder / FRAME).read_text(encoding="ascii")
-            intact = written == _frame(self.folder / STORE, self.layout.along)
-        except (OSError, ValueError, AttributeError, TypeError):
-            intact = False
-        if not intact:
-            words = "its names, sizes or attributes are not what was written"
-            raise OutputError(self.folder, words, "take it away and run it again")
-
-    def drop_damaged(self) -> list[int]:
-        """Drop the blocks whose bytes do not match the ledger, and return their numbers.
-
-        Raises
-        ------
-        OutputError
-            If more than blocks is damaged.
-        """
-        self.check_frame()
-        store, along = self.folder / STORE, self.layout.along
-        with _unread(store, along) as (node, labels):
-            damaged = [n for n in sorted(self.done) if not self._matches(n, node, labels)]
-        for number in damaged:
-            del self.done[number]
-            for name in _grown(store, along):
-                for chunk in ((store / name).glob(f"{number}{rest}") for rest in ("", ".*")):
-                    for path in chunk:
-                        path.unlink()
-        return damaged
-
-    def _matches(self, number: int, node: xr.Dataset, labels: Any) -> bool:
-        """Whether the store has the block that the ledger has."""
-        import xarray as xr
-
-        along, (first, last) = self.layout.along, self.layout.bounds(number)
-        try:
-            block = node.drop_vars(along, errors="ignore").isel({along: slice(first, last)})
-            if labels is not None:
-                own = xr.Coordinates({along: _decoded(labels, labels[first:last])}, indexes={})
-                block = block.assign_coords(own)
-            return of_block(block, along) == self.done[number]
-        except Exception:  # of a codec whose own checksum failed, or of a chunk that is not there
-            return False
-
     def finish(self, place: Path) -> None:
         """Give the store its checksums and put it in its place."""
         store, zarr = self.folder / STORE, zarr_of()
         for stray in store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
         summed = Checksum()
-        with _unread(store, self.layout.along) as (node, _):
+        with _unread(store, self.layout.along) as node:
             summed.add("/", node, blocks=[self.done[n] for n in range(self.layout.count)])
         zarr.open_group(store, mode="r+", zarr_format=2).attrs.update(summed.attributes())
         drafts.put_in_place(store, place, self.folder)
@@ -299,73 +246,37 @@ def _group(store: Path) -> Any:
     return zarr_of().open_group(ZarrFolder(store), mode="r", zarr_format=ZARR["zarr_format"])
 
 
-def _grown(store: Path, along: str) -> list[str]:
-    """Names of the variables that blocks write."""
-    dims = {
-        path.parent.name: json.loads(path.read_bytes()).get(_DIMS, ())
-        for path in store.glob("*/.zattrs")
-    }
-    return [name for name, names in dims.items() if along in names]
-
-
-def _frame(store: Path, along: str) -> str:
-    """Checksum of all files of a store that no block writes.
-
-    The checksums of a store that is about to take its place do not count.
-    """
-    grown, total = _grown(store, along), hashlib.sha256()
-    for path in sorted(store.rglob("*")):
-        of_block = path.parent.name in grown and not path.name.startswith(".")
-        if of_block or path.name.endswith(".partial") or path.is_dir():
-            continue
-        content = path.read_bytes()
-        if path == store / ".zattrs":
-            said = json.loads(content).items()
-            own = {name: value for name, value in said if name not in (HEADER, DATA)}
-            content = json.dumps(own, sort_keys=True).encode()
-        for part in (path.relative_to(store).as_posix().encode(), content):
-            total.update(b"%d:" % len(part) + part)
-    return total.hexdigest()
-
-
 @contextmanager
-def _unread(store: Path, along: str) -> Iterator[tuple[xr.Dataset, Any]]:
+def _unread(store: Path, along: str) -> Iterator[xr.Dataset]:
     """Open a store without reading the labels along a dimension: at 10^8 they take gigabytes.
 
-    Yields
-    ------
-    Dataset
-        The first label stands for all.
-    Array or None
-        The labels as Zarr has them, None if there are none.
+    Zero stands for every label.
     """
     import xarray as xr
 
-    from earthspin.engine.zarr_folder import ZarrFolder
-
-    folder: Any = ZarrFolder(store)
-    group = zarr_of().open_group(folder, mode="r", zarr_format=ZARR["zarr_format"])
+    group = _group(store)
     options: dict[str, Any] = {"consolidated": False, "chunks": None, "zarr_format": 2}
-    with xr.open_zarr(
-        folder, drop_variables=[along], decode_times=_coder(), **options
-    ) as node:
+    with xr.open_zarr(store, drop_variables=[along], decode_times=_coder(), **options) as node:
         if along not in group:
-            yield node, None
+            yield node
             return
         labels = group[along]
-        first = np.broadcast_to(labels[:1], labels.shape)  # takes no memory
-        stands_for = _decoded(labels, first)
-        yield node.assign_coords(xr.Coordinates({along: stands_for}, indexes={})), labels
+        zeros = np.broadcast_to(np.zeros(1, labels.dtype), labels.shape)  # takes no memory
+        stands_for = _decoded(labels, zeros)
+        yield node.assign_coords(xr.Coordinates({along: stands_for}, indexes={}))
 
 
-def _decoded(labels: Any, values: np.ndarray[Any, Any]) -> xr.Variable:
-    """Some labels of a dimension as `xarray` reads them."""
+def _decoded(array: Any, values: np.ndarray[Any, Any]) -> xr.Variable:
+    """Some numbers of an array in a store as `xarray` reads them."""
     import xarray as xr
 
-    (along,) = labels.attrs[_DIMS]
-    attributes = {name: value for name, value in labels.attrs.items() if name != _DIMS}
-    variable = xr.Variable((along,), values, attributes)
-    return xr.conventions.decode_cf_variable(along, variable, decode_times=_coder())
+    attributes = dict(array.attrs)
+    dims = attributes.pop(_DIMS)
+    if array.fill_value is not None:
+        attributes["_FillValue"] = array.fill_value
+    return xr.conventions.decode_cf_variable(
+        array.basename, xr.Variable(dims, values, attributes), decode_times=_coder()
+    )
 
 
 def _coder() -> Any:
@@ -465,7 +376,6 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
                 group[name].resize((layout.size, *group[name].shape[1:]))
         (folder / ASKED).write_text(json.dumps(dict(asked), indent=1), encoding="utf-8")
         (folder / FRAME).write_text(_frame(store, layout.along), encoding="ascii")
-        (folder / FRAME).write_text(_frame(store, layout.along), encoding="ascii")
         _append(folder / LEDGER, 0, of_block(first, layout.along))
         drafts.sync(folder)
         there = place.with_name(place.name + PARTIAL)
@@ -497,14 +407,14 @@ def _read_ledger(ledger: Path, count: int) -> dict[int, dict[str, str]]:
     counts for nothing, so that its block is made again.
     """
     try:
-        lines = ledger.read_bytes().splitlines(keepends=True)
+        content = ledger.read_bytes()
     except FileNotFoundError:
         return {}
-    whole = [line for line in lines if line.endswith(b"\n")]
-    if whole != lines:
-        os.truncate(ledger, sum(map(len, whole)))
+    *lines, rest = content.split(b"\n")
+    if rest:
+        os.truncate(ledger, len(content) - len(rest))
     entries = {}
-    for line in whole:
+    for line in lines:
         try:
             number, sums = json.loads(line)
         except (ValueError, TypeError, RecursionError):
