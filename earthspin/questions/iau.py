@@ -267,7 +267,8 @@ def differences(
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    iau_eta = complex_nutation(iau.nutation_of(iau.true_pole(days), days))
+    iau_angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
+    iau_eta = complex_nutation(iau_angles)
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
 
