@@ -44,7 +44,7 @@ def test_the_node_goes_backwards() -> None:
     assert np.all(np.diff(node) < 0)
 
 
-@pytest.mark.parametrize("count, allowed", [(20, 0.0), (4000, 1.5e-11)])
+@pytest.mark.parametrize(("count", "allowed"), [(20, 0.0), (4000, 1.5e-11)])
 def test_angles_at_dense_days(count: int, allowed: float) -> None:
     days = np.linspace(8000.0, 8040.0, count)
     called: list[int] = []
