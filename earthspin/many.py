@@ -10,8 +10,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from earthspin.engine.drafts import as_path
+from earthspin.engine.ensemble import Ensemble, asked_of_members
 from earthspin.engine.given import MEMBER
-from earthspin.errors import SceneError
+from earthspin.engine.store import open as open_store
+from earthspin.errors import OutputError, SceneError
 from earthspin.numerics import sampling
 from earthspin.scenes import load_scene
 from earthspin.units import real_numbers
@@ -77,11 +80,6 @@ def ensemble(
     >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
     25712.1 +/- 0.016 years
     """
-    from earthspin.engine.drafts import as_path
-    from earthspin.engine.ensemble import Ensemble, asked_of_members
-    from earthspin.engine.store import open as open_store
-    from earthspin.errors import OutputError
-
     asked = asked_of_members(load_scene(question), members, seed, impossible=impossible)
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
         raise asked.error("block", block, "give a whole number, 1 or more")

@@ -15,6 +15,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from functools import cached_property, lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -385,7 +386,6 @@ def find_kernel(name: str) -> Path:
     """
     if name == "de421":
         # Found without importing skyfield_data, which warns about files that we never read.
-        from importlib.util import find_spec
 
         spec = find_spec("skyfield_data")
         if spec is None or spec.origin is None:

@@ -7,6 +7,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
 
 from earthspin.errors import Where
+from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.protocol import Place, Source, Trajectory, words
 
 if TYPE_CHECKING:
@@ -36,8 +37,6 @@ def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
     SceneError, MissingExtraError, KernelError
         If there is no such kernel, or it cannot be used.
     """
-    from earthspin.sky.ephemeris import open_ephemeris
-
     kernel = open_ephemeris(ephemeris)
     if word == "jplephem":
         return kernel
