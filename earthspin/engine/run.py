@@ -14,6 +14,7 @@ from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan, remember_seconds
 from earthspin.engine.question import NEGLECTED, Question
+from earthspin.engine.variables import Variables
 from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
@@ -124,7 +125,8 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
             inputs |= {name: values[name] for name in one.uses if name in values}
             begun = time.perf_counter() - imports.seconds
             with in_range(one.name):
-                values[one.name] = one(**inputs)
+                value = one(**inputs)
+                values[one.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[one.name] = time.perf_counter() - imports.seconds - begun
         seconds[IMPORTS] = imports.seconds - before
     return Ran(replace(planned, seconds=seconds), values)
