@@ -74,6 +74,8 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
     13 ['angular_momentum' 'rotation' 'figure']
     """
 
+    views, page = "pole", "pole"
+
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date, TDB; the last is included if the step meets it",

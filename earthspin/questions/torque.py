@@ -53,6 +53,8 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     23.439
     """
 
+    views, page = "torque", "theory"
+
     span: Span = key(
         ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
         doc="first and last date, TDB; the last is included if the step meets it",
