@@ -386,11 +386,8 @@ def _series(question: Question) -> Series:
     """A long series as work in blocks."""
     size = series_length(question)
     if size == 0:
-        raise SceneError(
-            "compute",
-            question.word,
-            "only a series of torques, pole or rotation is written by region",
-        )
+        problem = "only a series of torques, pole or rotation is written by region"
+        raise SceneError("compute", question.word, problem)
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
@@ -463,9 +460,8 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
     try:
         return path.read_text(encoding="utf-8-sig"), text, path.stem
     except FileNotFoundError:
-        raise SceneError(
-            "scene", text, f"there is no such file; shipped: {', '.join(shipped_scenes())}"
-        ) from None
+        problem = f"there is no such file; shipped: {', '.join(shipped_scenes())}"
+        raise SceneError("scene", text, problem) from None
     except OSError as error:
         raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -107,9 +107,8 @@ def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody
         return from_samples(name, **columns, reference=reference)
     except (KeyError, TypeError, ValueError) as error:
         units = ", ".join(f"{column} ({unit or 'a number'})" for column, unit in COLUMNS.items())
-        raise where.error(
-            "a table", f"give columns of one length, outwards: {units}; {error}"
-        ) from None
+        problem = f"give columns of one length, outwards: {units}; {error}"
+        raise where.error("a table", problem) from None
 
 
 class UnderTheSurface:

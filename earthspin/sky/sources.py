@@ -99,10 +99,8 @@ def read_position(given: Any, where: Where) -> VectorFunction | Trajectory:
     tables = [given] if isinstance(given, Mapping) else given
     if isinstance(tables, list) and tables and all(isinstance(one, Mapping) for one in tables):
         if _LIVE in tables[0]:
-            raise where.error(
-                tables[0][_LIVE],
-                "it was a live object, which no scene can hold; give it again in Python",
-            )
+            problem = "it was a live object, which no scene can hold; give it again in Python"
+            raise where.error(tables[0][_LIVE], problem)
         from earthspin.sky.vector_functions import read_segments
 
         return read_segments(tables, where)
