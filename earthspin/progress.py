@@ -76,15 +76,15 @@ def lines_to(stream: TextIO) -> Iterator[None]:
 
 
 def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[Advance]:
-    begun, done, told = time.monotonic(), already, -math.inf
+    begun, done, last = time.monotonic(), already, -math.inf
 
     def advance(amount: int) -> None:
-        nonlocal done, told
+        nonlocal done, last
         done += amount
         now = time.monotonic()
-        if now - told < EVERY and done < total:
+        if now - last < EVERY and done < total:
             return
-        told, rate = now, (done - already) / max(now - begun, 1e-9)
+        last, rate = now, (done - already) / max(now - begun, 1e-9)
         left = round((total - done) / rate, 1) if rate else None
         line = {"doing": label, "done": done, "of": total, "rate": round(rate, 3), "left": left}
         print(json.dumps(line), file=stream, flush=True)
