@@ -35,7 +35,7 @@ _HOME = {
     "earthspin.questions.free_rotor": ("free_rotor",),
     "earthspin.questions.top": ("heavy_top",),
     "earthspin.questions.spheroid": ("spheroid_field",),
-    "earthspin.checks.gauntlet": ("stability",),
+    "earthspin.checks.stability": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",
