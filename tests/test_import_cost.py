@@ -163,7 +163,7 @@ def test_public_names_alone_are_shown() -> None:
     modules_after(program)
 
 
-@pytest.mark.parametrize("program", ["import earthspin.accessor", "import earthspin.scenes"])
+@pytest.mark.parametrize("program", ["import earthspin.engine.accessor", "import earthspin.scenes"])
 def test_the_accessor_is_registered_when_it_is_asked_for(program: str) -> None:
     look = f"{program}\nimport xarray as xr; print(hasattr(xr.Dataset, 'earthspin'))"
     out = subprocess.run([sys.executable, "-c", look], check=True, capture_output=True, text=True)
