@@ -49,6 +49,7 @@ def test_every_kernel_has_one() -> None:
     assert len(MUTANTS) >= 2 * len(kernels)
 
 
+@pytest.mark.slow
 def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> None:
     mutant = next(m for m in MUTANTS if m.file == "earthspin/mass/inertia.py")
     finding = try_mutant(mutant)
@@ -57,6 +58,7 @@ def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> No
     assert failing_without_error([finding.witness]) == set()
 
 
+@pytest.mark.slow
 def test_an_error_that_no_test_notices_is_a_survivor() -> None:
     harmless = Mutant(
         name="a comment",
@@ -73,6 +75,7 @@ def test_an_error_that_no_test_notices_is_a_survivor() -> None:
     assert "SURVIVED" in page([finding], 1.0)
 
 
+@pytest.mark.slow
 def test_tests_that_never_run_do_not_count() -> None:
     broken = Mutant(
         name="a module that cannot be imported",

@@ -30,6 +30,7 @@ def test_table_of_the_path(pole: xr.Dataset) -> None:
     assert float(table.rows[2][3]) == pytest.approx(float(pole.psi[0, 2]), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
     titles = [table.title for table in tables_for(iau)]
     assert titles == [
