@@ -462,7 +462,7 @@ def chosen(question: Question) -> list[str]:
 
 def _scene_of(answer: Any) -> str:
     """Text of the scene that an answer carries."""
-    text = answer.attrs.get(running.SCENE)
+    text = answer.attrs.get(planning.SCENE)
     if not isinstance(text, str):
         raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
     return text

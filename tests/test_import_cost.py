@@ -186,5 +186,5 @@ def test_public_names_alone_are_shown() -> None:
 
 def test_the_accessor_is_registered_when_it_is_asked_for_or_by_the_first_call() -> None:
     look = "import earthspin.scenes, xarray\nassert not hasattr(xarray.Dataset, 'earthspin')\n"
-    modules_after(f"{look}import earthspin.accessor; assert xarray.Dataset.earthspin")
+    modules_after(f"{look}import earthspin.engine.accessor; assert xarray.Dataset.earthspin")
     modules_after(f"{look}assert earthspin.wobble_ladder().earthspin.scene")

@@ -288,7 +288,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     """
     import xarray as xr
 
-    import earthspin.accessor  # noqa: F401 - registers ds.earthspin
+    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
     place = as_path(path)
     nodes = _read(place)

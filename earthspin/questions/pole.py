@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, proper
-from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -300,14 +300,22 @@ def pole_angles(
     )
 
 
-PROMISE = promise("uas", "in direction")
+class DirectionAccuracy(Report, units="uas", error_of="in direction"):
+    """Accuracy of the pole: asked, estimated, and the method chosen."""
 
 
-@part(gives=PROMISE, unless=no_accuracy)
-def pole_accuracy(axes: xr.Dataset, largest_error: Largest, accuracy: float | None) -> xr.Dataset:
+@part(unless=no_accuracy)
+def pole_accuracy(
+    axes: xr.Dataset, largest_error: Largest, accuracy: float | None
+) -> DirectionAccuracy:
     """Accuracy of the pole: asked, estimated, and the method chosen."""
     by = axes.direction_error.attrs
-    return report(PROMISE, accuracy, largest_error.error, by["method"], by["evaluations"])
+    return DirectionAccuracy(
+        error_asked=accuracy,
+        error_estimated=largest_error.error,
+        method_chosen=by["method"],
+        evaluations=by["evaluations"],
+    )
 
 
 @part

@@ -10,7 +10,7 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
-from earthspin.choosing.promises import promise, refuse_unkept, report_of
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -443,13 +443,14 @@ def turning(
     return result
 
 
-PROMISE = promise("mas", "of the attitude")
-
-
-@part(gives=PROMISE, unless=no_accuracy)
-def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
     """Accuracy of the attitude: asked, estimated, and the method."""
-    return report_of(PROMISE, accuracy, turning.attitude_error)
+
+
+@part(unless=no_accuracy)
+def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
+    """Accuracy of the attitude: asked, estimated, and the method."""
+    return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
 DIVERGENCE = {

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.choosing.promises import promise, refuse_unkept, report_of
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, with_error
@@ -211,13 +211,14 @@ def _equator_words(
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
-PROMISE = promise("mas", "in direction")
-
-
-@part(gives=PROMISE, unless=no_accuracy)
-def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+class DirectionAccuracy(Report, units="mas", error_of="in direction"):
     """Accuracy of the directions: asked, estimated, and the method chosen."""
-    return report_of(PROMISE, accuracy, torques.direction_error)
+
+
+@part(unless=no_accuracy)
+def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAccuracy:
+    """Accuracy of the directions: asked, estimated, and the method chosen."""
+    return DirectionAccuracy.of_series(accuracy, torques.direction_error)
 
 
 @part

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
-from earthspin.many import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.views import plain
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Drawing, axes, drawn, empty, style
 from earthspin.views.reading import Result

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from earthspin.engine.plan import NOT_ASKED
-from earthspin.many import is_ensemble
+from earthspin.engine.spread import is_ensemble
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
 from earthspin.views.reading import Result, answer_of, changes_of, section
