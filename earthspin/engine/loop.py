@@ -153,14 +153,14 @@ def _go_on(work: Work, unfinished: Unfinished, target: Path, client: object) -> 
     layout, own = work.layout, set[int]()
     try:
         unfinished.drop_damaged()
-        damaged = None
-        while damaged != []:
+        while True:
             with progress(work.what, layout.size, unfinished.length) as advance:
                 for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
                     unfinished.note(number, sums)
                     own.add(number)
                     advance(layout.length(number))
-            damaged = unfinished.drop_damaged()
+            if not (damaged := unfinished.drop_damaged()):
+                break
             if own.intersection(damaged):
                 words = f"block {damaged[0]} is not what was just written"
                 raise OutputError(unfinished.folder, words, "check the disk and run it again")
