@@ -354,7 +354,7 @@ def _keys(options: Namespace) -> None:
 
 def _info(options: Namespace) -> None:
     """Versions and kernels; or what is known of bodies."""
-    from earthspin._version import version
+    from importlib.metadata import PackageNotFoundError, version
 
     if options.what:
         from earthspin.bodies.told import all_in_words, in_words
@@ -363,7 +363,10 @@ def _info(options: Namespace) -> None:
         return
     print(f"earthspin {__version__}, Python {sys.version.split()[0]}")
     for package in ("numpy", "scipy", "xarray", "astropy", "pyerfa", "skyfield", "jplephem"):
-        print(f"  {package:<10} {version(package)}")
+        try:
+            print(f"  {package:<10} {version(package)}")
+        except PackageNotFoundError:
+            print(f"  {package:<10} not installed")
     print("kernels")
     from earthspin.sky.ephemeris import NAMED_KERNELS, describe_kernel
 
