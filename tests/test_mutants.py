@@ -21,7 +21,7 @@ NO_KERNEL = {"__init__", "_checks"}
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
-    *("engine/drafts", "engine/checksums", "engine/zarr_folder", "errors", "process"),
+    *("engine/drafts", "engine/checksums", "engine/unfinished", "errors", "process"),
 )
 
 

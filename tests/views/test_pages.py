@@ -12,7 +12,7 @@ import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.views.of_question import (
     ERRORS,
-    EXPLAINED,
+    PAGES,
     drawings_for,
     figures_of,
     scene_page,
@@ -85,8 +85,8 @@ def test_a_plain_answer_can_be_drawn(scene: str, count: int) -> None:
 
 def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
     docs = Path(__file__).parents[2] / "docs"
-    assert set(EXPLAINED) <= set(QUESTIONS)
-    for name, title in (*EXPLAINED.values(), ERRORS):
+    assert {question.page for question in QUESTIONS.values()} == set(PAGES)
+    for name, title in (*PAGES.items(), ERRORS):
         assert f"\n# {title}\n" in f"\n{(docs / f'{name}.md').read_text(encoding='utf-8')}"
     page = scene_page(shipped.tree("spheroid").to_dataset())
     assert "Rotors and tops, from the tensor to the torque" in page
