@@ -84,6 +84,7 @@ def test_it_is_short_and_types_no_result(script: Path) -> None:
     assert re.findall(r"\d+\.\d+", prose) == [], "numbers come from what the script prints or draws"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", QUICK)
 def test_it_draws_one_figure_whose_axes_name_their_units(
     script: str, faults: dict[str, list[str]]
