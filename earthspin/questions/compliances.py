@@ -43,6 +43,8 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
+    views, page = "compliances", "wobble"
+
     interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
     body: Body = key(EARTH, doc="body whose spin and dynamical flattening they have")
 

@@ -50,6 +50,8 @@ class LoveNumbers(
     0.18
     """
 
+    views, page = "love_numbers", "wobble"
+
     interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
     body: Body = key(EARTH, doc="body whose layers they are")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
