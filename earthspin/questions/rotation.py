@@ -139,12 +139,9 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
             raise self.error(
                 "body", self.body.name, "C does not follow from H = 0; give it some flattening"
             )
-        if self.start_attitude is not None:
-            length = _length(self.start_attitude)
-            if abs(length - 1) > _LENGTH:
-                raise self.error(
-                    "start_attitude", self.start_attitude.tolist(), "a unit quaternion has length 1"
-                )
+        start = self.start_attitude
+        if start is not None and abs(_length(start) - 1) > _LENGTH:
+            raise self.error("start_attitude", start.tolist(), "a unit quaternion has length 1")
 
 
 @dataclass(frozen=True)
@@ -163,9 +160,9 @@ class Pulling:
     """
 
     forces: Forces
-    doubt: float
-    rounding: float
-    no_error: str
+    doubt: float = 0.0
+    rounding: float = 0.0
+    no_error: str = ""
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
@@ -204,14 +201,14 @@ def pulling(
     if isinstance(pulls.sky.source, Elements):
         places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
-        return Pulling(forces, 0.0, rounding, "")
+        return Pulling(forces, rounding=rounding)
     positions = pulls.sky.positions(np.array(days[:1]))
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
         doubts.append(doubt_of_pull(float(np.linalg.norm(positions[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
-    return Pulling(forces, doubt, 0.0, pulls.sky.no_error)
+    return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
 
 @dataclass(frozen=True)
@@ -230,9 +227,7 @@ class Rotor:
         Days from J2000.0 TDB.
     polar_moment : float
         C, kg m2.
-    doubt : float
-        As of `Pulling`.
-    no_error : str
+    pulling : Pulling
     """
 
     body: Rigid
@@ -242,14 +237,16 @@ class Rotor:
     begin: float
     end: float
     polar_moment: float
-    doubt: float
-    no_error: str
+    pulling: Pulling
+
+    @property
+    def duration(self) -> float:
+        """Time from the start to the end, s."""
+        return float(self.since(self.end))
 
     def motion(self, tolerance: float) -> Motion:
         """Motion of the body with a tolerance per window."""
-        return Motion(
-            self.body, self.above, self.start, float(self.since(self.end)), tolerance=tolerance
-        )
+        return Motion(self.body, self.above, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
         """Turns of the body in a time, s, at the speed of the start."""
@@ -296,21 +293,19 @@ def rotor(
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
     figure = figure_of(body, spin_rate)
-    forces = (
-        switched_on(Forces(figure=figure, gm={}, positions=lambda times: {}), body, effects)
-        if pulling is None
-        else pulling.forces
-    )
+    if pulling is None:
+        alone = Forces(figure=figure, gm={}, positions=lambda times: {})
+        pulling = Pulling(switched_on(alone, body, effects))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
-        PULL: 0.0 if pulling is None else pulling.doubt,
-        ROUNDING: 0.0 if pulling is None else pulling.rounding,
+        PULL: pulling.doubt,
+        ROUNDING: pulling.rounding,
     }
     rigid, changed = neighbours.rigid_bodies(
-        forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
+        pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
     attitude = (
         neighbours.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
@@ -321,13 +316,12 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.above(forces, epoch),
+        neighbours.above(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,
         moment,
-        doubts[PULL],
-        "" if pulling is None else pulling.no_error,
+        pulling,
     )
 
 
@@ -347,15 +341,15 @@ _CAUSES = {
 
 def _error(units: str, quantity: str) -> Any:
     """Declare the error of a quantity."""
-    return number(units, f"95 % half-width of {quantity}, largest so far")
+    return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
 
 
 def _share(units: str, name: str, cause: str) -> Any:
     """Declare the share of one cause in the error of a variable."""
-    return number(units, f"share of {name}_error from {_CAUSES[cause]}")
+    return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
 
 
-class Attitudes(Dated):
+class Attitudes(Dated, along=("time", "component")):
     """Attitude, spin and angular momentum, each with its error and the shares of it."""
 
     attitude: Value = number(
@@ -371,19 +365,13 @@ class Attitudes(Dated):
     omega: Value = number(
         "rad/s",
         "angular velocity along the principal axes",
-        along=("time", "component"),
         frame="principal axes of the body, C last",
     )
     omega_error: Value = _error("rad/s", "the angular velocity")
     omega_error_method: Value = _share("rad/s", "omega", "method")
     omega_error_input: Value = _share("rad/s", "omega", "input")
     omega_error_kernel: Value = _share("rad/s", "omega", "kernel")
-    angular_momentum: Value = number(
-        "kg m2 / s",
-        "angular momentum along the ICRF",
-        along=("time", "component"),
-        frame="ICRF",
-    )
+    angular_momentum: Value = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
     angular_momentum_error: Value = _error("kg m2 / s", "the angular momentum, C as given")
     angular_momentum_error_method: Value = _share("kg m2 / s", "angular_momentum", "method")
     angular_momentum_error_input: Value = _share("kg m2 / s", "angular_momentum", "input")
@@ -434,13 +422,13 @@ def turning(
         series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    shares = shares_of(series, rotor.changed, rotor.doubt)
+    shares = shares_of(series, rotor.changed, rotor.pulling.doubt)
     errors = {
         f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
         for share, error in shares.items()
     }
-    worst = float(np.max(shares[""][0])) if not rotor.no_error else float("nan")
+    worst = float(np.max(shares[""][0])) if not rotor.pulling.no_error else float("nan")
     refuse_unkept(accuracy, worst, "mas", "the motion is known no better that long; ask for less")
     comment = {"comment": f"error of the rigid model; not included: {neglected.largest}"}
     return Attitudes(
@@ -450,7 +438,7 @@ def turning(
         angular_momentum=(size if rotor.body.unit > 0 else -size) * series.momentum[back],
         **errors,
     ).with_attributes(
-        no_error=rotor.no_error,
+        no_error=rotor.pulling.no_error,
         attitude_error={
             **comment,
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
@@ -511,8 +499,8 @@ def parting(rotor: Rotor) -> Divergence:
     """The growth of the distance of a neighbour, brought back again and again."""
     from earthspin.motion.divergence import divergence
 
-    rotor.refuse_many_turns(0.0, float(rotor.since(rotor.end)))
-    return divergence(rotor.body, rotor.above, rotor.start, float(rotor.since(rotor.end)))
+    rotor.refuse_many_turns(0.0, rotor.duration)
+    return divergence(rotor.body, rotor.above, rotor.start, rotor.duration)
 
 
 @part(unless=one_date)
