@@ -493,8 +493,8 @@ def _verify(given: argparse.Namespace) -> None:
 
 def _stability(given: argparse.Namespace) -> int:
     from earthspin.checks.case import FAILS
-    from earthspin.checks.gauntlet import stability
-    from earthspin.views.gauntlet_views import print_verdicts, tally
+    from earthspin.checks.stability import stability
+    from earthspin.views.stability_tables import print_verdicts, tally
 
     result = stability(quick=given.quick, only=given.only, long=given.long)
     print_verdicts(result)

@@ -116,6 +116,8 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
+    views, page = "free_rotor", "rotors"
+
     exclusive = (("times",), ("duration", "points"))
 
     moments: Moments = setting(

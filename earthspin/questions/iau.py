@@ -80,6 +80,8 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
     -3.5 mas per century
     """
 
+    views, page = "iau", "pole"
+
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date of the residuals, TDB",

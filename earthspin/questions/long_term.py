@@ -75,6 +75,8 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     101 23.439
     """
 
+    views, page = "long_term", "long_term"
+
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
 

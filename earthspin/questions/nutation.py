@@ -82,6 +82,8 @@ class NutationLadder(
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
 
+    views, page = "nutation", "nutation"
+
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date of the residuals, TDB",

@@ -75,6 +75,8 @@ class Precession(Pulled, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
+    views, page = "precession", "theory"
+
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
         None, doc="first and last date of the average; all that the kernel covers if not given"

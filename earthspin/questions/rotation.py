@@ -82,6 +82,8 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
 
+    views, page = "rotation", "rotation"
+
     span: Span = key(
         ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
         doc="first and last date, TDB; the last is included if the step meets it",

@@ -47,6 +47,8 @@ class Spheroid(
     [-8.148] m/s2
     """
 
+    views, page = "spheroid", "rotors"
+
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
         doc="coordinates from the centre, z along the axis"

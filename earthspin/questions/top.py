@@ -67,6 +67,8 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
+    views, page = "top", "rotors"
+
     exclusive = (("times",), ("duration", "points"))
 
     times: Seconds | None = setting(None, doc="times from the start")
