@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from earthspin.choosing.averages import Averaging
     from earthspin.choosing.choice import Choice
+    from earthspin.numerics.estimate import Estimate
     from earthspin.torque.average import Window
-    from earthspin.torque.rates import Estimate
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).

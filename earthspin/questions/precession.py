@@ -43,7 +43,7 @@ from earthspin.sky.sources import SourceName
 from earthspin.units import Relative
 
 if TYPE_CHECKING:
-    from earthspin.torque.rates import Estimate
+    from earthspin.numerics.estimate import Estimate
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
