@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR
+from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers
 from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.times import refuse_what_does_not_fit
 from earthspin.progress import progress
 from earthspin.units import FloatArray
 
@@ -328,6 +329,43 @@ def path_over(
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
     return axis_path(forces, start, epoch, (days[0] * DAY, days[-1] * DAY), limits=pulls.limits)
+
+
+def iau_nutation(
+    pulls: Pulls, epochs: TimeGrid | TimeList
+) -> tuple[FloatArray, FloatArray, NDArray[np.complex128]]:
+    """Nutation of the IAU at the days of a series.
+
+    Returns
+    -------
+    days : ndarray, shape (t,)
+        From J2000.0.
+    ends : ndarray, shape (2,)
+        Days that bound the series and J2000.0.
+    eta : ndarray, shape (t,), complex
+        dpsi sin(eps0) + i deps, rad.
+
+    Raises
+    ------
+    EarthspinError
+        If the series does not fit into memory, or lies outside the source of positions.
+    """
+    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.sky import iau
+
+    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
+    days = epochs.days(0, epochs.size)
+    first, last = epochs.span()
+    ends = np.array([min(first, 0.0), max(last, 0.0)])
+    pulls.sky.check_times(ends, pulls.targets)
+    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
+    return days, ends, complex_nutation(angles)
+
+
+def residual_error(analysed: Analysed, body: Body, eta: NDArray[np.complex128]) -> float:
+    """95 % half-width of either angle of a residual, from the integration and H in nutation."""
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
 
 
 def rigid(effects: Sequence[str]) -> list[str]:

@@ -33,17 +33,19 @@ from earthspin.parts.path import (
     Apart,
     Shift,
     core_response,
+    iau_nutation,
     nonrigid_shift,
     path_over,
     pole_analysis,
     predicted_shift,
+    residual_error,
     response_apart,
     rigid,
 )
 from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
 from earthspin.parts.sky import places, sky, unmeasured
-from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
@@ -259,17 +261,8 @@ def differences(
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
     done = pole_analysis
-    days = epochs.days(0, epochs.size)
-    first, last = epochs.span()
-    ends = np.array([min(first, 0.0), max(last, 0.0)])
-    pulls.sky.check_times(ends, pulls.targets)
-    iau_angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    iau_eta = complex_nutation(iau_angles)
-
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-
+    days, ends, iau_eta = iau_nutation(pulls, epochs)
     own_start, _ = start_of(body, pulls)
 
     def axes_of(on: list[str], start: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
@@ -292,7 +285,8 @@ def differences(
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
-    error = math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta))))
+    error = residual_error(done, body, iau_eta)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     precession = error_of_input(done.path, done.path.at(days * DAY)["figure"], u_h)
     return Differences(
         days=days,
@@ -427,7 +421,7 @@ class Nutation(Variables, along=("term",)):
 def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
     """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.nutation import phases, term_names
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
@@ -451,13 +445,8 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
         ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
         left=phases(real - transfer * rigid),
-        term=_labels(ours.multiples[order]),
+        term=term_names(ours.multiples[order]),
     )
-
-
-def _labels(multiples: NDArray[np.int64]) -> list[str]:
-    """Multiples of the Delaunay arguments as text."""
-    return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
 
 
 _LEFT = "part of a fit; its residuals measure it"
@@ -514,7 +503,7 @@ class Core(Variables):
 @part
 def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> Core:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
-    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.nutation import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -535,7 +524,7 @@ def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart
         added=phases(apart.left[rows]),
         added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
         added_published=phases(apart.added[rows]),
-        added_to=_labels(ours.multiples[rows]),
+        added_to=term_names(ours.multiples[rows]),
     )
 
 
