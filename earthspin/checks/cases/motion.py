@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import MOON, SUN
-from earthspin.checks.case import Distances, holds, refused, relative_error
+from earthspin.checks.case import Distances, holds, relative_error
 from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.axes import AxisPath, axis_path
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.nutation.angles import on_fixed_ecliptic
@@ -259,25 +259,6 @@ def _thousandfold() -> Distances:
     yield _pole_against_exact(20.0, gm={name: 1e3 * gm for name, gm in GM.items()})
 
 
-@refused("turns too fast")
-def _too_heavy() -> None:
-    """Sun and Moon of 10^9 times their mass
-
-    Hard because: the axis turns faster than the body: no slow manifold is left
-    """
-    heavy = {name: 1e9 * gm for name, gm in GM.items()}
-    axis_path(_forces(gm=heavy), NORTH, 0.0, (0.0, 30 * DAY))
-
-
-@refused("too slow")
-def _slow_spin() -> None:
-    """a spin of three days
-
-    Hard because: near the month the figure axis no longer follows the angular momentum
-    """
-    _path(30.0, _figure(spin_rate=2 * np.pi / (3 * DAY)))
-
-
 @holds(bound=5e-7)
 def _fast_spin() -> Distances:
     """a spin of ten seconds
@@ -398,15 +379,6 @@ def _obliquities() -> Distances:
         yield found - axis if axis[2] else np.linalg.norm(found, axis=1) - 1
 
 
-@refused("resonates")
-def _flat() -> None:
-    """a flat triaxial body
-
-    Hard because: the semidiurnal torque resonates with the free mode of a thin disc
-    """
-    _path(10.0, _figure(h=0.5, triaxiality=1e-3))
-
-
 @holds(bound=3.0, unit="uas")
 def _kernel_ends() -> Distances:
     """the pole in the first and last second of the kernel
@@ -419,15 +391,6 @@ def _kernel_ends() -> Distances:
     place = np.stack([found.X, found.Y, found.Z], axis=-1)
     yield _angle(place[0], place[1])
     yield _angle(place[2], place[3])
-
-
-@refused("outside kernel")
-def _beyond_kernel() -> None:
-    """the pole one second after the kernel
-
-    Hard because: the reader of the kernel would extrapolate without a word
-    """
-    pole(times=["2000-01-01", "2053-10-09T00:00:01"])
 
 
 @holds(bound=9e-4)

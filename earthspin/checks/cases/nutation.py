@@ -171,17 +171,6 @@ def _shells_about_the_centre() -> Distances:
     yield (found - plain) / np.outer(own, own)
 
 
-@refused("less than a hundredth of the radius")
-def _smallest_core() -> None:
-    """an inner core of sixty kilometres
-
-    Hard because: what it answers to itself is a power of its size, and the start shows in it
-    """
-    inner, *rest = PREM.layers
-    liquid = replace(inner, vs=(), shear_q=np.inf)
-    yielding(replace(PREM, layers=(replace(inner, top=6e4), liquid, *rest)))
-
-
 @holds(bound=1e-3)
 def _soft_mantle() -> Distances:
     """a mantle ten thousand times softer than it is heavy

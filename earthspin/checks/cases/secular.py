@@ -7,10 +7,8 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
-from earthspin.bodies import SUN
 from earthspin.checks.case import Distances, holds, refused
 from earthspin.checks.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
@@ -19,10 +17,8 @@ from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.orbit import Orbit, Shape
-from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
-from earthspin.sky.equator import spherical
-from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 
 FloatArray = NDArray[np.float64]
@@ -193,36 +189,6 @@ def _all_but_round() -> Distances:
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
 
 
-@refused("stands upright on the orbit")
-def _upright() -> None:
-    """an axis upright on its orbit
-
-    Hard because: there is no equinox to count from
-    """
-    ra, dec, _ = spherical(_table().at(np.zeros(1))[0].T)
-    normal = (float(ra[0]), float(dec[0]))
-    body = BODY.replace(pole=normal, orbit_pole=normal)
-    long_term(times=["0 kyr"], body=body, perturbers=[SUN])
-
-
-@refused("is outside table")
-def _beyond() -> None:
-    """a moment beyond the end of the table
-
-    Hard because: its last series goes on smoothly
-    """
-    long_term(times=["10.0000001 Myr"])
-
-
-@refused("by half")
-def _stopped() -> None:
-    """tides that would stop the spin
-
-    Hard because: linear tides go on past zero, and the numbers look like numbers
-    """
-    solve(replace(STRENGTH, tides=Tides(moon=-2e-14, spin=-1e-14)), _table(), NORTH, (0.0, 2 * MYR))
-
-
 @refused("was asked for")
 def _too_accurate() -> None:
     """an accuracy that no knowledge of the body allows
@@ -230,52 +196,6 @@ def _too_accurate() -> None:
     Hard because: the solver itself would keep it
     """
     long_term(times=["-1 Myr"], accuracy="0.1 arcsec")
-
-
-@refused("cannot be followed")
-def _too_fast() -> None:
-    """a precession of a turn in a few years
-
-    Hard because: a thousand turns in a window of sixteen nodes
-    """
-    fast = replace(STRENGTH, sun=1e4 * STRENGTH.sun)
-    solve(fast, _table(), _leaning(0.4), (-MYR / 10, 0.0))
-
-
-@refused("like obliquity")
-def _apart() -> None:
-    """members that precess at other rates, side by side
-
-    Hard because: one frame cannot turn with all of them, and steps would be too long for some
-    """
-    starts = np.stack([_leaning(0.1), _leaning(1.5)], axis=1)
-    solve_many(STRENGTH, _table(), starts, np.array([-MYR, 0.0]))
-
-
-def _rows(**changed: object) -> pd.DataFrame:
-    t = np.arange(-100.0, 1.0)
-    own = {"k": 0.01 * np.cos(t / 15), "h": 0.01 * np.sin(t / 15), "q": 0 * t, "p": 0 * t}
-    return pd.DataFrame({"t": t} | own | changed)
-
-
-@refused("an eccentricity of 1")
-def _parabola() -> None:
-    """an orbit of eccentricity 1
-
-    Hard because: the mean of the inverse cube of the distance is infinite
-    """
-    read_orbit(_rows(k=1.0, h=0.0))
-
-
-@refused("these are degrees, not radians")
-def _degrees() -> None:
-    """degrees where radians are meant
-
-    Hard because: every number is a fine number of radians
-    """
-    t = np.arange(-100.0, 1.0)
-    rows = pd.DataFrame({"t": t, "e": 0.02, "inc": 1.0, "varpi": 19 * t % 360, "Omega": 0.0})
-    read_orbit(rows, time="kyr", angles="rad", body=BODY.name)
 
 
 @holds(bound=5e-15)
