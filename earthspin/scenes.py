@@ -13,30 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answering
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
+from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.parts.orbits import OWN, OrbitChoice
 from earthspin.parts.sky import KernelName
-from earthspin.questions.cassini import CassiniStates
-from earthspin.questions.compliances import Compliances
-from earthspin.questions.free_rotor import FreeRotor
-from earthspin.questions.iau import IAU
-from earthspin.questions.long_term import LongTerm
-from earthspin.questions.love_numbers import LoveNumbers
-from earthspin.questions.nutation import NutationLadder
-from earthspin.questions.polar_motion import C04, PolarMotion, TableFile
-from earthspin.questions.pole import Pole
-from earthspin.questions.precession import Precession
-from earthspin.questions.rotation import Rotation
-from earthspin.questions.spheroid import Spheroid
-from earthspin.questions.top import Top
-from earthspin.questions.torque import Torque
-from earthspin.questions.wobble import Wobble
+from earthspin.questions.polar_motion import C04, TableFile
 from earthspin.sky.columns import is_table
 
 if TYPE_CHECKING:
@@ -47,11 +35,8 @@ if TYPE_CHECKING:
 #: Every question, by the word after ``compute =``.
 QUESTIONS: dict[str, type[Question]] = {
     question.word: question
-    for question in (
-        Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Rotation, Wobble, PolarMotion,
-        FreeRotor, Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
-    )
-}  # fmt: skip
+    for question in (getattr(earthspin, call).question for call in vars(earthspin)["_QUESTIONS"])
+}
 
 #: Most parts of a key between dots.
 MOST_PARTS = 32
@@ -416,11 +401,12 @@ def _series(question: Question) -> Series:
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not isinstance(question, (Torque, Pole, Rotation)):
+    if not any(BY_BLOCK in one.uses for one in question.graph.parts.values()):
         return 0
     from earthspin.parts.times import epochs
 
-    return epochs(question.span, question.step, question.times).size
+    keys = question.keys()
+    return epochs(keys["span"], keys["step"], keys["times"]).size
 
 
 def members_of(question: Question) -> int:
@@ -462,7 +448,7 @@ def chosen(question: Question) -> list[str]:
 
 def _scene_of(answer: Any) -> str:
     """Text of the scene that an answer carries."""
-    text = answer.attrs.get(running.SCENE)
+    text = answer.attrs.get(planning.SCENE)
     if not isinstance(text, str):
         raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
     return text

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Self
 
-from earthspin.engine.labels import Schema, Variable, build, from_si, si
+from earthspin.engine.labels import from_si, si
+from earthspin.engine.variables import Value, Variables, number, words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -13,56 +15,60 @@ if TYPE_CHECKING:
 MARGIN = 0.99
 
 
-def promise(unit: str, of: str) -> Schema:
-    """Declare the report on an accuracy.
+class Report(Variables):
+    """Accuracy: asked, estimated, and the method chosen.
 
-    Parameters
-    ----------
-    unit, of : str
-        Of the error, and what it is the error of.
+    A class of it names the units of the error, and what it is the error of.
     """
-    return {
-        "error_asked": Variable((), unit, f"error asked for, {of}"),
-        "error_estimated": Variable((), unit, f"error estimated, at its largest, {of}"),
-        "method_chosen": Variable((), "", "method and settings chosen for it"),
-        "evaluations": Variable((), "1", "evaluations of the sky, or of terms of nutation"),
-    }
 
+    error_asked: Value = number("1", "error asked for")
+    error_estimated: Value = number("1", "error estimated, at its largest")
+    method_chosen: Value = words("method and settings chosen for it")
+    evaluations: Value = number("1", "evaluations of the sky, or of terms of nutation")
 
-def report(
-    schema: Schema, asked: float | None, estimated: float, method: str, evaluations: int
-) -> xr.Dataset:
-    """Label what was asked and what is estimated, both SI."""
-    values = {
-        "error_asked": asked,
-        "error_estimated": estimated,
-        "method_chosen": method,
-        "evaluations": evaluations,
-    }
-    result = build(schema, values)
-    # as it was asked for: 1 arcsec is 1e6 uas, not a rounding less
-    result["error_asked"].values[...] = float(f"{float(result.error_asked):.14g}")
-    return result
+    def __init_subclass__(cls, units: str, error_of: str) -> None:
+        """Declare the report on one accuracy."""
+        super().__init_subclass__()
+        cls.schema = {
+            name: replace(variable, units=units, long_name=f"{variable.long_name}, {error_of}")
+            if name.startswith("error_")
+            else variable
+            for name, variable in cls.schema.items()
+        }
 
+    def dataset(self) -> xr.Dataset:
+        """Lay it out, the error asked for as it was asked for."""
+        result = super().dataset()
+        # 1 arcsec is 1e6 uas, not a rounding less
+        result["error_asked"].values[...] = float(f"{float(result.error_asked):.14g}")
+        return result
 
-def report_of(schema: Schema, asked: float | None, error: xr.DataArray) -> xr.Dataset:
-    """Label what was asked and the largest error of a series, which names its method."""
-    by = error.attrs
-    return report(schema, asked, float(si(error).max()), by["method"], by["evaluations"])
+    @classmethod
+    def of_series(cls, asked: float | None, error: xr.DataArray) -> Self:
+        """Report the largest error of a series, which names its method."""
+        return cls(
+            error_asked=asked,
+            error_estimated=float(si(error).max()),
+            method_chosen=error.attrs["method"],
+            evaluations=error.attrs["evaluations"],
+        )
 
+    @classmethod
+    def closed_form(cls, asked: float | None, bound: float, method: str, evaluations: int) -> Self:
+        """Report the accuracy of a method without settings, or refuse.
 
-def closed_form(
-    schema: Schema, asked: float | None, bound: float, method: str, evaluations: int
-) -> xr.Dataset:
-    """Label the accuracy of a method without settings, or refuse.
-
-    Raises
-    ------
-    AccuracyError
-        If more is asked than a float carries.
-    """
-    refuse_unkept(asked, bound, "1", "no float of 64 bits carries more; ask for less")
-    return report(schema, asked, bound, method, evaluations)
+        Raises
+        ------
+        AccuracyError
+            If more is asked than a float carries.
+        """
+        refuse_unkept(asked, bound, "1", "no float of 64 bits carries more; ask for less")
+        return cls(
+            error_asked=asked,
+            error_estimated=bound,
+            method_chosen=method,
+            evaluations=evaluations,
+        )
 
 
 def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> None:

@@ -38,6 +38,7 @@ def ask(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__doc__ = docstring_of(question)
     call.__module__ = question.__module__
     call.__signature__ = signature  # type: ignore[attr-defined]
+    call.question = question  # type: ignore[attr-defined]
     return call
 
 
@@ -150,7 +151,8 @@ def script_of(question: type[Question]) -> str:
         one = parts[name]
         inputs = [i for i in (*one.needs, *one.uses) if i in parts or i in keys]
         arguments = ", ".join(f"{i}={i}" for i in inputs)
-        lines.append(f"    {name} = {one.__module__}.{name}({arguments})")
+        laid = ".dataset()" if one.gives else ""
+        lines.append(f"    {name} = {one.__module__}.{name}({arguments}){laid}")
     ends = {"answer": question.graph.answer} | question.graph.sections
     for section, names in ends.items():
         lines.append(f"    _{section} = {', '.join(names)}")

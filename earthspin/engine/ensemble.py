@@ -31,8 +31,9 @@ from earthspin.engine.inputs import (
     published,
 )
 from earthspin.engine.members import Members, count_of, draw
+from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
-from earthspin.engine.run import SCENE, scene_text
+from earthspin.engine.run import scene_text
 from earthspin.engine.series import asked_of
 from earthspin.engine.unfinished import Layout
 from earthspin.engine.variants import Variants, Words

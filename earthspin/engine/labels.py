@@ -87,6 +87,8 @@ class Variable:
         Names of the variables that hold its error, where they are not called after it.
     no_error : str
         Why it carries no error.
+    short : str
+        Label of tables and axes.
     """
 
     dims: tuple[str, ...]
@@ -95,6 +97,7 @@ class Variable:
     attrs: tuple[tuple[str, str], ...] = ()
     error: str = ""
     no_error: str = ""
+    short: str = ""
 
 
 Schema = Mapping[str, Variable]

@@ -11,10 +11,10 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar, overload
+from typing import Any, Generic, ParamSpec, TypeVar, overload
 
-if TYPE_CHECKING:
-    from earthspin.engine.labels import Schema
+from earthspin.engine.labels import Schema
+from earthspin.engine.variables import Variables
 
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
@@ -150,7 +150,7 @@ def part(
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     def made(function: Callable[P, R]) -> Part[P, R]:
-        return Part(function, gives or {}, reasons, chooses, tells)
+        return Part(function, gives or _schema_of(function), reasons, chooses, tells)
 
     return made if function is None else made(function)
 
@@ -158,6 +158,16 @@ def part(
 def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
     """The keys that a function takes."""
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
+
+
+def _schema_of(function: Callable[..., Any]) -> Schema:
+    """Variables of the class that a function returns by its annotation; none of another type."""
+    returned = function.__annotations__.get("return")
+    if isinstance(returned, str):
+        returned = function.__globals__.get(returned)
+    if isinstance(returned, type) and issubclass(returned, Variables):
+        return returned.schema
+    return {}
 
 
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from graphlib import TopologicalSorter
@@ -15,6 +16,12 @@ from earthspin.errors import SceneError, nearest
 ALL = "all"
 #: Line of the run times for the time spent in importing modules, which no part is charged for.
 IMPORTS = "imports"
+#: Attribute of an answer that holds its question, complete, as the text of a scene file.
+SCENE = "scene"
+#: How many of the last runs are remembered with their run times.
+REMEMBERED = 64
+
+_SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
 
 
 @dataclass(frozen=True)
@@ -195,3 +202,16 @@ def _refuse_taken_dimensions(question: Question) -> None:
                     sorted(clash)[0],
                     "results have this name already; give the array another",
                 )
+
+
+def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
+    """Remember the seconds of each part of a scene that has run."""
+    _SECONDS[scene] = dict(seconds)
+    _SECONDS.move_to_end(scene)
+    if len(_SECONDS) > REMEMBERED:
+        _SECONDS.popitem(last=False)
+
+
+def seconds_of(scene: str) -> Mapping[str, float]:
+    """Seconds of each part when this scene last ran in this process; empty if it did not."""
+    return _SECONDS.get(scene, {})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -13,19 +12,13 @@ from earthspin._version import __version__, version
 from earthspin.engine.imports import import_clock
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.plan import IMPORTS, Plan, plan
+from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan, remember_seconds
 from earthspin.engine.question import NEGLECTED, Question
+from earthspin.engine.variables import Variables
 from earthspin.errors import UndefinedError
 
 if TYPE_CHECKING:
     import xarray as xr
-
-#: Attribute of an answer that holds its question, complete, as the text of a scene file.
-SCENE = "scene"
-#: How many of the last runs are remembered by what they cost.
-REMEMBERED = 64
-
-_SECONDS: OrderedDict[str, dict[str, float]] = OrderedDict()
 
 
 @dataclass(frozen=True)
@@ -119,11 +112,6 @@ def run_choosing(question: Question) -> list[Any]:
     return [given[one.name] for one in few.parts if one.chooses]
 
 
-def seconds_of(scene: str) -> Mapping[str, float]:
-    """Seconds of each part when this scene last ran in this process; empty if it did not."""
-    return _SECONDS.get(scene, {})
-
-
 def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
     """Run what has not been given yet."""
     values = planned.question.keys() | dict(given or {})
@@ -137,7 +125,8 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
             inputs |= {name: values[name] for name in one.uses if name in values}
             begun = time.perf_counter() - imports.seconds
             with in_range(one.name):
-                values[one.name] = one(**inputs)
+                value = one(**inputs)
+                values[one.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[one.name] = time.perf_counter() - imports.seconds - begun
         seconds[IMPORTS] = imports.seconds - before
     return Ran(replace(planned, seconds=seconds), values)
@@ -173,15 +162,11 @@ def in_range(what: str) -> Iterator[None]:
 
 def _answer(ran: Ran) -> xr.Dataset:
     """The parts of the answer as one Dataset, with its attributes."""
-    import earthspin.accessor  # noqa: F401 - registers ds.earthspin
+    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
     result = _numbers(ran)
     result.attrs = _attributes(ran)
-    scene = result.attrs[SCENE]
-    _SECONDS[scene] = dict(ran.plan.seconds)
-    _SECONDS.move_to_end(scene)
-    if len(_SECONDS) > REMEMBERED:
-        _SECONDS.popitem(last=False)
+    remember_seconds(result.attrs[SCENE], ran.plan.seconds)
     return result
 
 

@@ -12,6 +12,7 @@ from earthspin.bodies.body import members
 from earthspin.dates import Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.engine.question import key
+from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.parts.sky import Pulled
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
@@ -33,6 +34,12 @@ class Series(Pulled):
     span: Span = key(doc="first and last date, TDB; the last is included if the step meets it")
     step: Step = key(doc="time between two dates")
     times: TimeList | None = key(None, doc="instead of span and step, the very dates wanted")
+
+
+class Dated(Variables, along=("time",)):
+    """Variables at the dates of a series."""
+
+    time: Labels = labels("time (TDB)", standard_name="time", axis="T")
 
 
 @part

@@ -53,6 +53,8 @@ class CassiniStates(
     [  6.73 175.68] deg
     """
 
+    views, page = "cassini_states", "frames"
+
     body: Body = key(MOON, doc="body whose axis it is")
     orbit: Annotated[Orbit | None, OrbitTable()] = key(
         None,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.choosing.promises import closed_form, promise
+from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by, without_error
 from earthspin.engine.neglected import Neglected
@@ -115,6 +115,8 @@ class FreeRotor(
     >>> print(racket.omega_body.sel(component="y").round(2).values)
     [ 1.    0.53 -1.  ]
     """
+
+    views, page = "free_rotor", "rotors"
 
     exclusive = (("times",), ("duration", "points"))
 
@@ -263,14 +265,15 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dat
     )
 
 
-PROMISE = promise("1", "relative, of angular velocity and attitude")
+class RotationAccuracy(Report, units="1", error_of="relative, of angular velocity and attitude"):
+    """Accuracy of the rotation: asked, estimated, and the method."""
 
 
-@part(gives=PROMISE, unless=no_accuracy)
-def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+@part(unless=no_accuracy)
+def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> RotationAccuracy:
     """Accuracy of the rotation: asked, estimated, and the method."""
     size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
-    return closed_form(PROMISE, accuracy, bound, "Jacobi's closed form", size)
+    return RotationAccuracy.closed_form(accuracy, bound, "Jacobi's closed form", size)
 
 
 @part

@@ -13,10 +13,20 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Schema, Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import (
+    Labels,
+    Pair,
+    Value,
+    Variables,
+    amplitude,
+    labels,
+    measured,
+    number,
+    words,
+)
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.parts.path import (
     Analysed,
@@ -33,12 +43,10 @@ from earthspin.parts.path import (
 from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
 from earthspin.parts.sky import places, sky, unmeasured
-from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.nutation.budget import Budget
     from earthspin.nutation.response import Response
 
@@ -69,6 +77,8 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
     >>> print((budget.closure * 1e5).round(1).values, "mas per century")
     -3.5 mas per century
     """
+
+    views, page = "iau", "pole"
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -114,100 +124,88 @@ def rates_by_effect(
     return budget_of(done.ours, done.theirs, without, off, precession_rates(0.0).psi_a, u_h)
 
 
-_EFFECT = ("effect",)
 _PUBLISHED = "the table that it stands in gives none"
-_MODEL = "a model that was adopted, exact by definition"
-BUDGET = {
-    **with_error(
-        "psi_rate",
-        Variable(
-            _EFFECT, "arcsec/yr", "contribution to the rate of psi_A at J2000.0, by switching off"
-        ),
-    ),
-    "psi_rate_published": Variable(
-        _EFFECT,
+_ADOPTED = "a model that was adopted, exact by definition"
+
+
+class EffectRates(Variables):
+    """Rates at J2000.0 effect by effect, and the closure."""
+
+    psi_rate: Pair = measured(
+        "arcsec/yr",
+        "contribution to the rate of psi_A at J2000.0, by switching off",
+        along=("effect",),
+    )
+    psi_rate_published: Value = number(
         "arcsec/yr",
         "published contribution; 0 where the table has none",
+        along=("effect",),
         no_error=_PUBLISHED,
-    ),
-    **with_error(
-        "omega_rate", Variable(_EFFECT, "arcsec/yr", "contribution to the rate of omega_A")
-    ),
-    **with_error("psi_rate_total", Variable((), "arcsec/yr", "computed rate of psi_A at J2000.0")),
-    **with_error(
-        "omega_rate_total", Variable((), "arcsec/yr", "computed rate of omega_A at J2000.0")
-    ),
-    "psi_rate_iau": Variable(
-        (), "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_MODEL
-    ),
-    "omega_rate_iau": Variable(
-        (), "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_MODEL
-    ),
-    "closure": Variable(
-        (),
+    )
+    omega_rate: Pair = measured(
+        "arcsec/yr", "contribution to the rate of omega_A", along=("effect",)
+    )
+    psi_rate_total: Pair = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
+    omega_rate_total: Pair = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
+    psi_rate_iau: Value = number(
+        "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED
+    )
+    omega_rate_iau: Value = number(
+        "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED
+    )
+    closure: Value = number(
         "arcsec/yr",
         "computed rate plus the published non-linear term minus the IAU's rate",
         error="psi_rate_total_error",
-    ),
-    "omega_closure": Variable(
-        (), "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
-    ),
-    "omega_closure_with_tides": Variable(
-        (),
+    )
+    omega_closure: Value = number(
+        "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
+    )
+    omega_closure_with_tides: Value = number(
         "arcsec/yr",
         "the same with the published effect of tides in obliquity",
         error="omega_rate_total_error",
-    ),
-    "closure_over_flattening": Variable(
-        (),
+    )
+    closure_over_flattening: Value = number(
         "1",
         "closure over what one standard deviation of H makes of the rate",
         no_error="a measure of error itself",
-    ),
-    "closure_over_uncertainty": Variable(
-        (),
+    )
+    closure_over_uncertainty: Value = number(
         "1",
         "closure over one standard deviation of H and the error of the analysis together",
         no_error="a measure of error itself",
-    ),
-    "psi_rate_analysis_error": Variable(
-        (), "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
-    ),
-    "omega_rate_analysis_error": Variable(
-        (), "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
-    ),
-}
+    )
+    psi_rate_analysis_error: Value = number(
+        "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
+    )
+    omega_rate_analysis_error: Value = number(
+        "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
+    )
+    effect: Labels = labels()
 
 
-@part(gives=BUDGET)
-def budget(rates_by_effect: Budget) -> xr.Dataset:
+@part
+def budget(rates_by_effect: Budget) -> EffectRates:
     """Rates effect by effect, the published ones, and the closure."""
-    of = rates_by_effect
-    return build(
-        BUDGET,
-        {
-            "psi_rate": list(of.psi.values()),
-            "psi_rate_error": list(of.psi_error.values()),
-            "psi_rate_published": list(of.psi_published.values()),
-            "omega_rate": list(of.omega.values()),
-            "omega_rate_error": list(of.omega_error.values()),
-            "psi_rate_total": of.psi_total,
-            "psi_rate_total_error": of.psi_total_error,
-            "omega_rate_total": of.omega_total,
-            "omega_rate_total_error": of.omega_total_error,
-            "psi_rate_iau": of.psi_iau,
-            "omega_rate_iau": of.omega_iau,
-            "closure": of.closure,
-            "omega_closure": of.omega_closure,
-            "omega_closure_with_tides": of.omega_closure_with_tides,
-            "closure_over_flattening": _over(of.closure, of.psi_from_h),
-            "closure_over_uncertainty": _over(
-                of.closure, math.hypot(of.psi_from_h, of.psi_analysis_error)
-            ),
-            "psi_rate_analysis_error": of.psi_analysis_error,
-            "omega_rate_analysis_error": of.omega_analysis_error,
-        },
-        coords={"effect": list(of.psi)},
+    rates = rates_by_effect
+    both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
+    return EffectRates(
+        psi_rate=(list(rates.psi.values()), list(rates.psi_error.values())),
+        psi_rate_published=list(rates.psi_published.values()),
+        omega_rate=(list(rates.omega.values()), list(rates.omega_error.values())),
+        psi_rate_total=(rates.psi_total, rates.psi_total_error),
+        omega_rate_total=(rates.omega_total, rates.omega_total_error),
+        psi_rate_iau=rates.psi_iau,
+        omega_rate_iau=rates.omega_iau,
+        closure=rates.closure,
+        omega_closure=rates.omega_closure,
+        omega_closure_with_tides=rates.omega_closure_with_tides,
+        closure_over_flattening=_over(rates.closure, rates.psi_from_h),
+        closure_over_uncertainty=_over(rates.closure, both),
+        psi_rate_analysis_error=rates.psi_analysis_error,
+        omega_rate_analysis_error=rates.omega_analysis_error,
+        effect=list(rates.psi),
     )
 
 
@@ -267,7 +265,8 @@ def differences(
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    iau_eta = complex_nutation(iau.nutation_of(iau.true_pole(days), days))
+    iau_angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
+    iau_eta = complex_nutation(iau_angles)
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
 
@@ -306,168 +305,126 @@ def differences(
     )
 
 
-_HALF_WIDTH = Variable((), "mas", "95 % half-width of a residual, from H and integration")
-RESIDUALS = {
-    "dpsi_sineps": Variable(
-        ("time",),
-        "mas",
-        "computed pole minus the IAU's in longitude times sin(eps), straight line removed",
-        error="residual_error",
-    ),
-    "deps": Variable(
-        ("time",),
-        "mas",
-        "computed pole minus the IAU's in obliquity, straight line removed",
-        error="residual_error",
-    ),
-    "residual_error": _HALF_WIDTH,
-}
+_LINE_REMOVED = "straight line removed"
+_LONGITUDE = f"computed pole minus the IAU's in longitude times sin(eps), {_LINE_REMOVED}"
+_OBLIQUITY = f"computed pole minus the IAU's in obliquity, {_LINE_REMOVED}"
+_HALF_WIDTH = "95 % half-width of a residual, from H and integration"
 
 
-@part(gives=RESIDUALS)
-def residuals(differences: Differences) -> xr.Dataset:
+class Residuals(Dated, error="residual_error"):
+    """Computed pole minus the IAU's in time."""
+
+    dpsi_sineps: Value = number("mas", _LONGITUDE)
+    deps: Value = number("mas", _OBLIQUITY)
+    residual_error: Value = number("mas", _HALF_WIDTH, along=())
+
+
+@part
+def residuals(differences: Differences) -> Residuals:
     """Computed pole minus the IAU's in time, with the effects that are switched on."""
     chosen = differences.fitted[:, differences.chosen]
-    return build(
-        RESIDUALS,
-        {
-            "dpsi_sineps": chosen[:, 0],
-            "deps": chosen[:, 1],
-            "residual_error": differences.error,
-        },
-        coords=_dates(differences),
+    return Residuals(
+        time=datetime64(differences.days),
+        dpsi_sineps=chosen[:, 0],
+        deps=chosen[:, 1],
+        residual_error=differences.error,
     )
 
 
-_BY_MODEL = {
-    "dpsi_sineps_by_model": Variable(
-        ("time", "model"),
-        "mas",
-        "computed pole minus the IAU's in longitude times sin(eps), straight line removed",
-        error="error_by_model",
-    ),
-    "deps_by_model": Variable(
-        ("time", "model"),
-        "mas",
-        "computed pole minus the IAU's in obliquity, straight line removed",
-        error="error_by_model",
-    ),
-    "error_by_model": _HALF_WIDTH,
-}
-
-
-@part(gives=_BY_MODEL)
-def residuals_by_model(differences: Differences) -> xr.Dataset:
+class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
     """Computed pole minus the IAU's in time, model by model."""
-    fitted = differences.fitted
-    return build(
-        _BY_MODEL,
-        {
-            "dpsi_sineps_by_model": fitted[..., 0],
-            "deps_by_model": fitted[..., 1],
-            "error_by_model": differences.error,
-        },
-        coords=_dates(differences) | {"model": list(differences.models)},
+
+    dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
+    deps_by_model: Value = number("mas", _OBLIQUITY)
+    error_by_model: Value = number("mas", _HALF_WIDTH, along=())
+    model: Labels = labels()
+
+
+@part
+def residuals_by_model(differences: Differences) -> ResidualsByModel:
+    """Computed pole minus the IAU's in time, model by model."""
+    return ResidualsByModel(
+        time=datetime64(differences.days),
+        dpsi_sineps_by_model=differences.fitted[..., 0],
+        deps_by_model=differences.fitted[..., 1],
+        error_by_model=differences.error,
+        model=list(differences.models),
     )
 
 
-_SIZE = ("model", "direction")
-RESIDUAL_SIZES = {
-    "residual_rms": Variable(
-        _SIZE,
+class ResidualSizes(Variables, along=("model", "direction")):
+    """Sizes of the residuals, model by model."""
+
+    residual_rms: Value = number(
         "mas",
         "root mean square after removal of a constant and a rate",
         error="residual_size_error",
-    ),
-    "residual_maximum": Variable(
-        _SIZE, "mas", "largest after removal of a constant and a rate", error="residual_size_error"
-    ),
-    "residual_rms_unfitted": Variable(
-        _SIZE,
-        "mas",
-        "root mean square of the poles as `pole` returns them, without a fit",
-        error="residual_rms_unfitted_error",
-    ),
-    "residual_size_error": _HALF_WIDTH,
-    "residual_rms_unfitted_error": Variable(
-        (), "mas", "95 % half-width of a residual without a fit, from H and integration"
-    ),
-}
+    )
+    residual_maximum: Value = number(
+        "mas", "largest after removal of a constant and a rate", error="residual_size_error"
+    )
+    residual_rms_unfitted: Value = number(
+        "mas", "root mean square of the poles as `pole` returns them, without a fit"
+    )
+    residual_size_error: Value = number("mas", _HALF_WIDTH, along=())
+    residual_rms_unfitted_error: Value = number(
+        "mas", "95 % half-width of a residual without a fit, from H and integration", along=()
+    )
+    model: Labels = labels()
+    direction: Labels = labels(default=["dpsi_sineps", "deps"])
 
 
-@part(gives=RESIDUAL_SIZES)
-def residual_sizes(differences: Differences) -> xr.Dataset:
+@part
+def residual_sizes(differences: Differences) -> ResidualSizes:
     """How large the residuals are, model by model."""
     plain, fitted = differences.plain, differences.fitted
-    return build(
-        RESIDUAL_SIZES,
-        {
-            "residual_rms": np.sqrt(np.mean(fitted**2, axis=0)),
-            "residual_maximum": np.max(np.abs(fitted), axis=0),
-            "residual_rms_unfitted": np.sqrt(np.mean(plain**2, axis=0)),
-            "residual_size_error": differences.error,
-            "residual_rms_unfitted_error": differences.error_unfitted,
-        },
-        coords={"model": list(differences.models), "direction": ["dpsi_sineps", "deps"]},
+    return ResidualSizes(
+        residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
+        residual_maximum=np.max(np.abs(fitted), axis=0),
+        residual_rms_unfitted=np.sqrt(np.mean(plain**2, axis=0)),
+        residual_size_error=differences.error,
+        residual_rms_unfitted_error=differences.error_unfitted,
+        model=list(differences.models),
     )
 
 
-def _dates(
-    differences: Differences,
-) -> dict[str, tuple[str, NDArray[np.datetime64], dict[str, str]]]:
-
-    return {"time": ("time", datetime64(differences.days), dict(DATES))}
-
-
-_TERM = ("term",)
-
-
-def _phases(name: str, unit: str, words: str, error: str = "", no_error: str = "") -> Schema:
-    """An amplitude as the IERS tabulates it: in phase and out of phase."""
-    return {
-        f"{name}_{phase}": Variable(
-            _TERM, unit, f"{words}, {phase.replace('_', ' ')}", error=error, no_error=no_error
-        )
-        for phase in ("in_phase", "out_of_phase")
-    }
-
-
+_ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
+_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
+_SERIES = "coefficients of the adopted series"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
-NUTATION = {
-    "period": Variable(
-        _TERM,
-        "d",
-        "period of the circle in space, negative if retrograde",
-        no_error="it follows from the adopted arguments of IERS 2003",
-    ),
-    **_phases("rigid", "mas", "computed rigid amplitude", "amplitude_error"),
-    **_phases("iau", "mas", "amplitude of IAU 2000A", "amplitude_error"),
-    "amplitude_error": Variable(
-        _TERM, "mas", "95 % half-width of an amplitude, without the neighbour's share"
-    ),
-    "neighbour": Variable(
-        _TERM, "", "term that 150 years cannot separate from this one; empty if there is none"
-    ),
-    **_phases(
-        "neighbour",
-        "mas",
-        "share of the neighbour in the amplitude of IAU 2000A",
-        no_error="coefficients of the adopted series",
-    ),
-    **_phases("ratio", "1", "ratio of IAU 2000A to the computed rigid amplitude", "ratio_error"),
-    "ratio_error": Variable(_TERM, "1", "95 % half-width of the ratio"),
-    **_phases("transfer", "1", "fitted resonance formula", no_error=_FIT),
-    **_phases(
-        "left",
+
+
+class Nutation(Variables, along=("term",)):
+    """The largest circular terms of both poles."""
+
+    period: Value = number(
+        "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
+    )
+    rigid: Pair = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
+    iau: Pair = amplitude("mas", "amplitude of IAU 2000A", error="amplitude_error")
+    amplitude_error: Value = number(
+        "mas", "95 % half-width of an amplitude, without the neighbour's share"
+    )
+    neighbour: Value = words(
+        "term that 150 years cannot separate from this one; empty if there is none"
+    )
+    neighbour_in_phase: Value = number("mas", f"{_SHARE}, in phase", no_error=_SERIES)
+    neighbour_out_of_phase: Value = number("mas", f"{_SHARE}, out of phase", no_error=_SERIES)
+    ratio: Pair = amplitude(
+        "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
+    )
+    ratio_error: Value = number("1", "95 % half-width of the ratio")
+    transfer: Pair = amplitude("1", "fitted resonance formula", no_error=_FIT)
+    left: Pair = amplitude(
         "uas",
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
-    ),
-}
+    )
+    term: Labels = labels()
 
 
-@part(gives=NUTATION)
-def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
+@part
+def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
     """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.nutation.nutation import phases
@@ -480,26 +437,22 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> xr.Dataset:
     transfer = core_response.transfer(frequency)
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
     near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = phases(near.amplitude[order])
     error, ratio = amplitude_error(frequency), real / rigid
-    values: dict[str, NDArray[np.generic] | list[str]] = {
-        "period": 2 * np.pi / frequency,
-        "amplitude_error": error,
-        "neighbour": [near.names[row] for row in order],
-        "ratio_in_phase": ratio.real,
-        "ratio_out_of_phase": ratio.imag,
-        "ratio_error": np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
-        "transfer_in_phase": transfer.real,
-        "transfer_out_of_phase": transfer.imag,
-    }
-    amplitudes = {
-        "rigid": rigid,
-        "iau": real,
-        "neighbour": near.amplitude[order],
-        "left": real - transfer * rigid,
-    }
-    for name, amplitude in amplitudes.items():
-        values[f"{name}_in_phase"], values[f"{name}_out_of_phase"] = phases(amplitude)
-    return build(NUTATION, values, coords={"term": _labels(ours.multiples[order])})
+    return Nutation(
+        period=2 * np.pi / frequency,
+        rigid=phases(rigid),
+        iau=phases(real),
+        amplitude_error=error,
+        neighbour=[near.names[row] for row in order],
+        neighbour_in_phase=neighbour_in,
+        neighbour_out_of_phase=neighbour_out,
+        ratio=(ratio.real, ratio.imag),
+        ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
+        transfer=(transfer.real, transfer.imag),
+        left=phases(real - transfer * rigid),
+        term=_labels(ours.multiples[order]),
+    )
 
 
 def _labels(multiples: NDArray[np.int64]) -> list[str]:
@@ -508,131 +461,106 @@ def _labels(multiples: NDArray[np.int64]) -> list[str]:
 
 
 _LEFT = "part of a fit; its residuals measure it"
-_ADDED = ("added_to",)
-CORE = {
-    **with_error(
-        "core_nutation_period", Variable((), "d", "period of the free core nutation in space")
-    ),
-    **with_error(
-        "core_nutation_quality", Variable((), "1", "quality factor of the free core nutation")
-    ),
-    "strength_real": Variable(("mode",), "1", "fitted strength, real part", no_error=_LEFT),
-    "strength_imaginary": Variable(
-        ("mode",), "1", "fitted strength, imaginary part", no_error=_LEFT
-    ),
-    "core_nutation_period_absorbing": Variable(
-        (),
+_ABSORBING = "the response that absorbs what it can"
+
+
+class Core(Variables):
+    """The free core nutation as recovered from IAU 2000A."""
+
+    core_nutation_period: Pair = measured("d", "period of the free core nutation in space")
+    core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
+    strength_real: Value = number(
+        "1", "fitted strength, real part", along=("mode",), no_error=_LEFT
+    )
+    strength_imaginary: Value = number(
+        "1", "fitted strength, imaginary part", along=("mode",), no_error=_LEFT
+    )
+    core_nutation_period_absorbing: Value = number(
         "d",
-        "the same by the response that absorbs what it can",
+        f"the same by {_ABSORBING}",
         no_error="short of core_nutation_period by what the response absorbs",
-    ),
-    "response_rms": Variable(
-        (),
-        "uas",
-        "root mean square of the residuals of the response that absorbs what it can",
-        no_error=_LEFT,
-    ),
-    "response_maximum": Variable(
-        (), "uas", "largest residual of the response that absorbs what it can", no_error=_LEFT
-    ),
-    "apart_rms": Variable(
-        (),
+    )
+    response_rms: Value = number(
+        "uas", f"root mean square of the residuals of {_ABSORBING}", no_error=_LEFT
+    )
+    response_maximum: Value = number("uas", f"largest residual of {_ABSORBING}", no_error=_LEFT)
+    apart_rms: Value = number(
         "uas",
         "root mean square of the residuals of the response that may not absorb additive terms, "
         "these taken away, the prograde year left out",
         no_error=_LEFT,
-    ),
-    "added_period": Variable(
-        _ADDED,
+    )
+    added_period: Value = number(
         "d",
         "period of the circle in space, negative if retrograde",
-        no_error="it follows from the adopted arguments of IERS 2003",
-    ),
-    "added_in_phase": Variable(
-        _ADDED, "uas", "IAU 2000A less that response, in phase", error="added_error"
-    ),
-    "added_out_of_phase": Variable(
-        _ADDED, "uas", "IAU 2000A less that response, out of phase", error="added_error"
-    ),
-    "added_error": Variable(
-        _ADDED, "uas", "95 % half-width of what is added, from the period of the core nutation"
-    ),
-    "added_published_in_phase": Variable(
-        _ADDED, "uas", "what its authors add to a response, in phase", no_error=_PUBLISHED
-    ),
-    "added_published_out_of_phase": Variable(
-        _ADDED, "uas", "what its authors add to a response, out of phase", no_error=_PUBLISHED
-    ),
-}
+        along=("added_to",),
+        no_error=_ARGUMENTS,
+    )
+    added: Pair = amplitude(
+        "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
+    )
+    added_error: Value = number(
+        "uas",
+        "95 % half-width of what is added, from the period of the core nutation",
+        along=("added_to",),
+    )
+    added_published: Pair = amplitude(
+        "uas", "what its authors add to a response", along=("added_to",), no_error=_PUBLISHED
+    )
+    mode: Labels = labels(default=["constant", "chandler", "core", "inner-core"])
+    added_to: Labels = labels()
 
 
-@part(gives=CORE)
-def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> xr.Dataset:
+@part
+def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> Core:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
     from earthspin.nutation.nutation import phases
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
     rows = np.argsort(-np.abs(apart.added))[: np.count_nonzero(apart.added)]
-    added_in, added_out = phases(apart.left[rows])
-    published_in, published_out = phases(apart.added[rows])
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     beside = (apart.left - apart.added)[apart.used]
     left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
-    return build(
-        CORE,
-        {
-            "core_nutation_period": alone.period,
-            "core_nutation_period_error": alone.period_error,
-            "core_nutation_quality": alone.quality,
-            "core_nutation_quality_error": alone.quality_error,
-            "strength_real": alone.strengths.real,
-            "strength_imaginary": alone.strengths.imag,
-            "core_nutation_period_absorbing": core_response.period,
-            "response_rms": float(np.sqrt(np.mean(left**2))),
-            "response_maximum": float(np.max(left)),
-            "apart_rms": float(np.sqrt(np.mean(np.abs(beside) ** 2))),
-            "added_period": 2 * np.pi / ours.frequency[rows],
-            "added_in_phase": added_in,
-            "added_out_of_phase": added_out,
-            "added_error": added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
-            "added_published_in_phase": published_in,
-            "added_published_out_of_phase": published_out,
-        },
-        coords={
-            "mode": ["constant", "chandler", "core", "inner-core"],
-            "added_to": _labels(ours.multiples[rows]),
-        },
+    return Core(
+        core_nutation_period=(alone.period, alone.period_error),
+        core_nutation_quality=(alone.quality, alone.quality_error),
+        strength_real=alone.strengths.real,
+        strength_imaginary=alone.strengths.imag,
+        core_nutation_period_absorbing=core_response.period,
+        response_rms=float(np.sqrt(np.mean(left**2))),
+        response_maximum=float(np.max(left)),
+        apart_rms=float(np.sqrt(np.mean(np.abs(beside) ** 2))),
+        added_period=2 * np.pi / ours.frequency[rows],
+        added=phases(apart.left[rows]),
+        added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
+        added_published=phases(apart.added[rows]),
+        added_to=_labels(ours.multiples[rows]),
     )
 
 
-_COEFFICIENT = ("angle", "degree")
-ANGLES = {
-    "angle_coefficient": Variable(
-        _COEFFICIENT,
-        "arcsec",
-        "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006",
-        error="angle_coefficient_error",
-    ),
-    "angle_coefficient_iau": Variable(
-        _COEFFICIENT,
+class Angles(Variables, along=("angle", "degree")):
+    """Polynomials of the angles of precession."""
+
+    angle_coefficient: Value = number(
+        "arcsec", "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006"
+    )
+    angle_coefficient_iau: Value = number(
         "arcsec",
         "coefficient of (t/century)^degree, IAU 2006, fitted in the same way",
-        no_error="a model that was adopted, exact by definition",
-    ),
-    "angle_coefficient_error": Variable(
-        _COEFFICIENT,
-        "arcsec",
-        "95 % half-width of the computed coefficients, from the analysis and H",
-    ),
-}
+        no_error=_ADOPTED,
+    )
+    angle_coefficient_error: Value = number(
+        "arcsec", "95 % half-width of the computed coefficients, from the analysis and H"
+    )
+    angle: Labels = labels()
+    degree: Labels = labels("power of time")
 
 
-@part(gives=ANGLES)
-def angles(pole_analysis: Analysed, body: Body) -> xr.Dataset:
+@part
+def angles(pole_analysis: Analysed, body: Body) -> Angles:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
-    from earthspin.nutation.angles import ANGLES as NAMES
-    from earthspin.nutation.angles import polynomials, precession_angles
+    from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
@@ -646,34 +574,31 @@ def angles(pole_analysis: Analysed, body: Body) -> xr.Dataset:
     theirs = polynomials(t, iau.precession_angles(pole_analysis.days), SLOW_DEGREE)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(SLOW_DEGREE + 1) > 0)
-    return build(
-        ANGLES,
-        {
-            "angle_coefficient": ours,
-            "angle_coefficient_iau": theirs,
-            "angle_coefficient_error": np.hypot(again - theirs, of_h),
-        },
-        coords={
-            "angle": list(NAMES),
-            "degree": ("degree", np.arange(SLOW_DEGREE + 1.0), {"long_name": "power of time"}),
-        },
+    return Angles(
+        angle_coefficient=ours,
+        angle_coefficient_iau=theirs,
+        angle_coefficient_error=np.hypot(again - theirs, of_h),
+        angle=list(ANGLES),
+        degree=np.arange(SLOW_DEGREE + 1.0),
     )
 
 
-INFERRED = {
-    **with_error("flattening", Variable(("origin",), "1", "dynamical flattening H")),
-    **with_error("polar_moment", Variable(("origin",), "1", "C/(M a2)")),
-}
+class Inferred(Variables, along=("origin",)):
+    """H and C/(M a2) by where they come from."""
+
+    flattening: Pair = measured("1", "dynamical flattening H")
+    polar_moment: Pair = measured("1", "C/(M a2)")
+    origin: Labels = labels()
 
 
-@part(gives=INFERRED)
-def inferred_flattening(rates_by_effect: Budget, body: Body) -> xr.Dataset:
+@part
+def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
     from earthspin.nutation import flattening as flat
 
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
     u = body.relative_uncertainty
-    found = flat.compared_flattenings(
+    values = flat.compared_flattenings(
         rates_by_effect,
         h,
         j2,
@@ -681,15 +606,16 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> xr.Dataset:
         u_h=u.get("dynamical_flattening", 0.0),
         u_j2=u.get("j2", 0.0),
     )
-    return build(
-        INFERRED,
-        {
-            "flattening": [one.h for one in found.values()],
-            "flattening_error": [NORMAL_95 * one.h_uncertainty for one in found.values()],
-            "polar_moment": [one.moment for one in found.values()],
-            "polar_moment_error": [NORMAL_95 * one.moment_uncertainty for one in found.values()],
-        },
-        coords={"origin": list(found)},
+    return Inferred(
+        flattening=(
+            [value.h for value in values.values()],
+            [NORMAL_95 * value.h_uncertainty for value in values.values()],
+        ),
+        polar_moment=(
+            [value.moment for value in values.values()],
+            [NORMAL_95 * value.moment_uncertainty for value in values.values()],
+        ),
+        origin=list(values),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
-from earthspin.choosing.promises import promise, refuse_unkept, report_of
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by, with_error, without_error
@@ -74,6 +74,8 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     >>> print(past.sizes["epoch"], past.obliquity.isel(epoch=-1).round(3).item())
     101 23.439
     """
+
+    views, page = "long_term", "long_term"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
@@ -404,13 +406,14 @@ def series(
     return _without_errors(result, body)
 
 
-PROMISE = promise("arcsec", "in direction")
-
-
-@part(gives=PROMISE, unless=no_accuracy)
-def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
     """Accuracy of the pole: asked, estimated, and the method."""
-    return report_of(PROMISE, accuracy, series.pole_error)
+
+
+@part(unless=no_accuracy)
+def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccuracy:
+    """Accuracy of the pole: asked, estimated, and the method."""
+    return PoleAccuracy.of_series(accuracy, series.pole_error)
 
 
 # --- sections ------------------------------------------------------------------------------------

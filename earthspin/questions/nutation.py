@@ -23,6 +23,7 @@ from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.progress import progress
 from earthspin.units import Number
 
 if TYPE_CHECKING:
@@ -65,6 +66,8 @@ class NutationLadder(
     >>> print(ladder.rms_deps.round(1).values)
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
+
+    views, page = "nutation", "nutation"
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -134,15 +137,21 @@ def left(
     pulls.sky.check_times(ends, pulls.targets)
     path = path_over(body, pulls, rigid(effects), done.start, ends)
     own = complex_nutation(iau.nutation_of(done.pole(path, days), days))
-    theirs = complex_nutation(iau.nutation_of(iau.true_pole(days), days))
+    theirs = complex_nutation(iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
-    added = responses(circles, iau.delaunay_arguments(days), factors)
+
+    def shifts(at: NDArray[np.float64]) -> NDArray[np.float64]:
+        added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
+        return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
+
     series = {}
-    for name, shift in added.items():
-        eta = own + shift - theirs
-        angles = np.stack([eta.real, eta.imag], axis=1)
-        series[name] = without_line(days / DAYS_PER_CENTURY, angles)
+    with progress("residuals", len(factors)) as advance:
+        for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
+            eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
+            angles = np.stack([eta.real, eta.imag], axis=1)
+            series[name] = without_line(days / DAYS_PER_CENTURY, angles)
+            advance(1)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     from_h = NORMAL_95 * u_h * float(np.max(np.abs(theirs)))
     return Left(days, series, math.hypot(done.path.error, from_h))

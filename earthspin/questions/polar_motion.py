@@ -102,6 +102,8 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     IERS c04
     """
 
+    views, page = "polar_motion", "wobble"
+
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
     file: Annotated[str, TableFile()] = setting(

@@ -9,14 +9,23 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
-from earthspin.choosing.promises import promise, refuse_unkept, report
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import (
+    Labels,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+    words,
+)
 from earthspin.errors import UndefinedError
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
 from earthspin.parts.choices import chosen_average
@@ -34,8 +43,6 @@ from earthspin.sky.sources import SourceName
 from earthspin.units import Relative
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.torque.rates import Estimate
 
 #: Points of a curve of convergence.
@@ -67,6 +74,8 @@ class Precession(Pulled, word="precession", call="precession"):
     >>> print(result.precession_period.round().values)
     [81259. 37614. 25712.]
     """
+
+    views, page = "precession", "theory"
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
@@ -111,78 +120,63 @@ def _check_accuracy(asked: float | None, rate: Estimate) -> None:
     refuse_unkept(asked, best, "1", remedy)
 
 
-_PERTURBER = ("perturber",)
-_OVER_WINDOW = (("cell_methods", "time: mean (weighted by the taper)"),)
+_OVER_WINDOW = "time: mean (weighted by the taper)"
 
-RATES = {
-    **with_error(
-        "precession_rate",
-        Variable(
-            _PERTURBER,
-            "arcsec/yr",
-            "rate of precession in longitude along the fixed orbit",
-            _OVER_WINDOW,
-        ),
+
+class Rates(Variables, along=("perturber",)):
+    """Rates, periods and torques by perturber."""
+
+    precession_rate: Pair = measured(
+        "arcsec/yr",
+        "rate of precession in longitude along the fixed orbit",
         split=True,
-    ),
-    **with_error(
-        "precession_period", Variable(_PERTURBER, "yr", "period of one full turn of precession")
-    ),
-    "rate_ratio": Variable(
-        _PERTURBER,
+        cell_methods=_OVER_WINDOW,
+    )
+    precession_period: Pair = measured("yr", "period of one full turn of precession")
+    rate_ratio: Value = number(
         "1",
         "ratio of the rate to that of the first perturber",
         no_error="a ratio of two rates that each carry their own error",
-    ),
-    **with_error(
-        "mean_torque",
-        Variable(_PERTURBER, "N m", "magnitude of the mean torque vector", _OVER_WINDOW),
-    ),
-    "obliquity": Variable(
-        (),
+    )
+    mean_torque: Pair = measured(
+        "N m", "magnitude of the mean torque vector", cell_methods=_OVER_WINDOW
+    )
+    obliquity: Value = number(
         "deg",
         "angle between spin axis and orbit normal at the epoch",
+        along=(),
         no_error="an angle between a pole and a plane that are given",
-    ),
-    "reference_epoch": Variable((), "", "epoch that the averages refer to (TDB)"),
-}
+    )
+    reference_epoch: Value = words("epoch that the averages refer to (TDB)", along=())
+    perturber: Labels = labels()
 
 
-@part(gives=RATES)
-def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> xr.Dataset:
+@part
+def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Rates:
     """Rates, periods and torques by perturber, each with its error."""
     from earthspin.torque import rates
 
-    rate, torque = mean_rates.rate, mean_rates.torque
-    error = rate.error
-    result = build(
-        RATES,
-        {
-            "precession_rate": rate.value,
-            "precession_rate_error": error,
-            "precession_rate_error_method": rate.method,
-            "precession_rate_error_input": rate.given,
-            "precession_period": rates.period(rate.value),
-            "precession_period_error": rates.period_error(rate.value, error),
-            "rate_ratio": mean_rates.ratio,
-            "mean_torque": torque.value,
-            "mean_torque_error": torque.error,
-            "obliquity": mean_torques.obliquity,
-            "reference_epoch": datetime64(np.array(mean_torques.epoch / DAY)),
-        },
-        {"perturber": mean_rates.labels},
+    rate = mean_rates.rate
+    return Rates(
+        precession_rate=rate,
+        precession_period=(rates.period(rate.value), rates.period_error(rate.value, rate.error)),
+        rate_ratio=mean_rates.ratio,
+        mean_torque=mean_rates.torque,
+        obliquity=mean_torques.obliquity,
+        reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
+        perturber=mean_rates.labels,
+    ).with_attributes(
         no_error=mean_rates.no_error,
+        precession_rate={
+            "window": mean_torques.over,
+            "pole": str(body.needed("pole")),
+            "plane": _plane(body),
+        },
+        precession_rate_error={
+            "method": mean_rates.method,
+            "evaluations": mean_rates.evaluations,
+        },
     )
-    result["precession_rate"].attrs |= {
-        "window": mean_torques.over,
-        "pole": str(body.needed("pole")),
-        "plane": _plane(body),
-    }
-    result["precession_rate_error"].attrs |= {
-        "method": mean_rates.method,
-        "evaluations": mean_rates.evaluations,
-    }
-    return result
 
 
 def _plane(body: Body) -> str:
@@ -192,33 +186,41 @@ def _plane(body: Body) -> str:
     return f"orbit whose normal has {body.orbit_pole} (ICRF)"
 
 
-PROMISE = promise("1", "relative, of the rate by all perturbers")
+class RateAccuracy(Report, units="1", error_of="relative, of the rate by all perturbers"):
+    """Accuracy of the rate: asked, estimated, and the method chosen."""
 
 
-@part(gives=PROMISE, unless=no_accuracy)
-def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> xr.Dataset:
+@part(unless=no_accuracy)
+def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
     """Accuracy of the rate: asked, estimated, and the method chosen."""
     _check_accuracy(accuracy, mean_rates.rate)
     rate, error = mean_rates.total()
-    worst = float((error / abs(rate)).max())
-    return report(PROMISE, accuracy, worst, mean_rates.method, mean_rates.evaluations)
+    return RateAccuracy(
+        error_asked=accuracy,
+        error_estimated=float((error / abs(rate)).max()),
+        method_chosen=mean_rates.method,
+        evaluations=mean_rates.evaluations,
+    )
 
 
 # --- sections ------------------------------------------------------------------------------------
 
-CONVERGENCE = without_error(
-    "the curve itself shows the error of each window",
-    {
-        "rate_by_window": Variable(
-            ("window", "window_cycles"), "arcsec/yr", "rate of precession by all perturbers"
-        ),
-        "window_length": Variable(("window_cycles",), "yr", "length of the averaging window"),
-    },
-)
+
+class Convergence(Variables, no_error="the curve itself shows the error of each window"):
+    """Rate against the length of the averaging window."""
+
+    rate_by_window: Value = number(
+        "arcsec/yr",
+        "rate of precession by all perturbers",
+        along=("window", "window_cycles"),
+    )
+    window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
+    window: Labels = labels()
+    window_cycles: Labels = labels("length of the averaging window in cycles")
 
 
-@part(gives=CONVERGENCE, unless=many_pulls)
-def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
+@part(unless=many_pulls)
+def convergence(torque_samples: Samples, body: Body) -> Convergence:
     """Averaged rate against the length of the window, plain mean and tapers."""
     import xarray as xr
 
@@ -229,16 +231,15 @@ def convergence(torque_samples: Samples, body: Body) -> xr.Dataset:
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
     total = torque_samples.precessing.sum(axis=1)
     curves = convergence_curve(window, torque_samples.times, total, cycles)
-    precessing = xr.DataArray(
-        np.stack(list(curves.values())),
-        {"window": list(curves), "window_cycles": cycles},
-        ("window", "window_cycles"),
+    precessing = xr.DataArray(np.stack(list(curves.values())), dims=("window", "window_cycles"))
+    return Convergence(
+        rate_by_window=rates.precession_rate(
+            precessing, body.needed("dynamical_flattening"), body.spin_rate
+        ),
+        window_length=cycles * window.cycle,
+        window=list(curves),
+        window_cycles=cycles,
     )
-    rate = rates.precession_rate(precessing, body.needed("dynamical_flattening"), body.spin_rate)
-    length = xr.DataArray(cycles * window.cycle, {"window_cycles": cycles}, ("window_cycles",))
-    result = build(CONVERGENCE, {"rate_by_window": rate, "window_length": length})
-    result["window_cycles"].attrs["long_name"] = "length of the averaging window in cycles"
-    return result
 
 
 def no_figure(body: Body) -> str | None:
@@ -253,22 +254,21 @@ def no_figure(body: Body) -> str | None:
     return None
 
 
-_MODEL = ("earth_model",)
-FIGURE_MODELS = without_error(
-    "a model of the figure, for comparison with the others",
-    {
-        "h_by_model": Variable(_MODEL, "1", "dynamical flattening (C - A)/C"),
-        "period_by_model": Variable(_MODEL, "yr", "period of one full turn of precession"),
-        "wobble_by_model": Variable(_MODEL, "d", "period of the rigid free wobble"),
-        "moment_difference": Variable((), "kg m2", "C - A from J2"),
-        "polar_moment_factor": Variable((), "1", "C/(M a2) from J2 and H"),
-        "j2_from_moment_difference": Variable((), "1", "J2 computed back from C - A"),
-    },
-)
+class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
+    """Models of the figure, and what follows from them."""
+
+    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", along=("earth_model",))
+    period_by_model: Value = number(
+        "yr", "period of one full turn of precession", along=("earth_model",)
+    )
+    wobble_by_model: Value = number("d", "period of the rigid free wobble", along=("earth_model",))
+    moment_difference: Value = number("kg m2", "C - A from J2")
+    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
+    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
 
 
-@part(gives=FIGURE_MODELS, unless=(no_figure, many_pulls))
-def figure_models(mean_torques: MeanTorques, body: Body) -> xr.Dataset:
+@part(unless=(no_figure, many_pulls))
+def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
 
@@ -276,30 +276,27 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> xr.Dataset:
     from earthspin.rotor.axisymmetric import free_wobble_period
     from earthspin.torque import rates
 
-    j2, measured = body.needed("j2"), body.needed("dynamical_flattening")
+    j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
     precessing = mean_torques.precessing[-1]
     h = xr.concat(
         [
             xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
             xr.DataArray(inertia.h_homogeneous(j2)),
-            xr.DataArray(measured),
+            xr.DataArray(measured_h),
         ],
         dim=xr.Variable("earth_model", list(MODELS)),
     )
     spin_period = body.needed("spin_period")
     difference = inertia.moment_difference(j2, body.mass, body.needed("radius"))
-    return build(
-        FIGURE_MODELS,
-        {
-            "h_by_model": h,
-            "period_by_model": rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
-            "wobble_by_model": free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
-            "moment_difference": difference,
-            "polar_moment_factor": inertia.polar_moment_factor(j2, measured),
-            "j2_from_moment_difference": inertia.j2_from_moment_difference(
-                difference, body.mass, body.needed("radius")
-            ),
-        },
+    return FigureModels(
+        h_by_model=h,
+        period_by_model=rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
+        wobble_by_model=free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
+        moment_difference=difference,
+        polar_moment_factor=inertia.polar_moment_factor(j2, measured_h),
+        j2_from_moment_difference=inertia.j2_from_moment_difference(
+            difference, body.mass, body.needed("radius")
+        ),
     )
 
 
@@ -309,21 +306,17 @@ def is_sphere(body: Body) -> str | None:
     return "a sphere does not wobble" if round_ else None
 
 
-FREE_WOBBLE = without_error(
-    "its relative error is that of free_wobble_period",
-    {
-        **with_error(
-            "free_wobble_period", Variable((), "d", "period of the rigid free wobble, A/(C - A)")
-        ),
-        "free_wobble_period_sidereal": Variable(
-            (), "1", "period of the rigid free wobble in turns of the body, its sidereal days"
-        ),
-    },
-)
+class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
+    """The free wobble of the rigid body."""
+
+    free_wobble_period: Pair = measured("d", "period of the rigid free wobble, A/(C - A)")
+    free_wobble_period_sidereal: Value = number(
+        "1", "period of the rigid free wobble in turns of the body, its sidereal days"
+    )
 
 
-@part(gives=FREE_WOBBLE, unless=is_sphere)
-def free_wobble(body: Body) -> xr.Dataset:
+@part(unless=is_sphere)
+def free_wobble(body: Body) -> FreeWobble:
     """Period of the free wobble of the rigid body."""
     from earthspin.mass.inertia import ellipticity_from_h
     from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
@@ -331,50 +324,37 @@ def free_wobble(body: Body) -> xr.Dataset:
     h = body.needed("dynamical_flattening")
     period = free_wobble_period(ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return build(
-        FREE_WOBBLE,
-        {
-            "free_wobble_period": period,
-            "free_wobble_period_error": free_wobble_error(period, h, u),
-            "free_wobble_period_sidereal": free_wobble_period(ellipticity_from_h(h), 1.0),
-        },
+    return FreeWobble(
+        free_wobble_period=(period, free_wobble_error(period, h, u)),
+        free_wobble_period_sidereal=free_wobble_period(ellipticity_from_h(h), 1.0),
     )
 
 
-SEASONS = without_error(
-    "its relative error is that of general_precession",
-    {
-        **with_error(
-            "general_precession",
-            Variable(
-                (),
-                "arcsec/yr",
-                "general precession in longitude: motion of the equinox along the moving ecliptic",
-            ),
-        ),
-        **with_error(
-            "general_precession_period",
-            Variable((), "yr", "period of one full turn of the equinox"),
-        ),
-        "time_per_degree": Variable((), "yr", "time in which the equinox moves by one degree"),
-        "tropical_year": Variable((), "d", "tropical year, the period of the seasons"),
-        "time_per_day_of_drift": Variable(
-            (), "yr", "time in which years of 365.25 d drift by a day against the seasons"
-        ),
-        "time_per_dropped_leap_day": Variable(
-            (), "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
-        ),
-        "time_per_day_of_gregorian_drift": Variable(
-            (), "yr", "time in which Gregorian years drift by a day against the seasons"
-        ),
-    },
-)
+class Seasons(Variables, no_error="its relative error is that of general_precession"):
+    """Motion of the equinox, and drift of the calendar."""
+
+    general_precession: Pair = measured(
+        "arcsec/yr",
+        "general precession in longitude: motion of the equinox along the moving ecliptic",
+    )
+    general_precession_period: Pair = measured("yr", "period of one full turn of the equinox")
+    time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
+    tropical_year: Value = number("d", "tropical year, the period of the seasons")
+    time_per_day_of_drift: Value = number(
+        "yr", "time in which years of 365.25 d drift by a day against the seasons"
+    )
+    time_per_dropped_leap_day: Value = number(
+        "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
+    )
+    time_per_day_of_gregorian_drift: Value = number(
+        "yr", "time in which Gregorian years drift by a day against the seasons"
+    )
 
 
-@part(gives=SEASONS, unless=not_sun_and_moon)
+@part(unless=not_sun_and_moon)
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
-) -> xr.Dataset:
+) -> Seasons:
     """General precession, years per degree, drift of the calendar.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
@@ -390,76 +370,64 @@ def seasons(
     chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
     general = s.general_precession(rate + published, chi_rate, mean_torques.obliquity)
     year = s.tropical_year(general, body.needed("orbital_period"))
-    result = build(
-        SEASONS,
-        {
-            "general_precession": general,
-            "general_precession_error": error,
-            "general_precession_period": rates.period(general),
-            "general_precession_period_error": rates.period_error(general, error),
-            "time_per_degree": s.time_per_degree(general),
-            "tropical_year": year,
-            "time_per_day_of_drift": s.time_per_day_of_drift(year),
-            "time_per_dropped_leap_day": s.DROPPED_LEAP_DAY * JULIAN_YEAR,
-            "time_per_day_of_gregorian_drift": s.time_per_day_of_drift(year, s.GREGORIAN_YEAR),
-        },
+    period = rates.period(general), rates.period_error(general, error)
+    return Seasons(
+        general_precession=(general, error),
+        general_precession_period=period,
+        time_per_degree=s.time_per_degree(general),
+        tropical_year=year,
+        time_per_day_of_drift=s.time_per_day_of_drift(year),
+        time_per_dropped_leap_day=s.DROPPED_LEAP_DAY * JULIAN_YEAR,
+        time_per_day_of_gregorian_drift=s.time_per_day_of_drift(year, s.GREGORIAN_YEAR),
+    ).with_attributes(
         no_error=mean_rates.no_error,
+        general_precession={
+            "effects": f"torques of Sun and Moon alone; no published effects apply: {another}"
+            if another
+            else "torques of Sun and Moon, and the published effects that their mean leaves out"
+        },
     )
-    result["general_precession"].attrs["effects"] = (
-        f"torques of Sun and Moon alone; no published effects apply: {another}"
-        if another
-        else "torques of Sun and Moon, and the published effects that their mean leaves out"
-    )
-    return result
 
 
-IAU_2006 = {
-    "iau_rate": Variable(
-        (),
+class BesideIAU(Variables):
+    """The computed rate compared with that of IAU 2006."""
+
+    iau_rate: Value = number(
         "arcsec/yr",
         "rate of psi_A in IAU 2006 at the same epoch",
         no_error="a model that was adopted, exact by definition",
-    ),
-    **with_error("difference_from_iau", Variable((), "arcsec/yr", "computed rate minus the IAU's")),
-    **with_error(
-        "closure",
-        Variable((), "arcsec/yr", "difference that remains after all published contributions"),
-    ),
-}
+    )
+    difference_from_iau: Pair = measured("arcsec/yr", "computed rate minus the IAU's")
+    closure: Pair = measured(
+        "arcsec/yr", "difference that remains after all published contributions"
+    )
 
 
-@part(gives=IAU_2006, unless=not_the_iaus_earth)
-def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> xr.Dataset:
+@part(unless=not_the_iaus_earth)
+def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
     """IAU 2006 precession compared with the computed one, published effects included."""
     from earthspin.nutation.budget import closure
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
     iau_rate = precession_rates(mean_torques.epoch / DAY).psi_a
-    return build(
-        IAU_2006,
-        {
-            "iau_rate": iau_rate,
-            "difference_from_iau": rate - iau_rate,
-            "difference_from_iau_error": error,
-            "closure": closure(rate, iau_rate),
-            "closure_error": error,
-        },
-        no_error=mean_rates.no_error,
-    )
+    return BesideIAU(
+        iau_rate=iau_rate,
+        difference_from_iau=(rate - iau_rate, error),
+        closure=(closure(rate, iau_rate), error),
+    ).with_attributes(no_error=mean_rates.no_error)
 
 
-STANDSTILLS = {
-    "standstill_kind": Variable(("standstill",), "", "major or minor"),
-    **with_error(
-        "standstill_declination",
-        Variable(("standstill",), "deg", "extreme declination, mean equator of date"),
-    ),
-}
+class Standstills(Variables, along=("standstill",)):
+    """Standstills of the Moon."""
+
+    standstill_kind: Value = words("major or minor")
+    standstill_declination: Pair = measured("deg", "extreme declination, mean equator of date")
+    standstill: Labels = labels("day of the extreme declination (TDB)")
 
 
-@part(gives=STANDSTILLS, unless=no_moon)
-def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
+@part(unless=no_moon)
+def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Major and minor standstills of the Moon: dates and extreme declinations."""
     from earthspin.sky.standstill import find_standstills
 
@@ -468,25 +436,16 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> xr.Dataset:
     def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
         return sky.radec(body, days, moon)["moon"][1]
 
-    found = find_standstills(declination, stretch.first, stretch.last)
-    return build(
-        STANDSTILLS,
-        {
-            "standstill_kind": np.array([s.kind for s in found], dtype=str),
-            "standstill_declination": np.array([s.declination for s in found], dtype=float),
-            "standstill_declination_error": np.array(
-                [sky.error(sky.targets["moon"], (s.day,))[0] for s in found], dtype=float
-            ),
-        },
-        coords={
-            "standstill": (
-                "standstill",
-                datetime64(np.array([s.day for s in found], dtype=float)),
-                {"long_name": "day of the extreme declination (TDB)"},
-            )
-        },
-        no_error=sky.no_error,
-    )
+    extremes = find_standstills(declination, stretch.first, stretch.last)
+    errors = [sky.error(moon["moon"], (extreme.day,))[0] for extreme in extremes]
+    return Standstills(
+        standstill_kind=np.array([extreme.kind for extreme in extremes], dtype=str),
+        standstill_declination=(
+            np.array([extreme.declination for extreme in extremes], dtype=float),
+            np.array(errors, dtype=float),
+        ),
+        standstill=datetime64(np.array([extreme.day for extreme in extremes], dtype=float)),
+    ).with_attributes(no_error=sky.no_error)
 
 
 @part

@@ -10,7 +10,7 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
-from earthspin.choosing.promises import promise, refuse_unkept, report_of
+from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
@@ -81,6 +81,8 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
     >>> print(turned.omega.sel(component="z").round(10).values)
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
+
+    views, page = "rotation", "rotation"
 
     span: Span = key(
         ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
@@ -443,13 +445,14 @@ def turning(
     return result
 
 
-PROMISE = promise("mas", "of the attitude")
-
-
-@part(gives=PROMISE, unless=no_accuracy)
-def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
     """Accuracy of the attitude: asked, estimated, and the method."""
-    return report_of(PROMISE, accuracy, turning.attitude_error)
+
+
+@part(unless=no_accuracy)
+def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
+    """Accuracy of the attitude: asked, estimated, and the method."""
+    return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
 DIVERGENCE = {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
-from earthspin.choosing.promises import closed_form, promise
+from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
@@ -46,6 +46,8 @@ class Spheroid(
     >>> print(field.attraction.sel(component="x").round(3).values, "m/s2")
     [-8.148] m/s2
     """
+
+    views, page = "spheroid", "rotors"
 
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
@@ -106,14 +108,15 @@ def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
     )
 
 
-PROMISE = promise("1", "relative, of potential, attraction and torque")
+class FieldAccuracy(Report, units="1", error_of="relative, of potential, attraction and torque"):
+    """Accuracy of the field: asked, estimated, and the method."""
 
 
-@part(gives=PROMISE, unless=no_accuracy)
-def field_accuracy(field: xr.Dataset, accuracy: float | None) -> xr.Dataset:
+@part(unless=no_accuracy)
+def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
     """Accuracy of the field: asked, estimated, and the method."""
     points, worst = field.sizes["point"], float(field.relative_error.max())
-    return closed_form(PROMISE, accuracy, worst, "exact closed form", points)
+    return FieldAccuracy.closed_form(accuracy, worst, "exact closed form", points)
 
 
 @part

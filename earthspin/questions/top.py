@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.choosing.promises import closed_form, promise
+from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
 from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
@@ -66,6 +66,8 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     >>> print(top.pattern.values)
     cusp
     """
+
+    views, page = "top", "rotors"
 
     exclusive = (("times",), ("duration", "points"))
 
@@ -233,18 +235,19 @@ def potential(heavy_top_start: HeavyTop) -> xr.Dataset:
     )
 
 
-PROMISE = promise("1", "relative, of angles, angular velocity and attitude")
+class TopAccuracy(Report, units="1", error_of="relative, of angles, angular velocity and attitude"):
+    """Accuracy of the top: asked, estimated, and the method."""
 
 
-@part(gives=PROMISE, unless=no_accuracy)
+@part(unless=no_accuracy)
 def top_accuracy(
     heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
-) -> xr.Dataset:
+) -> TopAccuracy:
     """Accuracy of the top: asked, estimated, and the method."""
     from earthspin.top.rounding import error_bound
 
     bound = float(error_bound(heavy_top_start, instants))
-    return closed_form(PROMISE, accuracy, bound, "elliptic functions", instants.size)
+    return TopAccuracy.closed_form(accuracy, bound, "elliptic functions", instants.size)
 
 
 @part

@@ -67,6 +67,8 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
 
+    views, page = "wobble", "wobble"
+
     body: Body = key(EARTH, doc="body that wobbles")
     ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(

@@ -194,6 +194,35 @@ def ecliptic_of_date(days: FloatArray) -> FloatArray:
     return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
 
 
+def _nodes(start: float, end: float, spacing: float) -> FloatArray:
+    margin = _MARGIN * spacing
+    count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
+    return np.asarray(start - margin + spacing * np.arange(count))
+
+
+def _spline(nodes: FloatArray, values: FloatArray) -> Callable[[FloatArray], FloatArray]:
+    from scipy.interpolate import make_interp_spline
+
+    spline: Callable[[FloatArray], FloatArray] = make_interp_spline(nodes, values, k=_SPLINE_DEGREE)
+    return spline
+
+
+def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> FloatArray:
+    """Evaluate nutation angles at many days, by the spline of `Nutation` if days are dense.
+
+    Parameters
+    ----------
+    angles : callable
+        Gives rad of shape (n, ...) at days of shape (n,); sums of terms no faster than nutation.
+    days : ndarray, shape (n,)
+        Days from J2000.0 TDB.
+    """
+    nodes = _nodes(float(np.min(days)), float(np.max(days)), NUTATION_NODE_STEP)
+    if days.size <= nodes.size:
+        return angles(days)
+    return _spline(nodes, angles(nodes))(days)
+
+
 class Nutation:
     """Nutation IAU 2000A adapted to IAU 2006, interpolated between nodes.
 
@@ -229,17 +258,13 @@ class Nutation:
         def exact(days: FloatArray) -> FloatArray:
             return np.stack(series(J2000_JD, days), axis=-1)
 
-        margin = _MARGIN * spacing
-        count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
+        nodes = _nodes(start, end, spacing)
         #: How many terms of the series are added up for it.
-        self.evaluations = NUTATION_MODELS[model].terms * min(count, size or count)
+        self.evaluations = NUTATION_MODELS[model].terms * min(nodes.size, size or nodes.size)
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
-        if size is None or size > count:
-            from scipy.interpolate import make_interp_spline
-
-            nodes = start - margin + spacing * np.arange(count)
-            self.angles = make_interp_spline(nodes, exact(np.asarray(nodes)), k=_SPLINE_DEGREE)
+        if size is None or size > nodes.size:
+            self.angles = _spline(nodes, exact(nodes))
 
     def true_equator(self, days: FloatArray) -> FloatArray:
         """GCRS to true equator and equinox of date.

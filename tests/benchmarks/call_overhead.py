@@ -19,7 +19,7 @@ import xarray as xr
 import earthspin
 from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
 from earthspin.engine import labels
-from earthspin.engine.run import SCENE, seconds_of
+from earthspin.engine.plan import SCENE, seconds_of
 
 RUNS = 31
 #: At most so long may a call take beyond its physics, ms.

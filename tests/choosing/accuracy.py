@@ -186,7 +186,7 @@ def rate_outcome(rng: Generator) -> Outcome:
     choice = chosen_average(body, pulling, within, asked)
     fewer = torque_samples(above, within, body, pulling, choice)
     rates = mean_rates(mean_torques(window_means(fewer, pulling, choice)), body, pulling)
-    report = rate_accuracy(rates, asked)
+    report = rate_accuracy(rates, asked).dataset()
     cost = cheapest = int(report.evaluations)
     menu = averages_on_offer(body, pulling, within)
     for one in sorted(menu, key=lambda c: c.evaluations):

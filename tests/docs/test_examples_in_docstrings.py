@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 import earthspin
-from earthspin.accessor import Answer
 from earthspin.bodies import Body
+from earthspin.engine.accessor import Answer
 from earthspin.scenes import QUESTIONS
 
 

@@ -62,7 +62,7 @@ def test_an_answer_of_another_process_has_a_plan_without_seconds(tmp_path: Path)
 
 
 def test_an_answer_without_labels_is_one_row() -> None:
-    from earthspin.accessor import Answer
+    from earthspin.engine.accessor import Answer
 
     plain = xr.Dataset({"x": ((), 2.0), "x_error": ((), 0.1), "word": ((), "yes")})
     frame = Answer(plain).to_frame()

@@ -120,6 +120,7 @@ def test_the_budget_adds_up(million: xr.Dataset) -> None:
     assert str(early.cause[int(np.argmax(early.values))].item()) in {"ellipticity", "tides"}
 
 
+@pytest.mark.slow
 def test_the_solver_keeps_a_fifth_of_an_arcsecond_over_ten_million_years() -> None:
     tree = earthspin.run_tree(
         LongTerm(span=["-10 Myr", "10 Myr"], step="40 kyr"), sections="budget"
@@ -326,6 +327,7 @@ def test_bodies_and_pulls_that_are_labelled_stand_side_by_side() -> None:
                     assert worst < 2e-9, (section, name)  # 2e-10 arcsec measured
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("span", [("-10 Myr", "-9 Myr"), ("9 Myr", "10 Myr")])
 def test_climatic_precession_is_inside_for_phases_of_the_longitudes_own_error(
     span: tuple[str, str],

@@ -119,6 +119,7 @@ def test_a_long_run_by_region_gives_the_same_bits(
         assert np.array_equal(written[name], variable), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accuracy", ["1 mas", "1 arcsec"])
 def test_an_accuracy_is_kept_or_refused(accuracy: str) -> None:
     fine = earthspin.rotation(*MONTH)
@@ -303,6 +304,7 @@ def hyperion(span: str, omega: tuple[float, float, float]) -> xr.DataTree:
     return earthspin.run_tree(scene)
 
 
+@pytest.mark.slow
 def test_hyperion_tumbles_chaotically() -> None:
     """Wisdom, Peale & Mignard (1984): neighbours part e times as far in some fifty days or less."""
     tree = hyperion("2005-01-01", (0.5, 0.3, 1.5))
@@ -345,6 +347,7 @@ def test_one_date_has_no_divergence() -> None:
 # --- errors against independent motions ----------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_errors_on_kepler_orbits_are_neither_too_small_nor_far_too_large() -> None:
     """Against an integration in long double of 12 random bodies over 2 orbits.
 

@@ -23,7 +23,7 @@ from tests.rotor.families import FAMILIES, cases
 from tests.rotor.textbook import DIGITS, Textbook, exact_moments
 
 #: Per family; `python -m tests.rotor.accuracy` runs as many as one likes.
-CASES = 30
+CASES = 12
 #: Worst of 600 cases: 1.8e-14 near the separatrix, where u reaches 70; 4.6e-15 next to the
 #: sphere; 2.3e-15 elsewhere.
 TOLERANCE = {"near the separatrix": 1e-13, "near the sphere": 2e-14}

@@ -2,6 +2,7 @@
 
 import erfa
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,6 +42,20 @@ def test_obliquity_of_the_ecliptic_pole() -> None:
 def test_the_node_goes_backwards() -> None:
     node = np.unwrap(iau.mean_longitude_of_node(np.array([0.0, 100.0, 200.0])))
     assert np.all(np.diff(node) < 0)
+
+
+@pytest.mark.parametrize(("count", "allowed"), [(20, 0.0), (4000, 1.5e-11)])
+def test_angles_at_dense_days(count: int, allowed: float) -> None:
+    days = np.linspace(8000.0, 8040.0, count)
+    called: list[int] = []
+
+    def angles(at: np.ndarray) -> np.ndarray:
+        called.append(at.size)
+        return np.stack(erfa.nut06a(J2000, at), axis=-1)
+
+    exact = np.stack(erfa.nut06a(J2000, days), axis=-1)
+    assert np.abs(iau.at_days(angles, days) - exact).max() <= allowed  # 7e-12 measured
+    assert called[0] <= 50
 
 
 def test_nutation_moves_the_pole_to_the_true_one() -> None:

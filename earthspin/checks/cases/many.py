@@ -14,7 +14,8 @@ from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.given import MEMBER
 from earthspin.engine.question import Question
-from earthspin.many import ensemble, quantiles, sensitivity
+from earthspin.engine.spread import quantiles, sensitivity
+from earthspin.many import ensemble
 from earthspin.numerics import sampling
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.precession import precession

@@ -38,7 +38,7 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     above = sky("de421", places(*both), "jplephem")
     samples = torque_samples(above, stretch(above, None), *both)
     means = mean_torques(window_means(samples, both[1]))
-    return precession_rates(mean_rates(means, *both), means, body)
+    return precession_rates(mean_rates(means, *both), means, body).dataset()
 
 
 @lru_cache

@@ -16,7 +16,8 @@ from scipy.special import ndtri
 
 from earthspin.checks.sky import BODY, H
 from earthspin.checks.work_precision import Ladder, Method, Setting, settings
-from earthspin.many import ensemble, quantiles
+from earthspin.engine.spread import quantiles
+from earthspin.many import ensemble
 from earthspin.scenes import QUESTIONS, run
 
 FloatArray = NDArray[np.float64]

@@ -1,14 +1,21 @@
 """`ds.earthspin`: what an answer knows of itself, registered with the first answer.
 
-``import earthspin.accessor`` registers it without an answer.
+``import earthspin.engine.accessor`` registers it without an answer.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+from importlib import import_module
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
+
+import earthspin
+from earthspin.engine.plan import SCENE, Plan, plan, seconds_of
+from earthspin.engine.spread import quantiles, sensitivity
+from earthspin.errors import SceneError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,7 +23,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from astropy.coordinates import SkyCoord
 
-    from earthspin.engine.plan import Plan
     from earthspin.engine.question import Question
 
 #: Ends of the names of errors, which stand beside their values.
@@ -49,18 +55,12 @@ class Answer:
     @property
     def scene(self) -> Question:
         """The question that made it, complete."""
-        from earthspin.scenes import load_scene
-
-        return load_scene(self._dataset)
+        question: Question = earthspin.load_scene(self._dataset)
+        return question
 
     @property
     def plan(self) -> Plan:
         """What ran for it, and what was left out and why."""
-        from dataclasses import replace
-
-        from earthspin.engine.plan import plan
-        from earthspin.engine.run import SCENE, seconds_of
-
         seconds = seconds_of(self._dataset.attrs.get(SCENE, ""))
         return replace(plan(self.scene), seconds=dict(seconds))
 
@@ -119,8 +119,6 @@ class Answer:
         """
         from astropy.coordinates import SkyCoord
 
-        from earthspin.errors import SceneError
-
         data = self._dataset
         if not isinstance(name, str):
             raise SceneError("to_skycoord", name, "give the name of a vector")
@@ -165,8 +163,6 @@ class Answer:
         >>> print(period.round(2).values)
         [25712.07 25712.08 25712.1 ]
         """
-        from earthspin.many import quantiles
-
         return quantiles(self._dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
@@ -197,8 +193,6 @@ class Answer:
         >>> print(float(share.sel(input="body.dynamical_flattening").round(3)))
         1.0
         """
-        from earthspin.many import sensitivity
-
         return sensitivity(self._dataset)
 
     def plot(self) -> Any:
@@ -219,12 +213,10 @@ class Answer:
         >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
         >>> year.earthspin.plot()[0].savefig("torque.png")
         """
-        from earthspin.errors import SceneError
-        from earthspin.views.of_question import figures_of
-
         whole = self.scene
+        views = import_module("earthspin.views.of_question")  # which stands above the engine
         try:
-            return figures_of(self._dataset)
+            return views.figures_of(self._dataset)
         except (AttributeError, KeyError, ValueError):
             what = f"a part of the answer to '{whole.word}'"
             raise SceneError("plot", what, "draw the whole: earthspin.run(ds)") from None

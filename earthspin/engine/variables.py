@@ -1,0 +1,322 @@
+"""Answers as classes: each variable is declared once, with its unit, meaning, dimensions and error.
+
+A part returns an instance, whose values are in SI; the engine lays it out as a Dataset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self, dataclass_transform
+
+from earthspin.engine.labels import SchemaError, Variable, build
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: A number, an array laid along the declared dimensions, or a labelled array; or words.
+Value = Any
+#: Labels along a dimension: an array, a list, or a labelled array of another answer.
+Labels = Any
+
+
+class Estimated(Protocol):
+    """A number with the shares of its half-width, such as `torque.rates.Estimate`."""
+
+    @property
+    def value(self) -> Any:
+        """The number."""
+
+    @property
+    def method(self) -> Any:
+        """Half-width from the method."""
+
+    @property
+    def given(self) -> Any:
+        """Half-width from the given numbers."""
+
+    @property
+    def error(self) -> Any:
+        """Half-width from both."""
+
+
+#: A number with its half-width.
+Pair = Estimated | tuple[Any, Any]
+
+#: Ends of the names and of the meanings of what a field holds, in the order of its values.
+_ALONE = {"": "{}"}
+_WITH_ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
+_WITH_SHARES = {
+    **_WITH_ERROR,
+    "_error_method": "95 % half-width of the {} from averaging and sampling",
+    "_error_input": "95 % half-width of the {} from given numbers",
+}
+_PHASES = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
+
+
+@dataclass(frozen=True)
+class Field:
+    """Declaration of one field of an answer.
+
+    Attributes
+    ----------
+    variable : Variable
+        What it holds.
+    along : tuple of str or None
+        Its dimensions; those of the class if None.
+    endings : mapping of str to str
+        Ends of the names of its variables, with their meanings.
+    default : object
+        Used where no value is given; a field whose value is None is left out of the answer.
+    is_label : bool
+        Whether it labels the dimension of its name.
+    """
+
+    variable: Variable
+    along: tuple[str, ...] | None
+    endings: Mapping[str, str]
+    default: Any = MISSING
+    is_label: bool = False
+
+    def variables(self, name: str, along: tuple[str, ...]) -> dict[str, Variable]:
+        """Its variables by name."""
+        dims, words = along if self.along is None else self.along, self.variable.long_name
+        first = replace(self.variable, dims=dims)
+        return {
+            name + ending: replace(first, long_name=meaning.format(words))
+            if not ending.startswith("_error")
+            else Variable(dims, first.units, meaning.format(words))
+            for ending, meaning in self.endings.items()
+        }
+
+    def values(self, name: str, value: Any) -> dict[str, Any]:
+        """The values of its variables by name."""
+        if len(self.endings) == 1:
+            return {name: value}
+        if not isinstance(value, tuple):
+            shares = (value.value, value.error, value.method, value.given)
+            value = shares[: len(self.endings)]
+        return dict(zip((name + ending for ending in self.endings), value, strict=True))
+
+
+def _field(
+    endings: Mapping[str, str],
+    units: str,
+    long_name: str,
+    along: tuple[str, ...] | None,
+    default: Any,
+    attrs: Mapping[str, str],
+    *,
+    error: str = "",
+    no_error: str = "",
+    short: str = "",
+) -> Any:
+    variable = Variable((), units, long_name, tuple(attrs.items()), error, no_error, short)
+    return Field(variable, along, endings, default)
+
+
+def number(
+    units: str,
+    long_name: str,
+    *,
+    along: tuple[str, ...] | None = None,
+    error: str = "",
+    no_error: str = "",
+    short: str = "",
+    default: Any = MISSING,
+    **attrs: str,
+) -> Any:
+    """Declare a number.
+
+    Parameters
+    ----------
+    units : str
+        In which it is shown; "1" for pure numbers. Values are given in SI.
+    long_name : str
+        In plain words.
+    along : tuple of str, optional
+        Its dimensions; those of the class if not given.
+    error : str
+        Names of the variables that hold its error, where they are not called after it.
+    no_error : str
+        Why it carries no error.
+    short : str
+        Label of tables and axes.
+    default : object
+        ``None`` if it may be left out of an answer.
+    **attrs
+        Further attributes, such as cell_methods.
+    """
+    words = {"error": error, "no_error": no_error, "short": short}
+    return _field(_ALONE, units, long_name, along, default, attrs, **words)
+
+
+def measured(
+    units: str,
+    long_name: str,
+    *,
+    along: tuple[str, ...] | None = None,
+    split: bool = False,
+    short: str = "",
+    default: Any = MISSING,
+    **attrs: str,
+) -> Any:
+    """Declare a number together with its 95 % half-width, ``<name>_error``.
+
+    Its value is a pair, or an estimate that knows its shares.
+
+    Parameters
+    ----------
+    units, long_name, along, short, default, **attrs
+        As of `number`.
+    split : bool
+        Also declare the shares of the method and of the inputs.
+    """
+    endings = _WITH_SHARES if split else _WITH_ERROR
+    return _field(endings, units, long_name, along, default, attrs, short=short)
+
+
+def amplitude(
+    units: str,
+    long_name: str,
+    *,
+    along: tuple[str, ...] | None = None,
+    error: str = "",
+    no_error: str = "",
+    short: str = "",
+    **attrs: str,
+) -> Any:
+    """Declare an amplitude as the IERS tabulates it: in phase and out of phase, given as a pair."""
+    words = {"error": error, "no_error": no_error, "short": short}
+    return _field(_PHASES, units, long_name, along, MISSING, attrs, **words)
+
+
+def words(
+    long_name: str,
+    *,
+    along: tuple[str, ...] | None = None,
+    short: str = "",
+    default: Any = MISSING,
+    **attrs: str,
+) -> Any:
+    """Declare words or dates, which have no unit."""
+    return _field(_ALONE, "", long_name, along, default, attrs, short=short)
+
+
+def labels(long_name: str = "", units: str = "", *, default: Any = MISSING, **attrs: str) -> Any:
+    """Declare the labels of the dimension that the field is called after.
+
+    Parameters
+    ----------
+    long_name : str
+    units : str
+        Of the labels, which are given in these.
+    default : object
+        The labels, where they are always the same; ``None`` where labelled arrays bring them.
+    **attrs
+        Further attributes.
+    """
+    own = {"units": units, "long_name": long_name, **attrs}
+    variable = Variable((), units, long_name, tuple((n, text) for n, text in own.items() if text))
+    return Field(variable, None, _ALONE, default, is_label=True)
+
+
+@dataclass_transform(
+    kw_only_default=True, field_specifiers=(number, measured, amplitude, words, labels)
+)
+class Variables:
+    """Variables of an answer or of a section, as one part gives them.
+
+    A class of them may say what holds for all of its fields: `along`, their dimensions; `error`,
+    the variable that holds the error of all numbers that have none of their own; or `no_error`, why
+    these have none. An instance takes the values by name, in SI units.
+    """
+
+    #: Dimensions of the fields that do not say theirs.
+    dims: ClassVar[tuple[str, ...]] = ()
+    #: The fields by name, those of the bases first.
+    fields: ClassVar[Mapping[str, Field]] = {}
+    #: The variables by name, in the order of an answer.
+    schema: ClassVar[Mapping[str, Variable]] = {}
+
+    def __init_subclass__(
+        cls, along: tuple[str, ...] | None = None, error: str = "", no_error: str = ""
+    ) -> None:
+        """Collect what the class declares."""
+        cls.dims = cls.dims if along is None else along
+        own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
+        cls.fields = {**cls.fields, **own}
+        schema = dict(cls.schema)
+        for name, field in own.items():
+            if not field.is_label:
+                schema |= field.variables(name, cls.dims)
+        bare = {
+            name
+            for name, variable in schema.items()
+            if variable.units
+            and "_error" not in name
+            and name != error
+            and f"{name}_error" not in schema
+            and not (variable.error or variable.no_error)
+        }
+        cls.schema = {
+            name: replace(variable, error=error, no_error=no_error) if name in bare else variable
+            for name, variable in schema.items()
+        }
+
+    def __init__(self, **values: Any) -> None:
+        unknown = values.keys() - self.fields.keys()
+        missing = {n for n, field in self.fields.items() if field.default is MISSING} - {*values}
+        if unknown or missing:
+            words = f"{type(self).__name__}: unknown {sorted(unknown)}, missing {sorted(missing)}"
+            raise SchemaError(words)
+        self._values = {n: values.get(n, field.default) for n, field in self.fields.items()}
+        self._attributes: dict[str, Mapping[str, object]] = {}
+        self._no_error = ""
+
+    def with_attributes(self, *, no_error: str = "", **attributes: Mapping[str, object]) -> Self:
+        """Add what is known only when the numbers are.
+
+        Parameters
+        ----------
+        no_error : str
+            Why errors are not given where they are NaN; empty if all are given.
+        **attributes
+            Further attributes by the name of the variable.
+        """
+        self._no_error = no_error or self._no_error
+        self._attributes |= attributes
+        return self
+
+    def dataset(self) -> xr.Dataset:
+        """Lay the values out, in the units of the class and with its attributes.
+
+        Raises
+        ------
+        SchemaError
+            If a value lacks a declared dimension.
+        UndefinedError
+            If a number is missing.
+        """
+        values: dict[str, Any] = {}
+        coords: dict[str, Any] = {}
+        for name, field in self.fields.items():
+            value = self._values[name]
+            if value is None:
+                continue
+            if field.is_label:
+                coords[name] = _labels(name, field, value)
+            else:
+                values |= field.values(name, value)
+        schema = {name: variable for name, variable in self.schema.items() if name in values}
+        result = build(schema, values, coords, no_error=self._no_error)
+        for name, attributes in self._attributes.items():
+            result[name].attrs.update(attributes)
+        return result
+
+
+def _labels(name: str, field: Field, value: Any) -> Any:
+    """Labels along the dimension of their name; labelled ones keep their own attributes."""
+    if hasattr(value, "dims"):
+        return value
+    return (name, value, dict(field.variable.attrs))
