@@ -72,7 +72,7 @@ def refusing(line: str = "it cannot be told") -> Callable[[], None]:
 
 def test_there_are_enough_cases_of_every_part() -> None:
     cases = all_cases()
-    assert len(cases) >= 160
+    assert len(cases) >= 150
     assert sum(case.must_hold for case in cases) >= 130
     assert len({case.name for case in cases}) == len(cases)
     assert {case.part for case in cases} == set(PARTS)
@@ -91,7 +91,7 @@ def test_every_case_says_what_it_is(case: Case) -> None:
 
 def test_a_quick_run_is_a_part_of_all() -> None:
     few, usual, every = chosen_cases(quick=True), chosen_cases(), chosen_cases(long=True)
-    assert 140 < len(few) < len(usual) < len(every) == len(all_cases())
+    assert 130 < len(few) < len(usual) < len(every) == len(all_cases())
     assert not any(case.long for case in usual)
 
 

@@ -228,17 +228,6 @@ def _cost_of_attitude() -> Distances:
     yield _exponent(count, (8.0, 16.0, 32.0))
 
 
-@holds(bound=10.0, unit="uas")
-def _disc() -> Distances:
-    """thin disc, and its prolate opposite
-
-    Hard because: H of one half either way: the largest torques a body can feel
-    Held against: (L, F) step by step over 20 d
-    """
-    for h in (0.5, -0.5):
-        yield _pole_against_exact(20.0, _figure(h=h))
-
-
 @holds(bound=0.01, unit="uas")
 def _retrograde() -> Distances:
     """retrograde spin
@@ -272,18 +261,6 @@ def _fast_spin() -> Distances:
         for seconds in (10.0, 20.0)
     )
     yield relative_error(2 * fast, half)
-
-
-@holds(bound=0.0, unit="uas")
-def _sphere() -> Distances:
-    """a sphere
-
-    Hard because: H is zero, and so is every torque: 0/0 in each relative test of convergence
-    Held against: axes that stay, bit for bit, for a year
-    """
-    found = _path(365.25, _figure(h=0.0)).at(np.linspace(0.0, YEAR, 50))
-    for axis in found.values():
-        yield (axis - axis[0]) / UAS
 
 
 @holds(bound=2e-4, unit="uas")

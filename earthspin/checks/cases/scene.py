@@ -13,7 +13,7 @@ from earthspin.errors import UndefinedError
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.top import heavy_top
 from earthspin.questions.torque import torque_series
-from earthspin.scenes import Scene, run, run_blocks
+from earthspin.scenes import Scene
 
 #: In a fresh process: how much more memory (MB) a long series needs than a short one.
 _GROWTH = """
@@ -70,18 +70,6 @@ def _hundred_million() -> Distances:
     Held against: the peak of resident memory with 10^5 epochs, in a process of its own
     """
     yield _memory_growth(("1900-01-01", "2053-01-01"), "48 s")
-
-
-@holds(bound=0.0, slow=True)
-def _blocks() -> Distances:
-    """a series in blocks
-
-    Hard because: a block may begin where another's arithmetic would have rounded otherwise
-    Held against: the series in one piece, bit for bit
-    """
-    scene = Scene(compute="torque", span=("2000-01-01", "2000-02-05"), step="20 s")
-    joined = np.concatenate([block.torque.values for block in run_blocks(scene)])
-    yield joined - run(scene).torque.values
 
 
 @holds(bound=0.0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -31,24 +30,16 @@ STRENGTH = Strength(
 )
 
 
-@dataclass(frozen=True)
 class _Still:
-    """An orbit that does not change."""
+    """A circular orbit that does not change."""
 
-    eccentricity: float
-
-    @property
-    def coverage(self) -> tuple[float, float]:
-        return float(self.edges[0]), float(self.edges[-1])
-
-    @property
-    def edges(self) -> FloatArray:
-        return MYR / 50 * np.arange(-60.0, 61.0)
+    edges = MYR / 50 * np.arange(-60.0, 61.0)
+    coverage = float(edges[0]), float(edges[-1])
 
     def at(self, times: FloatArray) -> Shape:
-        one = np.ones_like(times)
-        normal = np.stack([0 * one, 0 * one, one])
-        return normal, np.stack([self.eccentricity * one, 0 * one, 0 * one]), 0 * normal
+        zero = 0 * times
+        normal = np.stack([zero, zero, zero + 1])
+        return normal, 0 * normal, 0 * normal
 
 
 @lru_cache
@@ -64,30 +55,6 @@ def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
     return math.cos(obliquity) * normal + math.sin(obliquity) * across
 
 
-def _cone(strength: Strength, eccentricity: float, obliquity: float) -> Distances:
-    """How far both solvers are from a cone about the normal, rad, over a million years each way."""
-    orbit, axis = _Still(eccentricity), _leaning(obliquity)
-    rounder = 1 / (1 - eccentricity**2)
-    constant = strength.sun * rounder**1.5 + strength.moon
-    times = np.linspace(-MYR, MYR, 101)
-    turned = (strength.geodesic * rounder - constant * math.cos(obliquity)) * times
-    c, s = np.cos(turned), np.sin(turned)
-    true = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
-    yield (solve(strength, orbit, axis, (-MYR, MYR), pieces=2).at(times) - true) / ARCSEC
-    yield (solve_many(strength, orbit, axis[:, np.newaxis], times)[..., 0] - true) / ARCSEC
-
-
-@holds(bound=2e-7, unit="arcsec")
-def _cones() -> Distances:
-    """obliquities of 10 to 170 degrees for two million years
-
-    Hard because: some eighty turns, whose phase keeps every error
-    Held against: a cone about the normal of a circular orbit that stays
-    """
-    for degrees in (10, 23.4, 60, 89, 90, 91, 120, 170):
-        yield from _cone(STRENGTH, 0.0, math.radians(degrees))
-
-
 @holds(bound=3e-7, unit="arcsec")
 def _near_upright() -> Distances:
     """axes within 8 degrees of the normal, and of its opposite
@@ -95,31 +62,15 @@ def _near_upright() -> Distances:
     Hard because: there the longitude about the normal has no derivative; another axis is taken
     Held against: a cone about the normal
     """
+    times = np.linspace(-MYR, MYR, 101)
     for degrees in (1e-6, 0.5, 5, 7.9, 172.1, 179.5, 180):
-        yield from _cone(STRENGTH, 0.0, math.radians(degrees))
-
-
-@holds(bound=3e-7, unit="arcsec")
-def _eccentric() -> Distances:
-    """eccentricity of 0.4
-
-    Hard because: the Sun's share grows by 30 %, and what is linear in e2 fails
-    Held against: a cone about the normal
-    """
-    for degrees in (23.4, 150):
-        yield from _cone(STRENGTH, 0.4, math.radians(degrees))
-
-
-@holds(bound=2e-7, unit="arcsec")
-def _backward() -> Distances:
-    """a body that spins backward, or a prolate one
-
-    Hard because: the constant of precession is negative
-    Held against: a cone about the normal
-    """
-    back = replace(STRENGTH, sun=-STRENGTH.sun, moon=-STRENGTH.moon)
-    for degrees in (23.4, 150):
-        yield from _cone(back, 0.1, math.radians(degrees))
+        axis = _leaning(math.radians(degrees))
+        constant = STRENGTH.sun + STRENGTH.moon
+        turned = (STRENGTH.geodesic - constant * math.cos(math.radians(degrees))) * times
+        c, s = np.cos(turned), np.sin(turned)
+        cone = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
+        yield (solve(STRENGTH, _Still(), axis, (-MYR, MYR), pieces=2).at(times) - cone) / ARCSEC
+        yield (solve_many(STRENGTH, _Still(), axis[:, np.newaxis], times)[..., 0] - cone) / ARCSEC
 
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:

@@ -17,7 +17,7 @@ from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.equator import fixed_equator, spherical
-from earthspin.sky.iau import Nutation, mean_equator
+from earthspin.sky.iau import Nutation
 from earthspin.sky.standstill import find_standstills
 
 FloatArray = NDArray[np.float64]
@@ -89,17 +89,6 @@ def _nutation_ends() -> Distances:
         days = day + np.concatenate([np.linspace(0, 0.04, 20), np.linspace(29.96, 30.0, 20)])
         ours = Nutation(days[0], days[-1], 1000).true_equator(days)
         yield ours - erfa.pnm06a(J2000_JD, days)
-
-
-@holds(bound=5e-15)
-def _orthogonal() -> Distances:
-    """mean equator from 1550 to 2650
-
-    Hard because: polynomials of the fifth degree, eleven centuries from one end to the other
-    Held against: an orthogonal matrix
-    """
-    matrix = mean_equator(np.linspace(-164_000.0, 237_000.0, 50))
-    yield matrix @ np.swapaxes(matrix, 1, 2) - np.eye(3)
 
 
 @holds(bound=5e-15)
