@@ -13,14 +13,14 @@ import pytest
 import xarray as xr
 
 import earthspin
-from data_tools.stability import BEGIN, END, PAGE, with_tables
+from data_tools.stability import BEGIN, END, PAGE, markdown, with_tables
 from earthspin.checks import stability
 from earthspin.checks.case import Case, Distances, holds, judge, refused
 from earthspin.checks.stability import PARTS, all_cases, chosen_cases, labelled
 from earthspin.cli import main
 from earthspin.engine import store
 from earthspin.errors import SceneError, UndefinedError
-from earthspin.views.stability_tables import markdown, tally, tally_line, verdict_tables
+from earthspin.views.stability_tables import tally, tally_line, verdict_tables
 
 #: Bounds that do not come from what was measured.
 BOUND_OTHERWISE = {
