@@ -39,7 +39,7 @@ _HOME = {
         "polar_motion_from",
         "read_excitation",
     ),
-    "earthspin.checks.gauntlet": ("stability",),
+    "earthspin.checks.stability": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",
