@@ -94,34 +94,21 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
 
 
 def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
+    import rich.progress as columns
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        Task,
-        TextColumn,
-        TimeRemainingColumn,
-    )
     from rich.text import Text
 
-    class Rate(TextColumn):
+    class Rate(columns.TextColumn):
         """How much is done in a second."""
 
-        def render(self, task: Task) -> Text:
+        def render(self, task: columns.Task) -> Text:
             """Three digits, once there is something to divide."""
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 
-    bar = Progress(
-        "{task.description}",
-        BarColumn(),
-        MofNCompleteColumn(),
-        Rate(""),
-        TimeRemainingColumn(),
-        console=Console(stderr=True),
-        transient=True,
-    )
+    count, left = columns.MofNCompleteColumn(), columns.TimeRemainingColumn()
+    cells = ("{task.description}", columns.BarColumn(), count, Rate(""), left)
+    bar = columns.Progress(*cells, console=Console(stderr=True), transient=True)
     task = bar.add_task(label, total=total, completed=already)
     # A clock of its own, for a first step that lasts longer than anyone likes to wait.
     late = Timer(PATIENCE, bar.start)

@@ -21,8 +21,7 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import EarthspinError, UnitsError, Where, nearest, one_line
-from earthspin.text import Text
+from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest, one_line
 
 FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -84,7 +83,7 @@ def by_name(kind: object) -> bool:
 # --- values with units -------------------------------------------------------------------------
 
 
-def quantity(value: Any, unit: str, what: object, example: str) -> Any:
+def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     """Convert a value with a unit to floats in `unit`.
 
     Parameters
@@ -94,7 +93,7 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
         `unit` already.
     unit : str
         The unit wanted, as astropy writes it.
-    what : Where or str
+    where : Where
         What is being read.
     example : str
         How it should look, for the message.
@@ -111,31 +110,31 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
-    target = _Wanted(unit, what, example)
-    if unit and getattr(what, "typed", False) and _is_bare(value):
-        raise _where(what).error(value, f"give it with its unit, like '{example}'")
+    target = _Target(unit, where, example)
+    if unit and where.typed and _is_bare(value):
+        raise where.error(value, f"give it with its unit, like '{example}'")
     try:
         converted = _convert(value, target)
     except RecursionError:  # lists in lists in lists
         raise target.wrong(value) from None
     plain = getattr(converted, "values", converted)
     if np.size(plain) == 0:
-        raise _where(what).error(f"shape {np.shape(plain)}", "give one number or more")
+        raise where.error(f"shape {np.shape(plain)}", "give one number or more")
     if not np.all(np.isfinite(plain)):
-        raise _where(what).error(value, "give finite numbers")
+        raise where.error(value, "give finite numbers")
     return converted
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _Target:
     """What a value should be, and the error if it is not."""
 
     unit: str
-    what: object
+    where: Where
     example: str
 
     def wrong(self, value: object) -> UnitsError:
-        return UnitsError(str(self.what), value, self.unit or "a pure number", self.example)
+        return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def factor(self, value: object, unit: str) -> float:
         """Size of another unit in this one."""
@@ -151,7 +150,7 @@ class _Wanted:
             raise self.wrong(value) from None
 
 
-def _convert(value: Any, target: _Wanted) -> Any:
+def _convert(value: Any, target: _Target) -> Any:
     if isinstance(value, (bool, np.bool_)):
         raise target.wrong(value)
     if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
@@ -166,7 +165,7 @@ def _convert(value: Any, target: _Wanted) -> Any:
     if isinstance(value, (dt.timedelta, np.timedelta64)):
         return _length_of_time(value, target)
     if is_masked(value):
-        raise _where(target.what).error("a masked value", "give numbers that are all known")
+        raise target.where.error("a masked value", "give numbers that are all known")
     if hasattr(value, "to_value"):
         return _by_astropy(value, target)
     if hasattr(value, "dims") and hasattr(value, "dtype"):
@@ -209,7 +208,7 @@ def _has_unit(value: object) -> bool:
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
 
-def _by_astropy(value: Any, target: _Wanted) -> Any:
+def _by_astropy(value: Any, target: _Target) -> Any:
     import astropy.units as u
 
     try:
@@ -225,7 +224,7 @@ def _by_astropy(value: Any, target: _Wanted) -> Any:
     return float(converted) if converted.ndim == 0 else converted
 
 
-def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Wanted) -> float:
+def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> float:
     if isinstance(value, dt.timedelta):
         seconds = value.total_seconds()
     elif np.isnat(value):
@@ -238,7 +237,7 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Wanted) -> fl
     return seconds if target.unit == "s" else seconds * target.factor(value, "s")
 
 
-def _plain(value: Any, target: _Wanted) -> Any:
+def _plain(value: Any, target: _Target) -> Any:
     """Numbers that are in the unit already."""
     try:
         array = np.asarray(value)
@@ -274,10 +273,6 @@ def real_numbers(value: Any) -> FloatArray:
     if array.dtype.kind not in "fiu":
         raise ValueError(f"an array of {array.dtype}; give real numbers")
     return array.astype(np.float64, copy=False)
-
-
-def _where(what: object) -> Where:
-    return what if isinstance(what, Where) else Where(str(what))
 
 
 # --- kinds -------------------------------------------------------------------------------------
@@ -383,7 +378,7 @@ class Numbers:
         """Check and convert; the array is the question's own and cannot be written to."""
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
-            factor = _Wanted(self.unit, where, self.example).factor(unit, unit)
+            factor = _Target(self.unit, where, self.example).factor(unit, unit)
             value = unpack(value, where) * factor
         converted = quantity(_in_order(value, where), self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
@@ -511,6 +506,23 @@ class Word:
 
     def write(self, value: str) -> Plain:
         """Give the word."""
+        return value
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text."""
+
+    words, hint = "a line of text", "str"
+
+    def read(self, value: object, where: Where) -> str:
+        """Check."""
+        if not isinstance(value, str) or not is_one_line(value):
+            raise where.error(value, f"it is {self.words}")
+        return value
+
+    def write(self, value: str) -> str:
+        """Give the text."""
         return value
 
 

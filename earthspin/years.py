@@ -71,11 +71,6 @@ def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
     return int((date - J2000.astype("datetime64[D]")).astype(int)) - 0.5
 
 
-def _written(time: float) -> str:
-    """A time as `seconds` reads it back to the same bits."""
-    return f"{time!r} s"
-
-
 @dataclass(frozen=True)
 class YearSpan:
     """A stretch of time over millennia.
@@ -101,7 +96,7 @@ class YearSpan:
 
     def write(self) -> Plain:
         """Give the two times in seconds, to the last bit."""
-        return [_written(self.first), _written(self.last)]
+        return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
 @dataclass(frozen=True, eq=False)

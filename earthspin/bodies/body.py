@@ -29,7 +29,7 @@ from earthspin.bodies.kinds import (
 )
 from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
 from earthspin.bodies.layered import UnderTheSurface
-from earthspin.bodies.orbit import Orbit, OrbitTable
+from earthspin.bodies.orbit import Orbit
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
@@ -37,7 +37,7 @@ from earthspin.sky.elements import Plane
 from earthspin.sky.pole_tables import Angles
 from earthspin.sky.poles import Direction, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
-from earthspin.text import Text
+from earthspin.units import Text
 
 #: What a table starts from that names every number of its body; and one whose figure follows from
 #: its layers.
@@ -149,7 +149,7 @@ class Body(FromMass):
     interior: Annotated[str | LayeredBody | None, UnderTheSurface()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     position: Annotated[Any, OwnPlace()] = None
-    orbit: Annotated[Orbit | None, OrbitTable()] = None
+    orbit: Annotated[Orbit | None, Orbit] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )

@@ -167,20 +167,14 @@ class CitedPeriod:
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
-@dataclass(frozen=True)
 class OwnPlace:
     """What gives the place of a body, where a kernel does not."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"
 
-    def read(self, value: object, where: Where) -> Any:
-        """Take a vector function or trajectory, or a table that names segments of kernels."""
-        return read_position(value, where)
-
-    def write(self, value: Any) -> Plain:
-        """Name the segments, or say what it was."""
-        return write_position(value)
+    read = staticmethod(read_position)
+    write = staticmethod(write_position)
 
 
 def _labelled(table: Mapping[str, Any], where: Where) -> Any:

@@ -11,8 +11,7 @@ from earthspin.errors import Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.interior.named import INTERIORS
 from earthspin.interior.samples import from_samples
-from earthspin.text import Text
-from earthspin.units import quantity, real_numbers
+from earthspin.units import Text, quantity, real_numbers
 
 #: Columns of samples with their units.
 COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q": ""}

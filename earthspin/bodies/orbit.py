@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 from earthspin.bodies.kinds import Magnitude, OneOf, Plain
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where, nearest
-from earthspin.text import Text
+from earthspin.units import Text
 
 #: What the angles of an orbit may be counted from.
 PLANES = ("ecliptic", "equator", "orbit", "icrf")
@@ -189,17 +189,3 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
     if "a" not in read and "period" not in read:
         raise where.error(None, _ONE_OF)
     return read
-
-
-class OrbitTable:
-    """Kind of the orbit of a body."""
-
-    words, hint = Orbit.words, Orbit.hint
-
-    def read(self, value: object, where: Where) -> Orbit:
-        """Read it."""
-        return Orbit.read(value, where)
-
-    def write(self, value: Orbit) -> Plain:
-        """Give the table."""
-        return value.write()
