@@ -209,11 +209,7 @@ def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _changed(
-    table: dict[str, Any],
-    changes: Mapping[str, Any],
-    source: str,
-    title: str,
-    typed: set[str],
+    table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
     """Question of a scene's table with some keys changed; numbers of typed keys carry units."""
     for key, value in changes.items():

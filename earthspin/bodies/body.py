@@ -19,14 +19,7 @@ from earthspin import constants as c
 from earthspin.bodies import sense
 from earthspin.bodies.figure import figure_of, moments_of
 from earthspin.bodies.from_mass import FromMass
-from earthspin.bodies.kinds import (
-    CitedPeriod,
-    Codes,
-    Magnitude,
-    Moments,
-    OwnPlace,
-    Uncertainties,
-)
+from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, OwnPlace, Uncertainties
 from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
 from earthspin.bodies.layered import UnderTheSurface
 from earthspin.bodies.orbit import Orbit
@@ -369,10 +362,7 @@ class Body(FromMass):
         """One standard deviation of C - A = J2 M a2, over its value; G is the worst known."""
         u = self.relative_uncertainty
         return math.hypot(
-            u.get("j2", 0.0),
-            u.get("gm", 0.0),
-            2 * u.get("radius", 0.0),
-            c.G.relative_uncertainty,
+            u.get("j2", 0.0), u.get("gm", 0.0), 2 * u.get("radius", 0.0), c.G.relative_uncertainty
         )
 
     def needed(self, name: str) -> Numeric:

@@ -22,14 +22,7 @@ from numpy.typing import NDArray
 from earthspin.engine import loop
 from earthspin.engine import run as running
 from earthspin.engine.given import MEMBER
-from earthspin.engine.inputs import (
-    Input,
-    along_members,
-    changed,
-    inputs_of,
-    one_member,
-    published,
-)
+from earthspin.engine.inputs import Input, along_members, changed, inputs_of, one_member, published
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question

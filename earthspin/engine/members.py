@@ -109,10 +109,7 @@ def _plain(number: Any) -> Any:
 
 
 def drawn(
-    distribution: str,
-    numbers: tuple[Any, ...],
-    normal: FloatArray,
-    place: FloatArray,
+    distribution: str, numbers: tuple[Any, ...], normal: FloatArray, place: FloatArray
 ) -> NDArray[Any]:
     """Turn standard normal numbers into those of a distribution.
 

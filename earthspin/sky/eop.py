@@ -109,8 +109,7 @@ class PoleSeries:
             )
             raise SeriesError(self.name, problem, "choose a span inside it")
         return replace(
-            self,
-            **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)},
+            self, **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)}
         )
 
 
