@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from earthspin.engine.given import MEMBER
 from earthspin.engine.members import Distribution, texts
+from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
 from earthspin.units import FloatArray, Number, by_name
 
@@ -118,8 +119,6 @@ def _input(question: Question, name: str, where: Where) -> Input:
 
 def _every(question: Question) -> Iterator[Input]:
     """Every number of a question that is set, and every key that takes a name."""
-    from earthspin.engine.question import Question, keys_of
-
     for key, one in keys_of(question.__class__).items():
         value = getattr(question, key)
         if by_name(one.kind) and key not in keys_of(Question):

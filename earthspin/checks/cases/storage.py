@@ -226,7 +226,7 @@ def _lost_chunk() -> None:
         store.verify(path)
 
 
-@refused("cannot be read")
+@refused("are not what was written")
 def _flipped_chunk() -> None:
     """a Zarr store with a bit flipped in a chunk
 
