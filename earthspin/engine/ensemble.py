@@ -111,7 +111,7 @@ class Ensemble:
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # known before it is sent
         here = ("variants", "nominal")
-        return {name: of for name, of in vars(self).items() if name not in here}
+        return {name: value for name, value in vars(self).items() if name not in here}
 
     # --- what there is to do ---------------------------------------------------------------------
 
@@ -123,17 +123,17 @@ class Ensemble:
     @cached_property
     def numbers(self) -> dict[str, Input]:
         """The inputs that are numbers; the others are words."""
-        return {name: one for name, one in self.inputs.items() if not one.named}
+        return {name: item for name, item in self.inputs.items() if not item.named}
 
     @cached_property
     def variants(self) -> Variants:
         """The question, or one for all the words of a member."""
-        keys = tuple(one.key for one in self.inputs.values() if one.named)
-        return Variants(self.question, keys, {one.key for one in self.numbers.values()})
+        keys = tuple(item.key for item in self.inputs.values() if item.named)
+        return Variants(self.question, keys, {item.key for item in self.numbers.values()})
 
     def words(self, place: int) -> Words:
         """What is chosen for a member that is not a number."""
-        named = (name for name, one in self.inputs.items() if one.named)
+        named = (name for name, item in self.inputs.items() if item.named)
         return tuple(str(self.values[name][place]) for name in named)
 
     @cached_property
@@ -144,7 +144,7 @@ class Ensemble:
         places: dict[Words, list[int]] = {}
         for place in range(len(self.which)):
             places.setdefault(self.words(place), []).append(place)
-        return {words: np.array(of) for words, of in places.items()}
+        return {words: np.array(members) for words, members in places.items()}
 
     @cached_property
     def nominal(self) -> xr.Dataset:
@@ -158,7 +158,7 @@ class Ensemble:
         if not self.numbers:
             return rows * ROW or 1  # nothing is computed but the answer to each of their words
         together = self.question.graph.together
-        fit = all(one.key in together and one.labelled for one in self.numbers.values())
+        fit = all(item.key in together and item.labelled for item in self.numbers.values())
         if not fit or getattr(self.question, "accuracy", None) is not None:
             return 1  # what is chosen for an accuracy is chosen for each alone
         return min(rows * ROW, self.question.graph.widest) or 1
@@ -213,9 +213,9 @@ class Ensemble:
             words = f"of {n} these cannot be: {next(iter(wrong.values()))}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
             raise self.question.error("members", named, words + remedy)
-        kept = np.delete(np.arange(len(self.which)), list(wrong))
-        self.which, self.dropped = self.which[kept], numbers
-        self.values = {name: of[kept] for name, of in self.values.items()}
+        possible = np.delete(np.arange(len(self.which)), list(wrong))
+        self.which, self.dropped = self.which[possible], numbers
+        self.values = {name: array[possible] for name, array in self.values.items()}
         del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
@@ -232,7 +232,7 @@ class Ensemble:
         self, question: Question, places: IntArray
     ) -> Iterator[tuple[int, EarthspinError]]:
         """The same of the members that share a question; at once where arrays tell."""
-        at_once = all(one.field and one.labelled for one in self.numbers.values())
+        at_once = all(item.field and item.labelled for item in self.numbers.values())
         if at_once:
             try:
                 changed(question, self.numbers, along_members(self._of_numbers, places))
@@ -254,15 +254,15 @@ class Ensemble:
             SCENE: scene_text(self.asked_question),
         }
         if self.dropped:
-            told = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
-            attributes["members_dropped"] = told
+            words = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
+            attributes["members_dropped"] = words
         return self.variants.describe(self.make(0), self.every).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
-        made = self._one_by_one if self.width == 1 else self._side_by_side
-        places, pieces = zip(*made(first, last), strict=True)
+        make_pieces = self._one_by_one if self.width == 1 else self._side_by_side
+        places, pieces = zip(*make_pieces(first, last), strict=True)
         laid = _laid([*pieces])
         order = np.argsort(np.concatenate(places))
         if (np.diff(order) != 1).any():
@@ -278,29 +278,32 @@ class Ensemble:
         for begin in range(first - first % ROW, last, self.width):
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
-            for words, every in self.every.items():
-                mine = every[np.searchsorted(every, max(begin, first)) :]
-                mine = mine[: np.searchsorted(mine, min(end, last))]
-                if not mine.size:
+            for words, members in self.every.items():
+                wanted = members[np.searchsorted(members, max(begin, first)) :]
+                wanted = wanted[: np.searchsorted(wanted, min(end, last))]
+                if not wanted.size:
                     continue
-                stand_in = np.where(np.isin(row, mine), row, mine[0])
+                stand_in = np.where(np.isin(row, wanted), row, wanted[0])
                 values = along_members(self._of_numbers, stand_in)
-                which = _named(self.which[mine].tolist())
+                which = _named(self.which[wanted].tolist())
                 try:
-                    made = self._answer(words, values, which)
+                    answer = self._answer(words, values, which)
                 except ApartError:
-                    yield from ((np.array([place]), self._single(place)) for place in mine)
+                    yield from ((np.array([place]), self._single(place)) for place in wanted)
                     continue
-                self._check_labels(made, which)
+                self._check_labels(answer, which)
                 if words:
-                    made = _for_each(made, len(row))
-                yield mine, made.isel({MEMBER: _short(mine - begin)} if MEMBER in made.dims else {})
+                    answer = _for_each(answer, len(row))
+                yield (
+                    wanted,
+                    answer.isel({MEMBER: _short(wanted - begin)} if MEMBER in answer.dims else {}),
+                )
 
     def _single(self, place: int) -> xr.Dataset:
         which = str(self.which[place])
-        made = self._answer(self.words(place), one_member(self._of_numbers, place), which)
-        self._check_labels(made, which)
-        return _for_each(made, 1)
+        answer = self._answer(self.words(place), one_member(self._of_numbers, place), which)
+        self._check_labels(answer, which)
+        return _for_each(answer, 1)
 
     def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """The numbers of one member, or of several with the same words."""
@@ -311,9 +314,9 @@ class Ensemble:
             error.args = (f"member {which}: {error}",)
             raise
 
-    def _check_labels(self, made: xr.Dataset, which: str) -> None:
+    def _check_labels(self, answer: xr.Dataset, which: str) -> None:
         for name, label in self.nominal.coords.items():
-            if name not in made.coords or not label.equals(made.coords[name]):
+            if name not in answer.coords or not label.equals(answer.coords[name]):
                 words = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), words)
 
@@ -327,13 +330,13 @@ class Ensemble:
         labels: dict[str, Any] = {
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
-        for name, one in self.inputs.items():
+        for name, item in self.inputs.items():
             values = self.values[name][which]
-            dims = (MEMBER, *(f"{one.label}_{k}" for k in range(values.ndim - 1)))
-            attrs = {"long_name": f"{name} of the member", "units": one.unit or "1", "input": name}
-            if one.named:
+            dims = (MEMBER, *(f"{item.label}_{k}" for k in range(values.ndim - 1)))
+            attrs = {"long_name": f"{name} of the member", "units": item.unit or "1", "input": name}
+            if item.named:
                 del attrs["units"]
-            label = f"{one.label}_given" if one.label in laid.variables else one.label
+            label = f"{item.label}_given" if item.label in laid.variables else item.label
             labels[label] = (dims, values, attrs)
         return labels
 
@@ -350,11 +353,15 @@ def _short(places: IntArray) -> IntArray | slice:
     return slice(first, last + 1) if last - first + 1 == len(places) else places
 
 
-def _for_each(made: xr.Dataset, count: int) -> xr.Dataset:
+def _for_each(answer: xr.Dataset, count: int) -> xr.Dataset:
     """An answer whose every number stands along `member`, that of one for so many."""
-    numbers = {name: of for name, of in made.data_vars.items() if of.dtype.kind in "fiubM"}
-    alone = {name: of for name, of in numbers.items() if MEMBER not in of.dims}
-    return made.assign({name: of.expand_dims({MEMBER: count}) for name, of in alone.items()})
+    numbers = {
+        name: array for name, array in answer.data_vars.items() if array.dtype.kind in "fiubM"
+    }
+    alone = {name: array for name, array in numbers.items() if MEMBER not in array.dims}
+    return answer.assign(
+        {name: array.expand_dims({MEMBER: count}) for name, array in alone.items()}
+    )
 
 
 def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
@@ -362,9 +369,9 @@ def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
     import xarray as xr
 
     laid: dict[Any, Any] = {}
-    for name, of in pieces[0].data_vars.items():
-        laid[name] = of.variable
-        if MEMBER in of.dims:
+    for name, array in pieces[0].data_vars.items():
+        laid[name] = array.variable
+        if MEMBER in array.dims:
             parts = [piece[name].variable.transpose(MEMBER, ...) for piece in pieces]
             together = np.concatenate([part.values for part in parts])
             laid[name] = xr.Variable(parts[0].dims, together, parts[0].attrs)

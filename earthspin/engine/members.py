@@ -82,7 +82,7 @@ class Distribution:
         return tuple(map(float, read))
 
 
-def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
+def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     """Words of an input that is no number, as they were given, each checked.
 
     Raises
@@ -90,13 +90,13 @@ def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     EarthspinError
         If the input does not take one, or it is told by more than text.
     """
-    found = tuple(several)
-    for one in found:
-        kind.read(one, where)
-        if not isinstance(one, str):
+    texts_given = tuple(values)
+    for text in texts_given:
+        kind.read(text, where)
+        if not isinstance(text, str):
             words = "members are labelled by text: give a name, or the path of a file it is in"
-            raise where.error(type(one).__name__, words)
-    return found
+            raise where.error(type(text).__name__, words)
+    return texts_given
 
 
 def _plain(number: Any) -> Any:
@@ -131,15 +131,15 @@ def drawn(
     """
     from scipy.special import ndtr
 
-    several = np.array(numbers)
+    choices = np.array(numbers)
     if distribution == "normal":
         return np.asarray(numbers[0] + numbers[1] * normal)
     share = ndtr(normal)
     if distribution == "uniform":
         return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
     if distribution == "choice":
-        place = np.minimum((share * several.size).astype(int), several.size - 1)
-    return np.asarray(several[place])
+        place = np.minimum((share * choices.size).astype(int), choices.size - 1)
+    return np.asarray(choices[place])
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
@@ -156,11 +156,11 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
     -------
     ndarray, shape (n, inputs)
     """
-    found = np.empty((len(members), inputs))
-    for row, member in zip(found, members.tolist(), strict=True):
+    numbers = np.empty((len(members), inputs))
+    for row, member in zip(numbers, members.tolist(), strict=True):
         sequence = np.random.SeedSequence(seed, spawn_key=(member,))
         np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
-    return found
+    return numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,12 +222,12 @@ class Members:
 
     @classmethod
     def _of_table(cls, table: Mapping[str, Any], where: Where) -> Members:
-        settings = {name: of for name, of in table.items() if name in _SETTINGS}
-        inputs = {name: of for name, of in table.items() if name not in _SETTINGS}
-        for name, of in inputs.items():
-            if not isinstance(of, Mapping):
+        settings = {name: value for name, value in table.items() if name in _SETTINGS}
+        inputs = {name: value for name, value in table.items() if name not in _SETTINGS}
+        for name, value in inputs.items():
+            if not isinstance(value, Mapping):
                 words = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
-                raise where.at(name).error(of, words)
+                raise where.at(name).error(value, words)
         uncertainty = settings.get("uncertainty")
         if not (uncertainty is None or _is_word(uncertainty, ("sample",))):
             raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
@@ -249,27 +249,29 @@ class Members:
             only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
-            values={name: from_scene(of, where.at(name)) for name, of in values.items()},
+            values={name: from_scene(value, where.at(name)) for name, value in values.items()},
         )
 
     def write(self) -> dict[str, Any]:
         """Give the table, with every number."""
-        told: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
+        table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         if self.n is not None:
-            told["n"] = self.n
+            table["n"] = self.n
         if self.published:
-            told["uncertainty"] = "sample"
+            table["uncertainty"] = "sample"
         if self.only:
-            told["only"] = list(self.only)
+            table["only"] = list(self.only)
         if self.correlations:
-            told["correlations"] = [list(one) for one in self.correlations]
-        told |= {name: {of.shape: list(of.numbers)} for name, of in self.distributions.items()}
+            table["correlations"] = [list(correlation) for correlation in self.correlations]
+        table |= {
+            name: {value.shape: list(value.numbers)} for name, value in self.distributions.items()
+        }
         if self.values:
-            told["values"] = {
-                name: of.tolist() if of.dtype.kind == "U" else pack(of)
-                for name, of in self.values.items()
+            table["values"] = {
+                name: value.tolist() if value.dtype.kind == "U" else pack(value)
+                for name, value in self.values.items()
             }
-        return told
+        return table
 
 
 def _is_word(given: object, allowed: tuple[str, ...]) -> bool:
@@ -288,32 +290,32 @@ def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
     """Distributions by name; TOML makes tables within tables of names with points."""
-    for name, of in table.items():
+    for name, value in table.items():
         if (
-            isinstance(of, Mapping)
-            and of
-            and not set(of) & set(_SHAPES)
-            and all(isinstance(inner, Mapping) for inner in of.values())
+            isinstance(value, Mapping)
+            and value
+            and not set(value) & set(_SHAPES)
+            and all(isinstance(inner, Mapping) for inner in value.values())
         ):
-            yield from _distributions(of, where, f"{before}{name}.")
-        elif isinstance(of, Mapping):
-            yield f"{before}{name}", Distribution.read(of, where.at(f"{before}{name}"))
+            yield from _distributions(value, where, f"{before}{name}.")
+        elif isinstance(value, Mapping):
+            yield f"{before}{name}", Distribution.read(value, where.at(f"{before}{name}"))
         else:
-            raise where.at(f"{before}{name}").error(of, "give a table like normal = [1, 2]")
+            raise where.at(f"{before}{name}").error(value, "give a table like normal = [1, 2]")
 
 
 def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
-    for one in given:
+    for correlation in given:
         try:
-            first, second, size = one
+            first, second, size = correlation
         except (TypeError, ValueError):
             first = second = size = None
         if not (isinstance(first, str) and isinstance(second, str) and first != second):
             problem = 'give two names and a number: ["a", "b", 0.5]'
-            raise where.at("correlations").error(one, problem)
+            raise where.at("correlations").error(correlation, problem)
         if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
             problem = "a correlation lies between -1 and 1, both excluded"
-            raise where.at("correlations").error(one, problem)
+            raise where.at("correlations").error(correlation, problem)
         yield first, second, float(size)
 
 
@@ -328,13 +330,13 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
     SceneError
         If they do not, or nothing says it.
     """
-    grid = math.prod(len(of.numbers) for of in inputs.values() if of.shape == "grid")
-    gridded = any(of.shape == "grid" for of in inputs.values())
-    told = {"n": members.n} if members.n is not None else {}
-    told |= {name: len(of) for name, of in members.values.items()}
-    if len(set(told.values())) > 1:
-        raise where.error(told, "these are not equally many")
-    n = next(iter(told.values()), grid if gridded else None)
+    grid = math.prod(len(values.numbers) for values in inputs.values() if values.shape == "grid")
+    gridded = any(values.shape == "grid" for values in inputs.values())
+    counts = {"n": members.n} if members.n is not None else {}
+    counts |= {name: len(values) for name, values in members.values.items()}
+    if len(set(counts.values())) > 1:
+        raise where.error(counts, "these are not equally many")
+    n = next(iter(counts.values()), grid if gridded else None)
     if n is None:
         raise where.at("n").error(None, "say how many members are drawn")
     if gridded and n % grid:
@@ -373,21 +375,21 @@ def draw(
     normal = standard_normal(members.seed, which, len(names))
     if members.correlations:
         normal = _mixed(normal, _root(members, names, where))
-    place, found = which.astype(int), {}
+    place, values = which.astype(int), {}
     for column, name in enumerate(names):
         shape, size = inputs[name].shape, len(inputs[name].numbers)
-        found[name] = drawn(shape, numbers[name], normal[:, column], place % size)
+        values[name] = drawn(shape, numbers[name], normal[:, column], place % size)
         if shape == "grid":
             place = place // size
-    return found
+    return values
 
 
 def _mixed(normal: FloatArray, root: FloatArray) -> FloatArray:
     """Each row times the root, summed number by number: a BLAS rounds a row alone otherwise."""
-    found = np.zeros_like(normal)
+    mixed = np.zeros_like(normal)
     for column, weights in zip(normal.T, root.T, strict=True):
-        found += np.multiply.outer(column, weights)
-    return found
+        mixed += np.multiply.outer(column, weights)
+    return mixed
 
 
 def _root(members: Members, names: list[str], where: Where) -> FloatArray:
@@ -402,6 +404,6 @@ def _root(members: Members, names: list[str], where: Where) -> FloatArray:
     try:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError:
-        told = [list(one) for one in members.correlations]
+        rows = [list(correlation) for correlation in members.correlations]
         problem = "no numbers are correlated so; the matrix is not positive"
-        raise where.at("correlations").error(told, problem) from None
+        raise where.at("correlations").error(rows, problem) from None
