@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from earthspin.checks.case import FAILS
-from earthspin.checks.gauntlet import stability
-from earthspin.views.gauntlet_views import markdown, tally, tally_line
+from earthspin.checks.stability import stability
+from earthspin.views.stability_tables import markdown, tally, tally_line
 
 PAGE = Path(__file__).parents[1] / "docs" / "stability.md"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"

@@ -384,8 +384,8 @@ def _verify(options: Namespace) -> None:
 def _stability(options: Namespace) -> int:
     """Run the stiff and extreme cases."""
     from earthspin.checks.case import FAILS
-    from earthspin.checks.gauntlet import stability
-    from earthspin.views.gauntlet_views import print_verdicts, tally
+    from earthspin.checks.stability import stability
+    from earthspin.views.stability_tables import print_verdicts, tally
 
     result = stability(quick=options.quick, only=options.only, long=options.long)
     print_verdicts(result)

@@ -20,7 +20,7 @@ from dataclasses import dataclass, fields
 from functools import partial
 from importlib import import_module
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-V = TypeVar("V", int, float)
 
 #: Quantities, and the module of `earthspin.checks.ladders` that measures each.
 QUANTITIES: dict[str, str] = {
@@ -85,18 +84,22 @@ class Setting:
     judged: Callable[[], Any] | None = None
 
 
-def settings(words: str, run: Callable[[V], tuple[Any, int]], values: Iterable[V]) -> list[Setting]:
-    """Settings that differ in one number.
+def settings(
+    words: str, run: Callable[..., tuple[Any, int]], values: Iterable[float] | None = None
+) -> list[Setting]:
+    """Return settings that differ in one number.
 
     Parameters
     ----------
     words : str
-        With braces in its place, e.g. ``"rtol {}"``.
+        With braces in the place of that number, e.g. ``"rtol {}"``.
     run : callable
         From that number.
-    values : iterable
-        From coarse to fine.
+    values : iterable, optional
+        From coarse to fine; by default there is one setting, whose run takes nothing.
     """
+    if values is None:
+        return [Setting(words, run)]
     return [Setting(words.format(plain(value)), partial(run, value)) for value in values]
 
 
@@ -107,22 +110,24 @@ class Method:
     Attributes
     ----------
     name : str
-    ours : bool
-        Whether it is what this package does, or what one would do with SciPy set by hand, or
-        with another library.
     settings : sequence of Setting
         From coarse to fine.
     bound : float
-        Error that the last setting stays within, SI; a method of ours that does not, fails.
+        Error that the last setting stays within, SI, or the method fails. Methods of this package
+        have one; SciPy set by hand and other libraries have none (infinite).
     task : str
-        Which way it goes, where a ladder holds two.
+        Direction, where a ladder holds two.
     """
 
     name: str
-    ours: bool
     settings: Sequence[Setting]
     bound: float = math.inf
     task: str = ""
+
+    @property
+    def ours(self) -> bool:
+        """Whether this is a method of this package."""
+        return math.isfinite(self.bound)
 
 
 @dataclass(frozen=True)
