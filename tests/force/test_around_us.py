@@ -18,6 +18,8 @@ from earthspin.engine import store
 from earthspin.views.table import Table
 from earthspin.views.terminal import Terminal
 
+#: Nearly each starts a process or more.
+pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 
 
@@ -33,7 +35,6 @@ def earthspin_says(
     )
 
 
-@pytest.mark.slow
 def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     """No TeX, no colours, and no default of any kind; the figure is the same to the bit."""
     (tmp_path / "matplotlibrc").write_text(
@@ -59,7 +60,6 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     assert pictures[2] == pictures[0]
 
 
-@pytest.mark.slow
 def test_a_home_that_cannot_be_written_is_not_mentioned(tmp_path: Path) -> None:
     """Nor a backend that does not exist."""
     nowhere = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), "/proc/nowhere")
@@ -263,7 +263,6 @@ def test_titles_do_nothing_to_the_terminal(capsys: pytest.CaptureFixture[str]) -
     assert "\nsecond" in shown
 
 
-@pytest.mark.slow
 def test_json_is_what_it_was(tmp_path: Path) -> None:
     """As xarray has it, dates in ISO 8601, infinity as text."""
     import datetime as dt
@@ -286,8 +285,6 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
         assert json.loads(found.stdout) == expected
 
 
-# The oldest netCDF4 says the same, and then crashes where the interpreter ends.
-@pytest.mark.newest
 @pytest.mark.parametrize(
     ("scene", "share"), [("wobble", 0.0), ("torque", 0.3), ("torque", 0.7), ("wobble", 1.0)]
 )
