@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import earthspin
-from earthspin import OutputError, SceneError
+from earthspin import SceneError
 from earthspin.engine import store
 from earthspin.views.table import Table
 from earthspin.views.terminal import Terminal
@@ -180,12 +180,6 @@ def test_an_empty_kernel_is_no_kernel(tmp_path: Path) -> None:
     assert found.returncode == 2
     assert b"kernel" in found.stderr
     assert not (tmp_path / "r").exists()
-
-
-def test_a_long_series_goes_to_zarr_alone(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"does not end in \.zarr"):
-        earthspin.write_series("torque", tmp_path / "a.nc")
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_defect_is_told_as_one(tmp_path: Path) -> None:
