@@ -12,9 +12,10 @@ from scipy.signal import lfilter
 
 import earthspin
 from earthspin import SceneError, UndefinedError
+from earthspin.checks.solvers import simulation
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
-from earthspin.wobble import burg, envelope, observed, record, simulation, spectrum
+from earthspin.wobble import burg, envelope, observed, record, spectrum
 from tests.conftest import load_pins
 
 PINS = load_pins("wobble")

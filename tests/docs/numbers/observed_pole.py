@@ -11,9 +11,10 @@ import numpy as np
 
 import earthspin
 from data_tools.free_wobble import DRAWS, RED
+from earthspin.checks.solvers import simulation
 from earthspin.sky import eop
 from earthspin.sky.eop import LONGEST_DAYS
-from earthspin.wobble import likelihood, presence, simulation
+from earthspin.wobble import likelihood, presence
 from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
 from tests.docs.numbers.answers import fitted, observed, of_c04, value
 from tests.docs.numbers.sentence import ROOT, Sentence, Told
