@@ -148,15 +148,15 @@ def published(question: Question) -> dict[str, Distribution]:
     Of a body that only pulls, the mass alone counts. No correlation was published with any.
     """
     distributions: dict[str, Distribution] = {}
-    for one in _every(question):
-        body = getattr(question, one.key)
-        if one.element is not None and one.field:
-            body = body[one.element]
-        u = getattr(body, "relative_uncertainty", {}).get(one.field, 0.0)
-        counts = one.element is None or one.field == "gm"
-        if u and counts and np.ndim(getattr(body, one.field)) == 0:
-            value = float(getattr(body, one.field))
-            distributions[one.name] = Distribution("normal", (value, abs(value) * u))
+    for item in _every(question):
+        body = getattr(question, item.key)
+        if item.element is not None and item.field:
+            body = body[item.element]
+        u = getattr(body, "relative_uncertainty", {}).get(item.field, 0.0)
+        counts = item.element is None or item.field == "gm"
+        if u and counts and np.ndim(getattr(body, item.field)) == 0:
+            value = float(getattr(body, item.field))
+            distributions[item.name] = Distribution("normal", (value, abs(value) * u))
     return distributions
 
 

@@ -82,7 +82,7 @@ class Distribution:
         return tuple(map(float, numbers))
 
 
-def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
+def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     """Words of an input that is no number, as they were given, each checked.
 
     Raises
