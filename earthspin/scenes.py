@@ -376,7 +376,7 @@ def _series(question: Question) -> Series:
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not any(BY_BLOCK in one.uses for one in question.graph.parts.values()):
+    if not any(BY_BLOCK in part.uses for part in question.graph.parts.values()):
         return 0
 
     keys = question.keys()
