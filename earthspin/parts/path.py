@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from earthspin.dates import TimeGrid, TimeList
     from earthspin.motion.axes import AxisPath
     from earthspin.nutation.analysis import PoleAnalysis, Secular
-    from earthspin.nutation.nutation import Circles
+    from earthspin.nutation.circles import Circles
     from earthspin.nutation.response import Response
 
 #: Half of the stretch about J2000.0 that is analysed, as far as the kernel has it: four turns of
@@ -346,7 +346,7 @@ def iau_nutation(
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
@@ -373,7 +373,7 @@ def rigid(effects: Sequence[str]) -> list[str]:
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
@@ -469,7 +469,7 @@ def response_apart(
 ) -> Apart:
     """Resonance form fitted with geodesic nutation and additive terms taken away."""
     from earthspin.nutation.additions import added_to
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.nutation.response import SUN_SYNCHRONOUS, fit_response
     from earthspin.sky import iau
 
