@@ -42,8 +42,8 @@ class Averaging:
 
 
 @dataclass(frozen=True)
-class Turned:
-    """What decides how far an error of the mean tensor is one of the rate of precession.
+class AveragedBody:
+    """Numbers of a body by which an error of the mean tensor becomes one of the precession rate.
 
     Attributes
     ----------
@@ -77,12 +77,12 @@ class Pull(NamedTuple):
     slow_swing: float
 
 
-def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
+def average_choices(body: AveragedBody, cycles: float) -> list[Choice[Averaging]]:
     """Windows of an average with the relative error of the rate.
 
     Parameters
     ----------
-    body : Turned
+    body : AveragedBody
     cycles : float
         As many as there is room for.
 
@@ -114,14 +114,14 @@ def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
         }
         for plane in ("in_plane", "out_of_plane")
     )
-    found = []
+    choices = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
             off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in body.pulls}
             precessing = {
                 name: precessing_of_tensor(*pair, body.obliquity) for name, pair in off.items()
             }
-            found.append(
+            choices.append(
                 Choice(
                     words=f"sin4 taper over {turns} cycles, a sample each {days} d",
                     settings=Averaging(
@@ -134,4 +134,4 @@ def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
                     evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
                 )
             )
-    return found
+    return choices

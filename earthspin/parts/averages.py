@@ -15,7 +15,7 @@ from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
-from earthspin.parts.elements import exact_means, no_exact_means, ways
+from earthspin.parts.elements import exact_means, no_exact_means, routes
 from earthspin.parts.sky import Sky, Stretch
 
 if TYPE_CHECKING:
@@ -266,7 +266,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    found = ways(body, perturbers)
+    found = routes(body, perturbers)
     torques, errors, nearness = [], [], []
     for one in perturbers:
         ((ellipse, _),) = found[one.name].ellipses

@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
-from earthspin.units import Plain, real_numbers
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from earthspin.units import FloatArray, Plain, real_numbers
 
 #: Word for what a scene cannot hold.
 _LIVE = "live"
@@ -38,7 +36,7 @@ class OwnTorque:
 
     @classmethod
     def read(cls, given: object, where: Where) -> OwnTorque:
-        """Take a function; whether it gives a torque shows when it is called."""
+        """Read a function; its values are checked when it is called."""
         if isinstance(given, OwnTorque):
             return given
         if isinstance(given, Mapping) and _LIVE in given:
@@ -50,14 +48,14 @@ class OwnTorque:
         return cls(given)
 
     def write(self) -> Plain:
-        """Say which function it was."""
+        """Name the function."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
         return {_LIVE: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """The same over C, checked whenever it is called.
+        """Torque divided by C, checked whenever it is called.
 
         Parameters
         ----------
@@ -70,12 +68,12 @@ class OwnTorque:
             If it fails, or gives something else than a finite torque for each time.
         """
 
-        def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
+        def law(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
             try:
-                given: Any = self.law(times, q, omega)
-                if hasattr(given, "to_value"):  # a Quantity
-                    given = given.to_value("N m")
-                found = np.broadcast_to(real_numbers(given), omega.shape)
+                torque: Any = self.law(times, q, omega)
+                if hasattr(torque, "to_value"):  # a Quantity
+                    torque = torque.to_value("N m")
+                values = np.broadcast_to(real_numbers(torque), omega.shape)
             except EarthspinError:
                 raise
             except Exception as error:  # whatever somebody's function meets
@@ -85,12 +83,13 @@ class OwnTorque:
                     f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
                     f"({times.size}, 3) and gives N m of the last shape"
                 ) from None
-            if not np.isfinite(found).all():
+            finite = np.isfinite(values).all(axis=1)
+            if not finite.all():
                 raise UndefinedError(
                     "the torque of your own is not finite "
-                    f"{float(times[~np.isfinite(found).all(axis=1)][0]):.6g} s from the "
+                    f"{float(times[~finite][0]):.6g} s from the "
                     "start; give N m for each time"
                 )
-            return np.asarray(found / polar_moment)
+            return np.asarray(values / polar_moment)
 
-        return torque
+        return law

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +16,14 @@ from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import Where
+from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
+from earthspin.motion.forces import Figure, Forces
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
+from earthspin.sky.protocol import Place
 from earthspin.units import Plain, Several, Word
-
-if TYPE_CHECKING:
-    from earthspin.motion.forces import Figure, Forces
-    from earthspin.sky.protocol import Place
 
 
 class EffectWord:
@@ -126,8 +125,6 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Forces with some effects switched on and no other evaluated."""
-    from earthspin.motion.forces import Forces
-
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
         gm={name: pulls.gm[name] for name in pulls.near},
@@ -143,9 +140,6 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
     """The numbers of a body that its motion depends on, effects aside."""
-    from earthspin.mass.inertia import inverse_polar_moment
-    from earthspin.motion.forces import Figure
-
     h = body.number("dynamical_flattening")
     return Figure(
         h=h,

@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
@@ -20,7 +19,10 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import Way, all_by_elements, ways
+from earthspin.parts.elements import Route, all_by_elements, routes
+from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements, Ellipse
+from earthspin.sky.equator import rotate, spherical
+from earthspin.sky.poles import Pole
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -31,13 +33,10 @@ from earthspin.sky.sources import (
     open_source,
     place_of,
 )
+from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
-    from earthspin.sky.elements import Ellipse
     from earthspin.sky.iau import Nutation
-    from earthspin.sky.poles import Pole
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ class Pulled(Question):
     many_pulls: ClassVar[bool] = False
 
     def check(self) -> None:
-        """A body with a mass, and others that pull on it, each once."""
+        """Require a body with a mass, and others that pull on it, each once."""
         if "perturbers" not in self.given:
             object.__setattr__(self, "perturbers", pulled_by(self.body))
             object.__setattr__(self, "body", on_its_orbit(self.body))
@@ -109,30 +108,30 @@ class Pulled(Question):
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
-        for one in self.perturbers:
-            if one.labelled_field is not None and not (
-                self.many_pulls and one.labelled_field == "gm"
-            ):
+        for perturber in self.perturbers:
+            labelled = perturber.labelled_field
+            if labelled is not None and not (self.many_pulls and labelled == "gm"):
                 raise self.error(
-                    f"perturbers.{one.name}.{one.labelled_field}",
+                    f"perturbers.{perturber.name}.{labelled}",
                     "an array",
                     "what pulls is one body: one number each; ask again for every other",
                 )
-            if names.count(one.name) > 1:
-                raise self.error("perturbers", names, f"'{one.name}' is named twice")
+            if names.count(perturber.name) > 1:
+                raise self.error("perturbers", names, f"'{perturber.name}' is named twice")
         if "total" in names:
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for one in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)
-            if getattr(self, "accuracy", None) is not None and of_unknown_error:
+        accuracy = getattr(self, "accuracy", None)
+        for member in (self.body, *self.perturbers):
+            of_unknown_error = unmeasured(member) or (mixed and member.orbit is not None)
+            if accuracy is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
-                    getattr(self, "accuracy", None),
-                    f"how far off the positions of '{one.name}' are was never measured, so none "
+                    accuracy,
+                    f"how far off the positions of '{member.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
 
@@ -178,8 +177,6 @@ class Address(NamedTuple):
 
     def by_elements(self, centre: int) -> Place:
         """Where ellipses put it, from a NAIF code on."""
-        from earthspin.sky.elements import ByElements
-
         return ByElements(self.ellipses, centre)
 
 
@@ -233,8 +230,9 @@ class Sky:
             for name, place in self.targets.items()
             if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
-        told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
-        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
+        listed = "; ".join(f"{name}: {text}" for name, text in own.items())
+        positions = {"own_positions": listed} if own else {}
+        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | positions
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """How far a body may be from where it is seen, at the worst of some days: rad and m."""
@@ -296,10 +294,10 @@ class Sky:
             If a perturber overlaps the body: torques on the bulge hold outside alone.
         """
         targets = self.targets if targets is None else targets
-        found = self.source.positions(targets, self.centre, days)
-        for name, place in found.items():
+        positions = self.source.positions(targets, self.centre, days)
+        for name, place in positions.items():
             self._refuse_inside(name, np.einsum("ti,ti->t", place, place))
-        return found
+        return positions
 
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
         """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
@@ -335,8 +333,6 @@ class Sky:
         nutation : Nutation, optional
             Interpolated nutation, for the fast reader.
         """
-        from earthspin.sky.equator import rotate, spherical
-
         pole: Pole = body.needed("pole")
 
         def equator(days: FloatArray) -> FloatArray:
@@ -348,10 +344,10 @@ class Sky:
             targets = self.targets if targets is None else targets
             earths = true_equator if true else None
             frame = earths if pole.of_the_iau else equator
-            seen = self.source.radec(targets, self.centre, days, frame)
-            for name, (_, _, distance) in seen.items():
+            coordinates = self.source.radec(targets, self.centre, days, frame)
+            for name, (_, _, distance) in coordinates.items():
                 self._refuse_inside(name, distance * distance)
-            return seen
+            return coordinates
         axes = equator(days)
         positions = self.positions(days, targets)
         return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
@@ -376,28 +372,28 @@ def address(body: Body) -> Address:
     return Address(body.name, body.naif, body.position)
 
 
-def _address_by_way(body: Body, way: Way | None) -> Address:
-    """How a body is known to a source, or where ellipses to it begin."""
-    if way is None:
+def _address_by_route(body: Body, route: Route | None) -> Address:
+    """Name and codes of a body in a source, or of the start of the ellipses to it."""
+    if route is None:
         return address(body)
-    start = way.start
+    start = route.start
     if start.position is not None:
         raise SceneError(
             f"{body.name}.orbit",
             str(body.orbit),
             f"'{start.name}' has no NAIF code, but a position",
         )
-    return Address(body.name, start.naif, None, way.ellipses)
+    return Address(body.name, start.naif, None, route.ellipses)
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    found = ways(body, perturbers)
+    by_name = routes(body, perturbers)
     return Places(
         address(body),
-        tuple(_address_by_way(one, found.get(one.name)) for one in perturbers),
-        {one.name: extent(body) + extent(one) for one in perturbers},
+        tuple(_address_by_route(p, by_name.get(p.name)) for p in perturbers),
+        {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -406,27 +402,25 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Say which source the positions come from."""
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
-    told = [f"positions {describe_source(source, ephemeris)}"]
-    told += [f"{name} by the elements of its orbit" for name in ways(body, perturbers)]
-    told += [
-        f"{one.name} by {describe_position(one.position)}"
-        for one in (body, *perturbers)
-        if one.position is not None
+    sentences = [f"positions {describe_source(source, ephemeris)}"]
+    sentences += [f"{name} by the elements of its orbit" for name in routes(body, perturbers)]
+    sentences += [
+        f"{member.name} by {describe_position(member.position)}"
+        for member in (body, *perturbers)
+        if member.position is not None
     ]
-    return "; ".join(told)
+    return "; ".join(sentences)
 
 
 @part(tells=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:
-        from earthspin.sky.elements import CENTRE, Elements
-
-        ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
+        ellipses = {target.name: target.by_elements(CENTRE) for target in places.targets}
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
     centre = places.centre.in_source(opened)
-    targets = {one.name: one.in_source(opened) for one in places.targets}
+    targets = {target.name: target.in_source(opened) for target in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
@@ -436,8 +430,6 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
     """The span asked for, if the source covers it, or all that the source covers."""
-    from earthspin.sky.elements import USUAL_REACH, Elements
-
     if span is not None:
         sky.check_times(span.days)
         return Stretch(*span.days)
