@@ -1,4 +1,4 @@
-"""Routes by ellipses to bodies that are placed by the elements of their orbits."""
+"""Chains of ellipses to bodies that are placed by the elements of their orbits."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from earthspin.sky.elements import Ellipse, Plane
 THIRD_LAW = 0.01
 
 
-class Route(NamedTuple):
+class EllipseChain(NamedTuple):
     """Ellipses that lead to a body.
 
     Attributes
@@ -31,8 +31,8 @@ class Route(NamedTuple):
     ellipses: tuple[tuple[Ellipse, int], ...]
 
 
-def routes(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Route]:
-    """Routes to each perturber that elements place, by its name.
+def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
+    """Chains of ellipses to each perturber that elements place, by its name.
 
     They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
     without elements.
@@ -56,18 +56,18 @@ def routes(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Route]:
     for name, about in centres.items():
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
-    by_name: dict[str, Route] = {}
+    chains: dict[str, EllipseChain] = {}
 
-    def follow(name: str, route: Route) -> None:
-        by_name[name] = route
+    def follow(name: str, chain: EllipseChain) -> None:
+        chains[name] = chain
         for neighbour, link in links[name].items():
-            if neighbour not in by_name:
-                follow(neighbour, Route(route.start, (*route.ellipses, link)))
+            if neighbour not in chains:
+                follow(neighbour, EllipseChain(chain.start, (*chain.ellipses, link)))
 
     for start in (body, *(member for member in perturbers if member.orbit is None)):
-        if start.name not in by_name:
-            follow(start.name, Route(start, ()))
-    return {name: route for name, route in by_name.items() if route.ellipses}
+        if start.name not in chains:
+            follow(start.name, EllipseChain(start, ()))
+    return {name: chain for name, chain in chains.items() if chain.ellipses}
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
@@ -185,17 +185,17 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
     if not _some_orbit(body, perturbers):
         return False
-    by_name = routes(body, perturbers)
-    return all(p.name in by_name and by_name[p.name].start is body for p in perturbers)
+    chains = ellipse_chains(body, perturbers)
+    return all(p.name in chains and chains[p.name].start is body for p in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
     if not _some_orbit(body, perturbers):
         return None
-    by_name = routes(body, perturbers)
-    single = len(by_name) == len(perturbers) and all(
-        route.start is body and len(route.ellipses) == 1 for route in by_name.values()
+    chains = ellipse_chains(body, perturbers)
+    single = len(chains) == len(perturbers) and all(
+        chain.start is body and len(chain.ellipses) == 1 for chain in chains.values()
     )
     return "orbits by their elements have exact means" if single else None
 

@@ -19,7 +19,7 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import Route, all_by_elements, routes
+from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements, Ellipse
 from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.poles import Pole
@@ -372,27 +372,27 @@ def address(body: Body) -> Address:
     return Address(body.name, body.naif, body.position)
 
 
-def _address_by_route(body: Body, route: Route | None) -> Address:
+def _address_by_chain(body: Body, chain: EllipseChain | None) -> Address:
     """Name and codes of a body in a source, or of the start of the ellipses to it."""
-    if route is None:
+    if chain is None:
         return address(body)
-    start = route.start
+    start = chain.start
     if start.position is not None:
         raise SceneError(
             f"{body.name}.orbit",
             str(body.orbit),
             f"'{start.name}' has no NAIF code, but a position",
         )
-    return Address(body.name, start.naif, None, route.ellipses)
+    return Address(body.name, start.naif, None, chain.ellipses)
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    by_name = routes(body, perturbers)
+    chains = ellipse_chains(body, perturbers)
     return Places(
         address(body),
-        tuple(_address_by_route(p, by_name.get(p.name)) for p in perturbers),
+        tuple(_address_by_chain(p, chains.get(p.name)) for p in perturbers),
         {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
     )
@@ -403,7 +403,9 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
     sentences = [f"positions {describe_source(source, ephemeris)}"]
-    sentences += [f"{name} by the elements of its orbit" for name in routes(body, perturbers)]
+    sentences += [
+        f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)
+    ]
     sentences += [
         f"{member.name} by {describe_position(member.position)}"
         for member in (body, *perturbers)
