@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ENDS = ("start", "stop")
 
 
-def ask(question: type[Question]) -> Callable[..., xr.Dataset]:
+def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     """Make the public call of a question: its keys are the arguments.
 
     Parameters

@@ -1,10 +1,10 @@
 """A question asked for many members: drawn, checked, made in blocks, laid along `member`.
 
-A question whose physics is arrays through and through says so (`made_of`, `together`); its members
-are computed side by side, and every other question member by member. Side by side, members stand in
-rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS) then
-rounds them alike, however many members there are, and a member is the same bits alone. Members that
-differ in words stand side by side with those of the same words.
+A question whose physics takes arrays throughout says so (`define_parts`, `together`); its members
+are computed side by side, and those of every other question one by one. Side by side, members stand
+in rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS)
+then rounds them alike, however many members there are, and a member is the same bits alone. Members
+that differ in words stand side by side with those of the same words.
 """
 
 from __future__ import annotations

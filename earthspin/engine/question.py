@@ -309,7 +309,7 @@ class Question:
         Parameters
         ----------
         **several
-            As the parts of a question take them that says so (`made_of`, `together`).
+            As the parts of a question take them that says so (`define_parts`, `together`).
         """
         kept = {name: getattr(self, name) for name in self.given} | several
         made = type(self).__new__(type(self))
@@ -401,7 +401,7 @@ class Graph:
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]
 
 
-def made_of(
+def define_parts(
     question: type[Question],
     *,
     answer: Parts,

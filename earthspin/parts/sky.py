@@ -71,7 +71,7 @@ SOURCE_DOC = (
 )
 
 
-class Pulled(Question):
+class PerturbedBody(Question):
     """Keys of every question about a body that others pull on."""
 
     body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
