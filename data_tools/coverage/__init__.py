@@ -13,6 +13,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 #: Topics, each a module of this package.
 TOPICS: tuple[str, ...] = ("pole", "long_term", "worlds", "chandler", "rotation")
 FOLDER = Path(__file__).parents[2] / "docs" / "measured"
@@ -43,6 +46,15 @@ class Row:
     ratio: float
     inside: float
     count: int
+
+    @classmethod
+    def comparing(
+        cls, quantity: str, span: str, counterpart: str, differences: ArrayLike, errors: ArrayLike
+    ) -> Row:
+        """Compare differences with the claimed half-widths."""
+        ratio = np.abs(differences) / np.asarray(errors)
+        inside = float(np.mean(ratio <= 1))
+        return cls(quantity, span, counterpart, float(ratio.max()), inside, ratio.size)
 
     def line(self) -> str:
         """Return the row as a line of a Markdown table."""
