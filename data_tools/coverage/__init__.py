@@ -74,9 +74,9 @@ def table(rows: Iterable[Row]) -> str:
     return HEAD + "".join(row.line() for row in rows)
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Measure all topics, or the one that was named, and write their tables."""
-    for topic in (given.only,) if given.only else TOPICS:
+    for topic in (arguments.only,) if arguments.only else TOPICS:
         rows = importlib.import_module(f"data_tools.coverage.{topic}").rows()
         path = FOLDER / f"coverage-{topic.replace('_', '-')}.inc"
         path.write_text(table(rows), encoding="utf-8")
