@@ -260,21 +260,21 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    found = ellipse_chains(body, perturbers)
+    chains = ellipse_chains(body, perturbers)
     torques, errors, nearness = [], [], []
-    for one in perturbers:
-        ((ellipse, _),) = found[one.name].ellipses
+    for perturber in perturbers:
+        ((ellipse, _),) = chains[perturber.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
         for spin_rate in np.ravel(body.spin_rate):
             turns = locking.locked_turns(float(spin_rate), forward)
             if turns is not None:
-                raise _locked(body, one.name, turns)
+                raise _locked(body, perturber.name, turns)
         square = (
             mean_orbit.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate
             else mean_orbit.square_of_normal(ellipse.normal)
         )
-        tide = mean_orbit.mean_tide(float(one.gm), ellipse.a, ellipse.e, square)
+        tide = mean_orbit.mean_tide(float(perturber.gm), ellipse.a, ellipse.e, square)
         torques.append(mean_orbit.mean_torque(tide, axis))
         errors.append(mean_orbit.rounding(tide))
         nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
@@ -282,7 +282,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     error = average.with_total(np.array(errors)[np.newaxis])[0]
     obliquity = angle(axis, normal)
     return MeanTorques(
-        labels=[one.name for one in perturbers] + ["total"] * (len(perturbers) > 1),
+        labels=[perturber.name for perturber in perturbers] + ["total"] * (len(perturbers) > 1),
         precessing=average.precessing_torque(vectors, axis, normal),
         precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
         torque=vectors @ equator.T,
@@ -302,9 +302,9 @@ def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
     """Means of the torque per unit of C - A: exact ones if there are, else over windows."""
-    found = orbit_means if window_means is None else window_means
-    assert found is not None  # a plan that has neither leaves this part out
-    return found
+    means = orbit_means if window_means is None else window_means
+    assert means is not None  # a plan that has neither leaves this part out
+    return means
 
 
 @dataclass(frozen=True)
@@ -401,8 +401,8 @@ def _shares(
 ) -> tuple[Numeric, Numeric]:
     """Rate of precession over the mean motions of what pulls, and over the spin."""
     by_orbit = sum(
-        abs(of_one(rate, place)) / ((body.gm + one.gm) * near) ** 0.5
-        for place, (one, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+        abs(of_one(rate, place)) / ((body.gm + perturber.gm) * near) ** 0.5
+        for place, (perturber, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
     return by_orbit, abs(of_all(rate) / body.spin_rate)
 

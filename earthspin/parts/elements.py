@@ -48,11 +48,11 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
     UndefinedError
         If the body has no such plane as the elements are counted from.
     """
-    known = {one.name: one for one in (body, *perturbers)}
+    known = {other.name: other for other in (body, *perturbers)}
     centres = {
-        one.name: centre
-        for one in known.values()
-        if one.orbit is not None and (centre := _centre(one, body, known))
+        other.name: centre
+        for other in known.values()
+        if other.orbit is not None and (centre := _centre(other, body, known))
     }
     _refuse_circles(centres)
     links: dict[str, dict[str, tuple[Ellipse, int]]] = {name: {} for name in known}
@@ -60,7 +60,7 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
     chains: dict[str, EllipseChain] = {}
-    for start in (body, *(one for one in perturbers if one.orbit is None)):
+    for start in (body, *(other for other in perturbers if other.orbit is None)):
         if start.name not in chains:
             _walk(start, start.name, (), links, chains)
     return {name: chain for name, chain in chains.items() if chain.ellipses}
@@ -114,24 +114,24 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
     """Elements in SI, with the plane that they are counted from."""
-    given = one.orbit
-    assert given is not None
+    orbit = one.orbit
+    assert orbit is not None
     a, motion = size_and_motion(one, centre)
     refuse_overlap(one, centre, a)
-    node = 0.0 if given.node_period is None else 2 * math.pi / given.node_period
-    turn = 0.0 if given.pericentre_period is None else 2 * math.pi / given.pericentre_period
+    node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
+    turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
     return Ellipse(
         a=a,
-        e=given.e,
-        i=given.i,
-        node=given.node,
-        pericentre=given.pericentre,
-        mean_anomaly=given.mean_anomaly,
-        epoch=given.epoch,
+        e=orbit.e,
+        i=orbit.i,
+        node=orbit.node,
+        pericentre=orbit.pericentre,
+        mean_anomaly=orbit.mean_anomaly,
+        epoch=orbit.epoch,
         motion=motion - node - turn,
         node_rate=node,
         pericentre_rate=turn,
-        plane=Plane.of(given.plane, body.pole, body.orbit_pole),
+        plane=Plane.of(orbit.plane, body.pole, body.orbit_pole),
     )
 
 
@@ -151,19 +151,19 @@ def refuse_overlap(one: Body, centre: Body, a: float, advice: str = "") -> None:
 
 def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
     """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law."""
-    given = one.orbit
-    assert given is not None
-    a, period = given.a, given.period
+    orbit = one.orbit
+    assert orbit is not None
+    a, period = orbit.a, orbit.period
     if hasattr(one.gm, "dims") or hasattr(centre.gm, "dims"):
         if a is None or period is None:
             raise SceneError(
-                f"{one.name}.orbit", str(given), "masses are an array here: give both a and period"
+                f"{one.name}.orbit", str(orbit), "masses are an array here: give both a and period"
             )
         return a, 2 * math.pi / period
     gm = float(one.gm + centre.gm)
     if not gm > 0:
         if a is None or period is None:
-            raise SceneError(f"{one.name}.orbit", str(given), "nothing here has a mass")
+            raise SceneError(f"{one.name}.orbit", str(orbit), "nothing here has a mass")
         return a, 2 * math.pi / period
     if a is None:
         assert period is not None
@@ -183,15 +183,15 @@ def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
-    if not any(one.orbit is not None for one in (body, *perturbers)):
+    if not any(other.orbit is not None for other in (body, *perturbers)):
         return False
     chains = ellipse_chains(body, perturbers)
-    return all(one.name in chains and chains[one.name].start is body for one in perturbers)
+    return all(other.name in chains and chains[other.name].start is body for other in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
-    if not any(one.orbit is not None for one in (body, *perturbers)):
+    if not any(other.orbit is not None for other in (body, *perturbers)):
         return None
     chains = ellipse_chains(body, perturbers)
     single = len(chains) == len(perturbers) and all(

@@ -34,7 +34,7 @@ class SideBySide:
     @classmethod
     def of(cls, **given: Any) -> Self:
         """Lay numbers and labelled arrays against one another."""
-        arrays = {name: one for name, one in given.items() if hasattr(one, "dims")}
+        arrays = {name: number for name, number in given.items() if hasattr(number, "dims")}
         if not arrays:
             return cls(given)
         import xarray as xr
@@ -42,8 +42,8 @@ class SideBySide:
         laid = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
         first = next(iter(laid.values()))
         numbers = {
-            name: np.broadcast_to(laid[name].values if name in laid else one, first.shape)
-            for name, one in given.items()
+            name: np.broadcast_to(laid[name].values if name in laid else number, first.shape)
+            for name, number in given.items()
         }
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 

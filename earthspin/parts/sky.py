@@ -111,30 +111,30 @@ class PerturbedBody(Question):
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
-        for one in self.perturbers:
-            if one.labelled_field is not None and not (
-                self.many_pulls and one.labelled_field == "gm"
+        for other in self.perturbers:
+            if other.labelled_field is not None and not (
+                self.many_pulls and other.labelled_field == "gm"
             ):
                 raise self.error(
-                    f"perturbers.{one.name}.{one.labelled_field}",
+                    f"perturbers.{other.name}.{other.labelled_field}",
                     "an array",
                     "what pulls is one body: one number each; ask again for every other",
                 )
-            if names.count(one.name) > 1:
-                raise self.error("perturbers", names, f"'{one.name}' is named twice")
+            if names.count(other.name) > 1:
+                raise self.error("perturbers", names, f"'{other.name}' is named twice")
         if "total" in names:
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for one in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)
+        for other in (self.body, *self.perturbers):
+            of_unknown_error = unmeasured(other) or (mixed and other.orbit is not None)
             if getattr(self, "accuracy", None) is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
                     getattr(self, "accuracy", None),
-                    f"how far off the positions of '{one.name}' are was never measured, so none "
+                    f"how far off the positions of '{other.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
 
@@ -233,8 +233,10 @@ class Sky:
             for name, place in self.targets.items()
             if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
-        told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
-        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
+        attributes = (
+            {"own_positions": "; ".join(f"{n}: {text}" for n, text in own.items())} if own else {}
+        )
+        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """How far a body may be from where it is seen, at the worst of some days: rad and m."""
@@ -296,10 +298,10 @@ class Sky:
             If a perturber overlaps the body: torques on the bulge hold outside alone.
         """
         targets = self.targets if targets is None else targets
-        found = self.source.positions(targets, self.centre, days)
-        for name, place in found.items():
+        positions = self.source.positions(targets, self.centre, days)
+        for name, place in positions.items():
             self._refuse_inside(name, np.einsum("ti,ti->t", place, place))
-        return found
+        return positions
 
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
         """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
@@ -394,8 +396,8 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     chains = ellipse_chains(body, perturbers)
     return Places(
         address(body),
-        tuple(_address_by_chain(one, chains.get(one.name)) for one in perturbers),
-        {one.name: extent(body) + extent(one) for one in perturbers},
+        tuple(_address_by_chain(perturber, chains.get(perturber.name)) for perturber in perturbers),
+        {perturber.name: extent(body) + extent(perturber) for perturber in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -404,25 +406,25 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Say which source the positions come from."""
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
-    told = [f"positions {describe_source(source, ephemeris)}"]
-    told += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
-    told += [
-        f"{one.name} by {describe_position(one.position)}"
-        for one in (body, *perturbers)
-        if one.position is not None
+    sources = [f"positions {describe_source(source, ephemeris)}"]
+    sources += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
+    sources += [
+        f"{other.name} by {describe_position(other.position)}"
+        for other in (body, *perturbers)
+        if other.position is not None
     ]
-    return "; ".join(told)
+    return "; ".join(sources)
 
 
 @part(tells=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:
-        ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
+        ellipses = {target.name: target.by_elements(CENTRE) for target in places.targets}
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
     centre = places.centre.in_source(opened)
-    targets = {one.name: one.in_source(opened) for one in places.targets}
+    targets = {target.name: target.in_source(opened) for target in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
