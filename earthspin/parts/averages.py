@@ -282,7 +282,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     error = average.with_total(np.array(errors)[np.newaxis])[0]
     obliquity = angle(axis, normal)
     return MeanTorques(
-        labels=[p.name for p in perturbers] + ["total"] * (len(perturbers) > 1),
+        labels=[perturber.name for perturber in perturbers] + ["total"] * (len(perturbers) > 1),
         precessing=average.precessing_torque(vectors, axis, normal),
         precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
         torque=vectors @ equator.T,
@@ -401,8 +401,8 @@ def _shares(
 ) -> tuple[Numeric, Numeric]:
     """Rate of precession over the mean motions of what pulls, and over the spin."""
     by_orbit = sum(
-        abs(of_one(rate, place)) / ((body.gm + p.gm) * near) ** 0.5
-        for place, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+        abs(of_one(rate, place)) / ((body.gm + perturber.gm) * near) ** 0.5
+        for place, (perturber, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
     return by_orbit, abs(of_all(rate) / body.spin_rate)
 

@@ -1,15 +1,18 @@
-"""Chains of ellipses to bodies that are placed by the elements of their orbits."""
+"""Bodies that are placed by the elements of their orbits: which ellipses lead to each."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from earthspin.bodies import Body
 from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
+
+if TYPE_CHECKING:
+    from earthspin.sky.elements import Ellipse
 
 #: How far half the long axis and the period of one orbit may be from Kepler's third law, relative:
 #: the Sun makes the Moon's month 0.3 per cent longer than its mean distance says.
@@ -17,14 +20,14 @@ THIRD_LAW = 0.01
 
 
 class EllipseChain(NamedTuple):
-    """Ellipses that lead to a body.
+    """How one comes to a body by ellipses.
 
     Attributes
     ----------
     start : Body
         Where the first ellipse begins.
     ellipses : tuple of (Ellipse, int)
-        One after the other; the number is -1 where an ellipse is subtracted.
+        One after the other; the number is -1 where one goes an ellipse back.
     """
 
     start: Body
@@ -32,7 +35,7 @@ class EllipseChain(NamedTuple):
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Chains of ellipses to each perturber that elements place, by its name.
+    """Ways to each perturber that elements place, by its name.
 
     They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
     without elements.
@@ -45,11 +48,11 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
     UndefinedError
         If the body has no such plane as the elements are counted from.
     """
-    known = {member.name: member for member in (body, *perturbers)}
+    known = {other.name: other for other in (body, *perturbers)}
     centres = {
-        name: centre
-        for name, member in known.items()
-        if member.orbit is not None and (centre := _centre(member, body, known))
+        other.name: centre
+        for other in known.values()
+        if other.orbit is not None and (centre := _centre(other, body, known))
     }
     _refuse_circles(centres)
     links: dict[str, dict[str, tuple[Ellipse, int]]] = {name: {} for name in known}
@@ -57,33 +60,40 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
     chains: dict[str, EllipseChain] = {}
-
-    def follow(name: str, chain: EllipseChain) -> None:
-        chains[name] = chain
-        for neighbour, link in links[name].items():
-            if neighbour not in chains:
-                follow(neighbour, EllipseChain(chain.start, (*chain.ellipses, link)))
-
-    for start in (body, *(member for member in perturbers if member.orbit is None)):
+    for start in (body, *(other for other in perturbers if other.orbit is None)):
         if start.name not in chains:
-            follow(start.name, EllipseChain(start, ()))
+            _walk(start, start.name, (), links, chains)
     return {name: chain for name, chain in chains.items() if chain.ellipses}
 
 
-def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of the body that an orbit is about; empty if the orbit places nothing that pulls."""
-    assert member.orbit is not None
-    about = member.orbit.about
+def _walk(
+    start: Body,
+    at: str,
+    so_far: tuple[tuple[Ellipse, int], ...],
+    links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
+    chains: dict[str, EllipseChain],
+) -> None:
+    """Note the chain to a body, and go on to its neighbours."""
+    chains[at] = EllipseChain(start, so_far)
+    for name, step in links[at].items():
+        if name not in chains:
+            _walk(start, name, (*so_far, step), links, chains)
+
+
+def _centre(one: Body, body: Body, known: Mapping[str, Body]) -> str:
+    """Name of what a body goes round; empty if its orbit places nothing that pulls."""
+    assert one.orbit is not None
+    about = one.orbit.about
     if about:
-        if about not in known or about == member.name:
-            others = [name for name in known if name != member.name]
-            raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
+        if about not in known or about == one.name:
+            others = [name for name in known if name != one.name]
+            raise SceneError(f"{one.name}.orbit.about", about, nearest(about, others))
         return about
-    if member is not body:
+    if one is not body:
         return body.name
     left = [name for name, other in known.items() if other.orbit is None and other is not body]
     if len(left) > 1:
-        raise SceneError(f"{member.name}.orbit.about", "", f"say which it is: {', '.join(left)}")
+        raise SceneError(f"{one.name}.orbit.about", "", f"say which it is: {', '.join(left)}")
     return left[0] if left else ""
 
 
@@ -102,12 +112,12 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
             seen.append(at)
 
 
-def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
+def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
     """Elements in SI, with the plane that they are counted from."""
-    orbit = member.orbit
+    orbit = one.orbit
     assert orbit is not None
-    a, motion = size_and_motion(member, centre)
-    refuse_overlap(member, centre, a)
+    a, motion = size_and_motion(one, centre)
+    refuse_overlap(one, centre, a)
     node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
     turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
     return Ellipse(
@@ -125,73 +135,63 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     )
 
 
-def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
+def refuse_overlap(one: Body, centre: Body, a: float, advice: str = "") -> None:
     """Refuse an orbit of half the long axis `a` (m) whose pericentre lies inside a body.
 
     Raises
     ------
     SceneError
     """
-    assert member.orbit is not None
-    reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
-    if inside := overlap(a * (1 - member.orbit.e), reach, *names):
-        shown = f"a = {a:.6g} m, e = {member.orbit.e:g}"
-        raise SceneError(f"{member.name}.orbit", shown, f"{inside}{advice}")
+    assert one.orbit is not None
+    reach, names = extent(one) + extent(centre), (f"'{one.name}'", f"'{centre.name}'")
+    if inside := overlap(a * (1 - one.orbit.e), reach, *names):
+        shown = f"a = {a:.6g} m, e = {one.orbit.e:g}"
+        raise SceneError(f"{one.name}.orbit", shown, f"{inside}{advice}")
 
 
-def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
-    """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law.
-
-    Raises
-    ------
-    SceneError
-        If size and period contradict each other, or one is missing and the masses do not give it.
-    """
-    orbit = member.orbit
+def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
+    """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law."""
+    orbit = one.orbit
     assert orbit is not None
     a, period = orbit.a, orbit.period
-    gm = member.gm + centre.gm
-    many = hasattr(gm, "dims")
-    if many or not gm > 0:
+    if hasattr(one.gm, "dims") or hasattr(centre.gm, "dims"):
         if a is None or period is None:
-            problem = (
-                "masses are an array here: give both a and period"
-                if many
-                else "nothing here has a mass"
-            )
-            raise SceneError(f"{member.name}.orbit", str(orbit), problem)
-    elif a is None:
-        assert period is not None
-        a = math.cbrt(float(gm) * (period / (2 * math.pi)) ** 2)
-    else:
-        by_law = 2 * math.pi * math.sqrt(a / float(gm)) * a
-        period = by_law if period is None else period
-        if abs(period / by_law - 1) > THIRD_LAW:
             raise SceneError(
-                f"{member.name}.orbit",
-                f"a = {a:.6g} m, period = {period:.6g} s",
-                f"they contradict each other: about {float(gm):.6g} m3 s-2 this a has a period of "
-                f"{by_law:.6g} s; give one of the two",
+                f"{one.name}.orbit", str(orbit), "masses are an array here: give both a and period"
             )
+        return a, 2 * math.pi / period
+    gm = float(one.gm + centre.gm)
+    if not gm > 0:
+        if a is None or period is None:
+            raise SceneError(f"{one.name}.orbit", str(orbit), "nothing here has a mass")
+        return a, 2 * math.pi / period
+    if a is None:
+        assert period is not None
+        return math.cbrt(gm * (period / (2 * math.pi)) ** 2), 2 * math.pi / period
+    by_law = 2 * math.pi * math.sqrt(a / gm) * a
+    if period is None:
+        return a, 2 * math.pi / by_law
+    if abs(period / by_law - 1) > THIRD_LAW:
+        raise SceneError(
+            f"{one.name}.orbit",
+            f"a = {a:.6g} m, period = {period:.6g} s",
+            f"they contradict each other: about {gm:.6g} m3 s-2 this a has a period of "
+            f"{by_law:.6g} s; give one of the two",
+        )
     return a, 2 * math.pi / period
-
-
-def _some_orbit(body: Body, perturbers: tuple[Body, ...]) -> bool:
-    """Whether the orbit of any body is given by elements."""
-    return any(member.orbit is not None for member in (body, *perturbers))
 
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
-    if not _some_orbit(body, perturbers):
+    if not any(other.orbit is not None for other in (body, *perturbers)):
         return False
     chains = ellipse_chains(body, perturbers)
-    return all(p.name in chains and chains[p.name].start is body for p in perturbers)
+    return all(other.name in chains and chains[other.name].start is body for other in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
-    if not _some_orbit(body, perturbers):
+    if not any(other.orbit is not None for other in (body, *perturbers)):
         return None
     chains = ellipse_chains(body, perturbers)
     single = len(chains) == len(perturbers) and all(

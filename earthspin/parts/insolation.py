@@ -92,11 +92,11 @@ def daily_insolation(
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
     phi = _angle(latitude, "latitude", np.pi / 2)
     sun = _angle(solar_longitude, "solar_longitude", _TURN)
-    insolation = partial(
+    evaluate = partial(
         _insolation, latitude=phi, longitude=sun, true=true_longitude, share=_share(days, body)
     )
     middle = [si(result[name]) for name in _NEEDED]
-    value = insolation(*middle)
+    value = evaluate(*middle)
     squares = xr.zeros_like(value)
     for place, name in enumerate(_NEEDED):
         half = si(result[f"{name}_error"])
@@ -104,7 +104,7 @@ def daily_insolation(
         def moved(by: Numeric, place: int = place, half: xr.DataArray = half) -> xr.DataArray:
             changed = list(middle)
             changed[place] = changed[place] + by * half
-            return insolation(*changed)
+            return evaluate(*changed)
 
         share = (moved(1) - moved(-1)) / 2
         if name == _TURNING and bool((half > SAMPLED_FROM).any()):
@@ -113,16 +113,16 @@ def daily_insolation(
     constant = _constant(solar_constant, body)
     error: xr.DataArray = constant * squares**0.5
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    sunlight = (constant * value).rename("daily_insolation")
+    daily = (constant * value).rename("daily_insolation")
     kind = "true" if true_longitude else "mean"
-    sunlight.attrs = {
+    daily.attrs = {
         "units": "W m-2",
         "long_name": "sunlight at the top of the atmosphere, mean over a day",
         "solar_constant": constant,
         "comment": f"{kind} longitude of the Sun from the moving equinox",
         "references": "Berger 1978, J. Atmos. Sci. 35, 2362",
     }
-    return sunlight.assign_coords(daily_insolation_error=error)
+    return daily.assign_coords(daily_insolation_error=error)
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
@@ -145,25 +145,25 @@ def _insolation(
 ) -> xr.DataArray:
     """As a share of the solar constant; plain arithmetic on labelled arrays."""
     arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
-    eps, e, w, phi, sun = (array.values for array in arrays)
+    eps, e, w, phi, sun = (number.values for number in arrays)
     season = Season(eps, e, w)
     sun = sun if true else true_longitude(season, sun)
-    mean = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
-    return arrays[0].copy(data=mean)
+    values = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
+    return arrays[0].copy(data=values)
 
 
-def _angle(angle: Any, name: str, most: float) -> xr.DataArray:
+def _angle(given: Any, name: str, most: float) -> xr.DataArray:
     """An angle, rad, labelled in degrees along a dimension of its name if there are several."""
     where = Where(name, _CALL)
-    value = quantity(angle, "rad", where, "65 deg")
+    value = quantity(given, "rad", where, "65 deg")
     if np.max(np.abs(np.asarray(value))) > most * (1 + 1e-12):
         raise where.error(
-            angle, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
+            given, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
         )
     if isinstance(value, xr.DataArray):
         return value
     if np.ndim(value) > 1:
-        raise where.error(angle, "give one, or one list")
+        raise where.error(given, "give one, or one list")
     dims = (name,) if np.ndim(value) else ()
     label = (dims, np.degrees(value), {"units": "degree"})
     return xr.DataArray(value, dims=dims, coords={name: label})
@@ -191,13 +191,13 @@ def _year(body: str) -> float:
     return year
 
 
-def _constant(number: Any, body: str) -> float:
+def _constant(given: Any, body: str) -> float:
     """Solar constant at the mean distance, W/m2."""
-    if number is None:
+    if given is None:
         distance = (SUN.gm * (_year(body) / _TURN) ** 2) ** (1 / 3)
         return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)
     where = Where("solar_constant", _CALL)
-    value = quantity(number, "W/m2", where, "1361 W/m2")
+    value = quantity(given, "W/m2", where, "1361 W/m2")
     if np.ndim(value) or not value > 0:
-        raise where.error(number, "give one number above zero")
+        raise where.error(given, "give one number above zero")
     return float(value)

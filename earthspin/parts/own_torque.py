@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
-from earthspin.units import FloatArray, Plain, real_numbers
+from earthspin.units import Plain, real_numbers
+
+FloatArray: TypeAlias = NDArray[np.float64]
 
 #: Word for what a scene cannot hold.
 _LIVE = "live"
@@ -36,7 +38,7 @@ class OwnTorque:
 
     @classmethod
     def read(cls, given: object, where: Where) -> OwnTorque:
-        """Read a function; its values are checked when it is called."""
+        """Take a function; whether it gives a torque shows when it is called."""
         if isinstance(given, OwnTorque):
             return given
         if isinstance(given, Mapping) and _LIVE in given:
@@ -48,14 +50,14 @@ class OwnTorque:
         return cls(given)
 
     def write(self) -> Plain:
-        """Name the function."""
+        """Say which function it was."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
         return {_LIVE: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """Torque divided by C, checked whenever it is called.
+        """The same over C, checked whenever it is called.
 
         Parameters
         ----------
@@ -68,12 +70,12 @@ class OwnTorque:
             If it fails, or gives something else than a finite torque for each time.
         """
 
-        def law(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
+        def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
             try:
-                torque: Any = self.law(times, q, omega)
-                if hasattr(torque, "to_value"):  # a Quantity
-                    torque = torque.to_value("N m")
-                values = np.broadcast_to(real_numbers(torque), omega.shape)
+                returned: Any = self.law(times, q, omega)
+                if hasattr(returned, "to_value"):  # a Quantity
+                    returned = returned.to_value("N m")
+                values = np.broadcast_to(real_numbers(returned), omega.shape)
             except EarthspinError:
                 raise
             except Exception as error:  # whatever somebody's function meets
@@ -83,13 +85,12 @@ class OwnTorque:
                     f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
                     f"({times.size}, 3) and gives N m of the last shape"
                 ) from None
-            finite = np.isfinite(values).all(axis=1)
-            if not finite.all():
+            if not np.isfinite(values).all():
                 raise UndefinedError(
                     "the torque of your own is not finite "
-                    f"{float(times[~finite][0]):.6g} s from the "
+                    f"{float(times[~np.isfinite(values).all(axis=1)][0]):.6g} s from the "
                     "start; give N m for each time"
                 )
             return np.asarray(values / polar_moment)
 
-        return law
+        return torque

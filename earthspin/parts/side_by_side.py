@@ -1,4 +1,4 @@
-"""Numbers of many bodies, broadcast against one another so that physics takes them as arrays."""
+"""Numbers of many, laid against one another so that physics takes them as arrays."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ class SideBySide:
     labels: Mapping[Any, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, **numbers: Any) -> Self:
-        """Broadcast numbers and labelled arrays against one another."""
-        arrays = {name: number for name, number in numbers.items() if hasattr(number, "dims")}
+    def of(cls, **given: Any) -> Self:
+        """Lay numbers and labelled arrays against one another."""
+        arrays = {name: number for name, number in given.items() if hasattr(number, "dims")}
         if not arrays:
-            return cls(numbers)
+            return cls(given)
         import xarray as xr
 
         laid = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
         first = next(iter(laid.values()))
-        side_by_side = {
+        numbers = {
             name: np.broadcast_to(laid[name].values if name in laid else number, first.shape)
-            for name, number in numbers.items()
+            for name, number in given.items()
         }
-        return cls(side_by_side, tuple(map(str, first.dims)), first.coords)
+        return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
         """Some of the numbers, those of many with an axis of length 1 behind their own."""
@@ -53,7 +53,7 @@ class SideBySide:
         return tuple(np.asarray(self.numbers[name])[behind] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Label a result, the dimensions of many in front; a result that all share is repeated."""
+        """Label what came out, the dimensions of many in front; what is common is repeated."""
         import xarray as xr
 
         if values.ndim < len(self.dims) + len(dims):

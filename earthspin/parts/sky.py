@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
@@ -20,9 +21,8 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
-from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements, Ellipse
+from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
-from earthspin.sky.poles import Pole
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -33,10 +33,13 @@ from earthspin.sky.sources import (
     open_source,
     place_of,
 )
-from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
+    from earthspin.sky.elements import Ellipse
     from earthspin.sky.iau import Nutation
+    from earthspin.sky.poles import Pole
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,7 @@ class PerturbedBody(Question):
     many_pulls: ClassVar[bool] = False
 
     def check(self) -> None:
-        """Require a body with a mass, and others that pull on it, each once."""
+        """A body with a mass, and others that pull on it, each once."""
         if "perturbers" not in self.given:
             object.__setattr__(self, "perturbers", pulled_by(self.body))
             object.__setattr__(self, "body", on_its_orbit(self.body))
@@ -108,30 +111,30 @@ class PerturbedBody(Question):
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
-        for perturber in self.perturbers:
-            labelled = perturber.labelled_field
-            if labelled is not None and not (self.many_pulls and labelled == "gm"):
+        for other in self.perturbers:
+            if other.labelled_field is not None and not (
+                self.many_pulls and other.labelled_field == "gm"
+            ):
                 raise self.error(
-                    f"perturbers.{perturber.name}.{labelled}",
+                    f"perturbers.{other.name}.{other.labelled_field}",
                     "an array",
                     "what pulls is one body: one number each; ask again for every other",
                 )
-            if names.count(perturber.name) > 1:
-                raise self.error("perturbers", names, f"'{perturber.name}' is named twice")
+            if names.count(other.name) > 1:
+                raise self.error("perturbers", names, f"'{other.name}' is named twice")
         if "total" in names:
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        accuracy = getattr(self, "accuracy", None)
-        for member in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(member) or (mixed and member.orbit is not None)
-            if accuracy is not None and of_unknown_error:
+        for other in (self.body, *self.perturbers):
+            of_unknown_error = unmeasured(other) or (mixed and other.orbit is not None)
+            if getattr(self, "accuracy", None) is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
-                    accuracy,
-                    f"how far off the positions of '{member.name}' are was never measured, so none "
+                    getattr(self, "accuracy", None),
+                    f"how far off the positions of '{other.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
 
@@ -230,9 +233,10 @@ class Sky:
             for name, place in self.targets.items()
             if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
-        listed = "; ".join(f"{name}: {text}" for name, text in own.items())
-        positions = {"own_positions": listed} if own else {}
-        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | positions
+        attributes = (
+            {"own_positions": "; ".join(f"{n}: {text}" for n, text in own.items())} if own else {}
+        )
+        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """How far a body may be from where it is seen, at the worst of some days: rad and m."""
@@ -344,10 +348,10 @@ class Sky:
             targets = self.targets if targets is None else targets
             earths = true_equator if true else None
             frame = earths if pole.of_the_iau else equator
-            coordinates = self.source.radec(targets, self.centre, days, frame)
-            for name, (_, _, distance) in coordinates.items():
+            seen = self.source.radec(targets, self.centre, days, frame)
+            for name, (_, _, distance) in seen.items():
                 self._refuse_inside(name, distance * distance)
-            return coordinates
+            return seen
         axes = equator(days)
         positions = self.positions(days, targets)
         return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
@@ -373,7 +377,7 @@ def address(body: Body) -> Address:
 
 
 def _address_by_chain(body: Body, chain: EllipseChain | None) -> Address:
-    """Name and codes of a body in a source, or of the start of the ellipses to it."""
+    """How a body is known to a source, or where ellipses to it begin."""
     if chain is None:
         return address(body)
     start = chain.start
@@ -392,8 +396,8 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     chains = ellipse_chains(body, perturbers)
     return Places(
         address(body),
-        tuple(_address_by_chain(p, chains.get(p.name)) for p in perturbers),
-        {p.name: extent(body) + extent(p) for p in perturbers},
+        tuple(_address_by_chain(perturber, chains.get(perturber.name)) for perturber in perturbers),
+        {perturber.name: extent(body) + extent(perturber) for perturber in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -402,16 +406,14 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Say which source the positions come from."""
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
-    sentences = [f"positions {describe_source(source, ephemeris)}"]
-    sentences += [
-        f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)
+    sources = [f"positions {describe_source(source, ephemeris)}"]
+    sources += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
+    sources += [
+        f"{other.name} by {describe_position(other.position)}"
+        for other in (body, *perturbers)
+        if other.position is not None
     ]
-    sentences += [
-        f"{member.name} by {describe_position(member.position)}"
-        for member in (body, *perturbers)
-        if member.position is not None
-    ]
-    return "; ".join(sentences)
+    return "; ".join(sources)
 
 
 @part(tells=from_where)

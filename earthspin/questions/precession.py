@@ -114,13 +114,13 @@ def _check_accuracy(asked: float | None, rate: Estimate) -> None:
         return
     if not all_of(of_all(rate.value) != 0):
         raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, given, best = (
+    method, by_input, best = (
         float((of_all(share) / abs(of_all(rate.value))).max())
         for share in (rate.method, rate.given, rate.error)
     )
     remedy = (
-        f"the given numbers are known to {given:.2g}: give the body a better known H"
-        if given > method
+        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
+        if by_input > method
         else f"the average is known to {method:.2g}: give a longer span"
     )
     refuse_unkept(asked, best, "1", remedy)
