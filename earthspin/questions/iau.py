@@ -41,6 +41,7 @@ from earthspin.parts.path import (
     residual_error,
     response_apart,
     rigid,
+    steady_figure,
 )
 from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
@@ -118,7 +119,7 @@ def rates_by_effect(
         for effect in on:
             rest = [e for e in on if e != effect]
             path = path_over(body, pulls, rest, done.start, done.days)
-            without[effect] = done.analysis.secular(done.pole(path, done.days))
+            without[effect] = done.analysis.secular(steady_figure(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]

@@ -35,7 +35,7 @@ from earthspin.parts.path import (
     path_over,
     pole_analysis,
     residual_error,
-    rigid,
+    steady_figure,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import Moved, Pulls, pulls
@@ -151,8 +151,8 @@ def left(
 
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(body, pulls, rigid(effects), done.start, ends)
-    own = complex_nutation(iau.nutation_of(done.pole(path, days), days))
+    path = path_over(body, pulls, effects, done.start, ends)
+    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
