@@ -27,7 +27,11 @@ from earthspin.engine.variables import (
     number,
     words,
 )
+from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.nutation import flattening as flat
+from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
+from earthspin.nutation.budget import budget_of, published_effects
 from earthspin.parts.path import (
     Analysed,
     Apart,
@@ -110,7 +114,6 @@ def rates_by_effect(
     pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
     """Rates at J2000.0 effect by effect, each measured by switching it off."""
-    from earthspin.nutation.budget import budget_of
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
@@ -258,7 +261,6 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Computed pole minus the IAU's in time, for each model."""
-    from earthspin.motion.axes import error_of_input
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -550,7 +552,6 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: Analysed, body: Body) -> Angles:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
-    from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
@@ -584,8 +585,6 @@ class Inferred(Variables, along=("origin",)):
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
-    from earthspin.nutation import flattening as flat
-
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
     u = body.relative_uncertainty
     values = flat.compared_flattenings(
@@ -612,8 +611,6 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 @part
 def neglected(effects: tuple[str, ...]) -> Neglected:
     """Published size of each effect on the rate of psi_A that is off or has no model here."""
-    from earthspin.nutation.budget import published_effects
-
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
     off = {n: size for n, size in published_effects().items() if n not in rigid(effects)}
     return Neglected(

@@ -1,6 +1,9 @@
-"""The stiff and extreme cases as tables: for the terminal, and for a page of the docs."""
+"""The stiff and extreme cases as tables for the terminal."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
 
 import xarray as xr
 
@@ -17,12 +20,35 @@ def verdict_tables(result: xr.Dataset) -> list[Table]:
     result : Dataset
         As `stability` gives it.
     """
-    return [_of_part(result, part) for part in _parts(result)]
+    tables = []
+    for part, rows in rows_by_part(result):
+        seconds = sum(row["run_time"] for row in rows)
+        lines = [tuple(row[name] for name in HEADERS) for row in rows]
+        tables.append(Table(part, HEADERS, lines, f"{len(rows)} cases, {seconds:.1f} s"))
+    return tables
 
 
-def _parts(result: xr.Dataset) -> list[str]:
-    """Parts of the package that have cases, in their order."""
-    return list(dict.fromkeys(result.case_part.values.tolist()))
+def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]]]:
+    """Yield each part of the package and its cases, with numbers and units as they are shown.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `stability` gives it.
+    """
+    columns = {str(name): variable.values.tolist() for name, variable in result.variables.items()}
+    for part in dict.fromkeys(columns["case_part"]):
+        rows = []
+        for values in zip(*columns.values(), strict=True):
+            row: dict[str, Any] = dict(zip(columns, values, strict=True))
+            row["unit"] = "" if row["unit"] == "1" else row["unit"]
+            for name in ("measured", "bound"):
+                row[name] = "0" if row[name] == 0 else f"{abs(row[name]):.1e}"
+            if row["verdict"] == "refused":
+                row |= {"measured": "", "bound": "", "unit": ""}
+            if row["case_part"] == part:
+                rows.append(row)
+        yield part, rows
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:
@@ -57,76 +83,3 @@ def print_verdicts(result: xr.Dataset) -> None:
     for name in result.case.values[result.verdict.values == "fails"]:
         console.print(f"fails: {name}: {result.reason.sel(case=name).item()}", markup=False)
     console.print(tally_line(result), markup=False)
-
-
-def markdown(result: xr.Dataset) -> str:
-    """The tables in markdown, with what each case is held against.
-
-    Parameters
-    ----------
-    result : Dataset
-        As `stability` gives it.
-    """
-    pieces = []
-    for part in _parts(result):
-        rows = result.isel(case=result.case_part.values == part)
-        held = rows.isel(case=rows.verdict.values != "refused")
-        refused = rows.isel(case=rows.verdict.values == "refused")
-        pieces.append(f"### {part}\n")
-        if held.sizes["case"]:
-            pieces += ["| case | hard because | held against | measured | bound | verdict |"]
-            pieces += ["|---|---|---|---|---|---|"]
-            pieces += [_row(held.isel(case=n)) for n in range(held.sizes["case"])]
-            pieces.append("")
-        if refused.sizes["case"]:
-            pieces += ["| refused | hard because | the line |", "|---|---|---|"]
-            pieces += [
-                _cells(one.case.item(), one.hard_because.item(), one.reason.item())
-                for one in (refused.isel(case=n) for n in range(refused.sizes["case"]))
-            ]
-            pieces.append("")
-    return "\n".join([*pieces, tally_line(result), ""])
-
-
-def _of_part(result: xr.Dataset, part: str) -> Table:
-    rows = result.isel(case=result.case_part.values == part)
-    lines = [_line(rows.isel(case=n)) for n in range(rows.sizes["case"])]
-    seconds = float(rows.run_time.sum())
-    return Table(part, HEADERS, lines, f"{rows.sizes['case']} cases, {seconds:.1f} s")
-
-
-def _line(one: xr.Dataset) -> tuple[str, ...]:
-    verdict = one.verdict.item()
-    if verdict == "refused":
-        return one.case.item(), "", "", "", verdict
-    return (
-        one.case.item(),
-        _number(one.measured.item()),
-        _number(one.bound.item()),
-        _unit(one),
-        verdict,
-    )
-
-
-def _row(one: xr.Dataset) -> str:
-    return _cells(
-        one.case.item(),
-        one.hard_because.item(),
-        one.held_against.item(),
-        f"{_number(one.measured.item())} {_unit(one)}".strip(),
-        f"{_number(one.bound.item())} {_unit(one)}".strip(),
-        one.verdict.item(),
-    )
-
-
-def _cells(*words: str) -> str:
-    return "| " + " | ".join(word.replace("|", "\\|") for word in words) + " |"
-
-
-def _number(value: float) -> str:
-    return "0" if value == 0 else f"{abs(value):.1e}"
-
-
-def _unit(one: xr.Dataset) -> str:
-    unit = str(one.unit.item())
-    return "" if unit == "1" else unit

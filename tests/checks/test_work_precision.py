@@ -221,7 +221,7 @@ def test_clock_takes_the_median_and_half_the_range(monkeypatch: pytest.MonkeyPat
     costs = iter([9.0, 0.5, 0.1, 0.3, 0.2, 0.4, 99.0])
     calls, work = fake_clock(monkeypatch, lambda: next(costs))
     timing = timed(work)
-    assert (timing.first, timing.given) == (9.0, 7)
+    assert (timing.first, timing.result) == (9.0, 7)
     assert timing.median == pytest.approx(0.3, rel=1e-12, abs=0)
     assert timing.spread == pytest.approx(0.2, rel=1e-12, abs=0)
     assert len(calls) == 1 + SAMPLES

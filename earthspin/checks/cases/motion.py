@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import MOON, SUN
-from earthspin.checks.case import Distances, holds, refused, relative_error
+from earthspin.checks.case import Distances, holds, relative_error
 from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.axes import AxisPath, axis_path
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.nutation.angles import on_fixed_ecliptic
@@ -228,17 +228,6 @@ def _cost_of_attitude() -> Distances:
     yield _exponent(count, (8.0, 16.0, 32.0))
 
 
-@holds(bound=10.0, unit="uas")
-def _disc() -> Distances:
-    """thin disc, and its prolate opposite
-
-    Hard because: H of one half either way: the largest torques a body can feel
-    Held against: (L, F) step by step over 20 d
-    """
-    for h in (0.5, -0.5):
-        yield _pole_against_exact(20.0, _figure(h=h))
-
-
 @holds(bound=0.01, unit="uas")
 def _retrograde() -> Distances:
     """retrograde spin
@@ -259,25 +248,6 @@ def _thousandfold() -> Distances:
     yield _pole_against_exact(20.0, gm={name: 1e3 * gm for name, gm in GM.items()})
 
 
-@refused("turns too fast")
-def _too_heavy() -> None:
-    """Sun and Moon of 10^9 times their mass
-
-    Hard because: the axis turns faster than the body: no slow manifold is left
-    """
-    heavy = {name: 1e9 * gm for name, gm in GM.items()}
-    axis_path(_forces(gm=heavy), NORTH, 0.0, (0.0, 30 * DAY))
-
-
-@refused("too slow")
-def _slow_spin() -> None:
-    """a spin of three days
-
-    Hard because: near the month the figure axis no longer follows the angular momentum
-    """
-    _path(30.0, _figure(spin_rate=2 * np.pi / (3 * DAY)))
-
-
 @holds(bound=5e-7)
 def _fast_spin() -> Distances:
     """a spin of ten seconds
@@ -291,18 +261,6 @@ def _fast_spin() -> Distances:
         for seconds in (10.0, 20.0)
     )
     yield relative_error(2 * fast, half)
-
-
-@holds(bound=0.0, unit="uas")
-def _sphere() -> Distances:
-    """a sphere
-
-    Hard because: H is zero, and so is every torque: 0/0 in each relative test of convergence
-    Held against: axes that stay, bit for bit, for a year
-    """
-    found = _path(365.25, _figure(h=0.0)).at(np.linspace(0.0, YEAR, 50))
-    for axis in found.values():
-        yield (axis - axis[0]) / UAS
 
 
 @holds(bound=2e-4, unit="uas")
@@ -398,15 +356,6 @@ def _obliquities() -> Distances:
         yield found - axis if axis[2] else np.linalg.norm(found, axis=1) - 1
 
 
-@refused("resonates")
-def _flat() -> None:
-    """a flat triaxial body
-
-    Hard because: the semidiurnal torque resonates with the free mode of a thin disc
-    """
-    _path(10.0, _figure(h=0.5, triaxiality=1e-3))
-
-
 @holds(bound=3.0, unit="uas")
 def _kernel_ends() -> Distances:
     """the pole in the first and last second of the kernel
@@ -419,15 +368,6 @@ def _kernel_ends() -> Distances:
     place = np.stack([found.X, found.Y, found.Z], axis=-1)
     yield _angle(place[0], place[1])
     yield _angle(place[2], place[3])
-
-
-@refused("outside kernel")
-def _beyond_kernel() -> None:
-    """the pole one second after the kernel
-
-    Hard because: the reader of the kernel would extrapolate without a word
-    """
-    pole(times=["2000-01-01", "2053-10-09T00:00:01"])
 
 
 @holds(bound=9e-4)

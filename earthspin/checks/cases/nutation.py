@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.checks.case import Distances, holds, refused
 from earthspin.checks.sky import SPIN, H
-from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS, G
+from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
 from earthspin.interior.equilibrium import equilibrium
 from earthspin.interior.layers import Layer, LayeredBody
-from earthspin.interior.love import elastic, yielding
+from earthspin.interior.love import elastic
 from earthspin.interior.prem import PREM
 from earthspin.interior.rotation import parts_of, system, wobble_response
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
@@ -22,8 +19,6 @@ from earthspin.nutation.response import Response, fit_response
 from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
-
-FloatArray = NDArray[np.float64]
 
 #: A century of days.
 DAYS = np.arange(-18000.0, 18000.0, 9.7)
@@ -143,45 +138,6 @@ def _near_resonance() -> Distances:
         yield np.abs((vectors @ shares)[0] / wobble_response(parts, sigma) - 1)
 
 
-@holds(bound=5e-15)
-def _precession_of_all() -> Distances:
-    """at rest in space, whatever is inside
-
-    Hard because: the answers of core and inner core cancel to the last digit
-    Held against: T(-1) = H/H_rigid, relative
-    """
-    for strain in (0.0, -30.0, -14.0 + 3.0j):
-        e = H / (1 - H)
-        parts = parts_of(PREM, SPIN, yielding(PREM, strain).answers, e)
-        yield abs(wobble_response(parts, np.array([-1.0]))[0] * (e + 1) / e - 1)
-
-
-@holds(bound=1e-12)
-def _shells_about_the_centre() -> Distances:
-    """shells of a metre to a dozen kilometres about the centre
-
-    Hard because: the integration starts outside most of them, at a thousandth of the radius
-    Held against: the same body without them: answers over the geometric mean of the parts' own
-    """
-    inner, *rest = PREM.layers
-    shells = tuple(replace(inner, top=top) for top in (1.0, 1e3, 6e3, 1.2e4))
-    found = elastic(replace(PREM, layers=(*shells, inner, *rest))).answers
-    plain = elastic(PREM).answers
-    own = np.sqrt(abs(np.diagonal(plain)))
-    yield (found - plain) / np.outer(own, own)
-
-
-@refused("less than a hundredth of the radius")
-def _smallest_core() -> None:
-    """an inner core of sixty kilometres
-
-    Hard because: what it answers to itself is a power of its size, and the start shows in it
-    """
-    inner, *rest = PREM.layers
-    liquid = replace(inner, vs=(), shear_q=np.inf)
-    yielding(replace(PREM, layers=(replace(inner, top=6e4), liquid, *rest)))
-
-
 @holds(bound=1e-3)
 def _soft_mantle() -> Distances:
     """a mantle ten thousand times softer than it is heavy
@@ -192,20 +148,6 @@ def _soft_mantle() -> Distances:
     core = Layer(3.5e6, (11000.0,), (1e5,))
     body = LayeredBody("soft", (core, Layer(6.4e6, (4500.0,), (1e5,), (50.0,), 1.0)), "")
     yield float(elastic(body).k) / equilibrium(body).k - 1
-
-
-@holds(bound=1e-8)
-def _stiff_moon() -> Distances:
-    """a moon of ten kilometres, three million times stiffer than it is heavy
-
-    Hard because: stresses are a million times the potentials, and rounding mixes the solutions
-    Held against: the Love number of an even incompressible sphere (Kelvin 1863)
-    """
-    radius, density, rigidity = 1e4, 3300.0, 1e11
-    shear, compression = (float(np.sqrt(modulus / density)) for modulus in (rigidity, 1e18))
-    body = LayeredBody("stiff", (Layer(radius, (density,), (compression,), (shear,), 1.0),), "")
-    weight = 4 / 3 * np.pi * G.value * density**2 * radius**2
-    yield float(elastic(body).k) * (1 + 9.5 * rigidity / weight) / 1.5 - 1
 
 
 @refused("has 2 liquids with solids between")

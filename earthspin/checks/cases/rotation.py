@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.checks.case import Distances, holds, refused
+from earthspin.checks.case import Distances, holds
 from earthspin.checks.ladders import of_rotation
-from earthspin.checks.sky import BODY
 from earthspin.checks.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
@@ -126,22 +125,6 @@ TOP = Body(
 )
 
 
-@refused("changes faster than any step")
-def _runs_away() -> None:
-    """a torque that runs away
-
-    Hard because: the spin is infinite after a finite time
-    """
-    rotation(
-        "2000-01-01",
-        "2000-01-02",
-        "1 h",
-        body=TOP,
-        perturbers=[],
-        torque=lambda t, q, omega: omega**3,
-    )
-
-
 @holds(bound=0.0, unit="rad")
 def _at_rest() -> Distances:
     """a body at rest
@@ -159,12 +142,3 @@ def _at_rest() -> Distances:
         start_omega=[0.0, 0.0, 0.0],
     )
     yield still.attitude.values - UPRIGHT
-
-
-@refused("ask for less")
-def _too_fine() -> None:
-    """an attitude asked for to a millionth of a microarcsecond
-
-    Hard because: the flattening alone leaves some picoradians after a month
-    """
-    rotation("2000-01-01", "2000-02-01", "10 d", body=BODY, accuracy="1e-6 uas")

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
-from earthspin.bodies import SUN
 from earthspin.checks.case import Distances, holds, refused
 from earthspin.checks.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
@@ -19,10 +16,8 @@ from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.orbit import Orbit, Shape
-from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
-from earthspin.sky.equator import spherical
-from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 
 FloatArray = NDArray[np.float64]
@@ -35,24 +30,16 @@ STRENGTH = Strength(
 )
 
 
-@dataclass(frozen=True)
 class _Still:
-    """An orbit that does not change."""
+    """A circular orbit that does not change."""
 
-    eccentricity: float
-
-    @property
-    def coverage(self) -> tuple[float, float]:
-        return float(self.edges[0]), float(self.edges[-1])
-
-    @property
-    def edges(self) -> FloatArray:
-        return MYR / 50 * np.arange(-60.0, 61.0)
+    edges = MYR / 50 * np.arange(-60.0, 61.0)
+    coverage = float(edges[0]), float(edges[-1])
 
     def at(self, times: FloatArray) -> Shape:
-        one = np.ones_like(times)
-        normal = np.stack([0 * one, 0 * one, one])
-        return normal, np.stack([self.eccentricity * one, 0 * one, 0 * one]), 0 * normal
+        zero = 0 * times
+        normal = np.stack([zero, zero, zero + 1])
+        return normal, 0 * normal, 0 * normal
 
 
 @lru_cache
@@ -68,30 +55,6 @@ def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
     return math.cos(obliquity) * normal + math.sin(obliquity) * across
 
 
-def _cone(strength: Strength, eccentricity: float, obliquity: float) -> Distances:
-    """How far both solvers are from a cone about the normal, rad, over a million years each way."""
-    orbit, axis = _Still(eccentricity), _leaning(obliquity)
-    rounder = 1 / (1 - eccentricity**2)
-    constant = strength.sun * rounder**1.5 + strength.moon
-    times = np.linspace(-MYR, MYR, 101)
-    turned = (strength.geodesic * rounder - constant * math.cos(obliquity)) * times
-    c, s = np.cos(turned), np.sin(turned)
-    true = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
-    yield (solve(strength, orbit, axis, (-MYR, MYR), pieces=2).at(times) - true) / ARCSEC
-    yield (solve_many(strength, orbit, axis[:, np.newaxis], times)[..., 0] - true) / ARCSEC
-
-
-@holds(bound=2e-7, unit="arcsec")
-def _cones() -> Distances:
-    """obliquities of 10 to 170 degrees for two million years
-
-    Hard because: some eighty turns, whose phase keeps every error
-    Held against: a cone about the normal of a circular orbit that stays
-    """
-    for degrees in (10, 23.4, 60, 89, 90, 91, 120, 170):
-        yield from _cone(STRENGTH, 0.0, math.radians(degrees))
-
-
 @holds(bound=3e-7, unit="arcsec")
 def _near_upright() -> Distances:
     """axes within 8 degrees of the normal, and of its opposite
@@ -99,31 +62,15 @@ def _near_upright() -> Distances:
     Hard because: there the longitude about the normal has no derivative; another axis is taken
     Held against: a cone about the normal
     """
+    times = np.linspace(-MYR, MYR, 101)
     for degrees in (1e-6, 0.5, 5, 7.9, 172.1, 179.5, 180):
-        yield from _cone(STRENGTH, 0.0, math.radians(degrees))
-
-
-@holds(bound=3e-7, unit="arcsec")
-def _eccentric() -> Distances:
-    """eccentricity of 0.4
-
-    Hard because: the Sun's share grows by 30 %, and what is linear in e2 fails
-    Held against: a cone about the normal
-    """
-    for degrees in (23.4, 150):
-        yield from _cone(STRENGTH, 0.4, math.radians(degrees))
-
-
-@holds(bound=2e-7, unit="arcsec")
-def _backward() -> Distances:
-    """a body that spins backward, or a prolate one
-
-    Hard because: the constant of precession is negative
-    Held against: a cone about the normal
-    """
-    back = replace(STRENGTH, sun=-STRENGTH.sun, moon=-STRENGTH.moon)
-    for degrees in (23.4, 150):
-        yield from _cone(back, 0.1, math.radians(degrees))
+        axis = _leaning(math.radians(degrees))
+        constant = STRENGTH.sun + STRENGTH.moon
+        turned = (STRENGTH.geodesic - constant * math.cos(math.radians(degrees))) * times
+        c, s = np.cos(turned), np.sin(turned)
+        cone = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
+        yield (solve(STRENGTH, _Still(), axis, (-MYR, MYR), pieces=2).at(times) - cone) / ARCSEC
+        yield (solve_many(STRENGTH, _Still(), axis[:, np.newaxis], times)[..., 0] - cone) / ARCSEC
 
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:
@@ -193,36 +140,6 @@ def _all_but_round() -> Distances:
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
 
 
-@refused("stands upright on the orbit")
-def _upright() -> None:
-    """an axis upright on its orbit
-
-    Hard because: there is no equinox to count from
-    """
-    ra, dec, _ = spherical(_table().at(np.zeros(1))[0].T)
-    normal = (float(ra[0]), float(dec[0]))
-    body = BODY.replace(pole=normal, orbit_pole=normal)
-    long_term(times=["0 kyr"], body=body, perturbers=[SUN])
-
-
-@refused("is outside table")
-def _beyond() -> None:
-    """a moment beyond the end of the table
-
-    Hard because: its last series goes on smoothly
-    """
-    long_term(times=["10.0000001 Myr"])
-
-
-@refused("by half")
-def _stopped() -> None:
-    """tides that would stop the spin
-
-    Hard because: linear tides go on past zero, and the numbers look like numbers
-    """
-    solve(replace(STRENGTH, tides=Tides(moon=-2e-14, spin=-1e-14)), _table(), NORTH, (0.0, 2 * MYR))
-
-
 @refused("was asked for")
 def _too_accurate() -> None:
     """an accuracy that no knowledge of the body allows
@@ -230,52 +147,6 @@ def _too_accurate() -> None:
     Hard because: the solver itself would keep it
     """
     long_term(times=["-1 Myr"], accuracy="0.1 arcsec")
-
-
-@refused("cannot be followed")
-def _too_fast() -> None:
-    """a precession of a turn in a few years
-
-    Hard because: a thousand turns in a window of sixteen nodes
-    """
-    fast = replace(STRENGTH, sun=1e4 * STRENGTH.sun)
-    solve(fast, _table(), _leaning(0.4), (-MYR / 10, 0.0))
-
-
-@refused("like obliquity")
-def _apart() -> None:
-    """members that precess at other rates, side by side
-
-    Hard because: one frame cannot turn with all of them, and steps would be too long for some
-    """
-    starts = np.stack([_leaning(0.1), _leaning(1.5)], axis=1)
-    solve_many(STRENGTH, _table(), starts, np.array([-MYR, 0.0]))
-
-
-def _rows(**changed: object) -> pd.DataFrame:
-    t = np.arange(-100.0, 1.0)
-    own = {"k": 0.01 * np.cos(t / 15), "h": 0.01 * np.sin(t / 15), "q": 0 * t, "p": 0 * t}
-    return pd.DataFrame({"t": t} | own | changed)
-
-
-@refused("an eccentricity of 1")
-def _parabola() -> None:
-    """an orbit of eccentricity 1
-
-    Hard because: the mean of the inverse cube of the distance is infinite
-    """
-    read_orbit(_rows(k=1.0, h=0.0))
-
-
-@refused("these are degrees, not radians")
-def _degrees() -> None:
-    """degrees where radians are meant
-
-    Hard because: every number is a fine number of radians
-    """
-    t = np.arange(-100.0, 1.0)
-    rows = pd.DataFrame({"t": t, "e": 0.02, "inc": 1.0, "varpi": 19 * t % 360, "Omega": 0.0})
-    read_orbit(rows, time="kyr", angles="rad", body=BODY.name)
 
 
 @holds(bound=5e-15)

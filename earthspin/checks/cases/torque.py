@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.bodies.mean_orbits import MEAN_SUN
 from earthspin.checks.case import Distances, holds, refused, relative_error
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
@@ -63,13 +61,6 @@ def _sky_angles(direction: FloatArray) -> tuple[float, float]:
     return float(ra[0]), float(dec[0])
 
 
-def _at_rest(rates: xr.Dataset) -> Iterator[xr.DataArray]:
-    """What is left of a torque, a rate, and of a period short of infinity."""
-    yield rates.mean_torque
-    yield rates.precession_rate
-    yield ~np.isposinf(rates.precession_period)
-
-
 @holds(bound=0.0)
 def _no_mass() -> Distances:
     """perturber of no mass
@@ -77,30 +68,12 @@ def _no_mass() -> Distances:
     Hard because: rates are zero and periods infinite: 0/0 lies in wait at every ratio
     Held against: no torque, no rate and an infinite period, and nothing that is no number
     """
-    yield from _at_rest(_rate(perturber=MOON.replace(gm=0.0)))
+    rates = _rate(perturber=MOON.replace(gm=0.0))
+    yield rates.mean_torque
+    yield rates.precession_rate
+    yield ~np.isposinf(rates.precession_period)
     none = (SUN.replace(gm=0.0),)
     yield torque_series("2000-01-01", "2000-01-03", "6 h", perturbers=none).torque
-
-
-@holds(bound=5e-15)
-def _thousandfold() -> Distances:
-    """perturber of a thousandfold mass
-
-    Hard because: errors and rates scale alike; nothing may saturate
-    Held against: a thousand times the rate, relative
-    """
-    many = _rate(perturber=SUN.replace(gm=1e3 * SUN.gm))
-    yield many.precession_rate[0] / _usual().precession_rate[0] / 1e3 - 1
-
-
-@holds(bound=0.0)
-def _round() -> Distances:
-    """body without a bulge
-
-    Hard because: H and J2 are zero together; their quotient C/(M a2) is not defined
-    Held against: no torque, no rate, an infinite period
-    """
-    yield from _at_rest(_rate(BODY.replace(j2=0.0, dynamical_flattening=0.0)))
 
 
 @holds(bound=5e-15)
@@ -112,40 +85,6 @@ def _tiny_h() -> Distances:
     """
     tiny = _rate(BODY.replace(j2=1e-12 / 3, dynamical_flattening=1e-12))
     yield tiny.precession_rate[0] / _usual().precession_rate[0] * H / 1e-12 - 1
-
-
-@holds(bound=0.0)
-def _prolate() -> Distances:
-    """prolate body
-
-    Hard because: H and J2 below zero, where square roots and logarithms would fail
-    Held against: the same rate the other way, bit for bit
-    """
-    turned = BODY.replace(j2=-J2, dynamical_flattening=-H)
-    yield _rate(turned).precession_rate[0] + _usual().precession_rate[0]
-
-
-@holds(bound=0.0)
-def _retrograde() -> Distances:
-    """retrograde body
-
-    Hard because: the spin rate is negative
-    Held against: the same rate the other way, bit for bit
-    """
-    turned = BODY.replace(spin_period=-BODY.needed("spin_period"))
-    yield _rate(turned).precession_rate[0] + _usual().precession_rate[0]
-
-
-@holds(bound=2e-6)
-def _lying() -> Distances:
-    """obliquity of 90 degrees
-
-    Hard because: the precessing torque is the small difference of what the two halves of a year do
-    Held against: cos(90 degrees) = 0: the rate over that of an upright axis
-    """
-    lying, usual = _rate(_leaning(np.pi / 2)), _usual()
-    upright = usual.precession_rate[0] / math.cos(math.radians(float(usual.obliquity)))
-    yield lying.precession_rate[0] / upright
 
 
 @holds(bound=1e-14)
@@ -163,35 +102,6 @@ def _nearly_upright() -> Distances:
         precessing = precessing_torque(torque_from_position(SUN.gm, 1.0, orbit, axis), axis, NORTH)
         closed = circular_orbit_torque(SUN.gm, 1.5e11, angle)
         yield np.mean(precessing) / closed - 1
-
-
-@refused("stands upright on the orbit")
-def _upright() -> None:
-    """obliquity of 0
-
-    Hard because: an axis upright on its orbit has no longitude that could grow
-    """
-    _rate(_leaning(0.0))
-
-
-@refused("stands upright on the orbit")
-def _upside_down() -> None:
-    """obliquity of 180 degrees
-
-    Hard because: an axis upside down on its orbit has no longitude either
-    """
-    _rate(_leaning(np.pi))
-
-
-@refused("a spin that is locked")
-def _locked() -> None:
-    """a spin locked three to two
-
-    Hard because: the torque on the equator's ellipse does not average out: 1,613 years come out for
-        Mercury, and look right
-    """
-    year = 2 * math.pi * math.sqrt(1.495978707e11**3 / 1.32712440018e20)
-    precession(body=BODY.replace(spin_period=2 / 3 * year), perturbers=["sun"])
 
 
 @holds(bound=5e-15)
@@ -223,15 +133,6 @@ def _far() -> Distances:
         yield np.ldexp(far, 3 * power) / near - 1
 
 
-@refused("no direction to pull in")
-def _in_the_centre() -> None:
-    """perturber in the very centre
-
-    Hard because: the distance is zero: 0/0
-    """
-    torque_from_position(1e20, 1e35, np.array([[4e8, 0.0, 0.0], [0.0, 0.0, 0.0]]), NORTH)
-
-
 SWOLLEN = 5e8  # m, beyond the Moon
 
 
@@ -260,15 +161,6 @@ def _inside_the_pole() -> None:
     Hard because: the formula goes on inside, and gives a plausible wrong number
     """
     pole("2000-01-01", "2000-01-11", "1 d", body=BODY.replace(radius=SWOLLEN))
-
-
-@refused("no direction to pull in")
-def _no_distance() -> None:
-    """perturber at no distance, by its declination
-
-    Hard because: 1/b3 is infinite
-    """
-    torque_from_declination(1e20, 1e35, np.zeros(2), np.full(2, 0.3), np.array([4e8, 0.0]))
 
 
 @holds(bound=5e-15)
@@ -303,21 +195,6 @@ def _harmonics() -> Distances:
     found = zonal_torque(30, 1.0, 1.0, 1.0, place, axis)[1] / -place[0]
     slope = 30 * (eval_legendre(29, u) - u * eval_legendre(30, u)) / (1 - u * u)
     yield relative_error(found, slope)
-
-
-@holds(bound=5e-15)
-def _forgets() -> Distances:
-    """a window of whole cycles forgets them exactly
-
-    Hard because: the signal that is removed is a million times what is left
-    Held against: the constant below it, over the size of the signal; sin4 on 3 to 8 cycles
-    """
-    for turns in range(3, 9):
-        window = Window(0.0, turns, 6798 * DAY, "sin4")
-        times = window.sample_times(6798 * DAY / 4000)
-        for harmonic in (1, 2, 7, 400):
-            signal = 1e6 * np.cos(2 * np.pi * harmonic * times / window.cycle + 0.4)
-            yield (window.mean(times, 1.0 + signal) - 1) / 1e6
 
 
 @holds(bound=2e-13)
@@ -408,47 +285,3 @@ def _next_to_a_parabola() -> Distances:
     torque = circular_orbit_torque(float(SUN.gm), a, obliquity) * ((1 - e) * (1 + e)) ** -1.5
     spin = float(body.needed("dynamical_flattening") / body.spin_rate)
     yield float(found.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1
-
-
-@holds(bound=1e-14)
-def _upright_orbit() -> Distances:
-    """a Moon whose orbit stands upright, its node going round
-
-    Hard because: the factor 1 - (3/2) sin2(i) is -1/2: the pull turns the axis the other way
-    Held against: minus half of that of the flat orbit, relative
-    """
-    flat, upright = (
-        precession(
-            body=BODY,
-            perturbers=[MOON.replace(orbit={"a": 4e8, "i": i, "node_period": "-18 yr"})],
-        ).precession_rate[0]
-        for i in (0.0, math.pi / 2)
-    )
-    yield float(upright / flat) + 0.5
-
-
-@refused("elements are those of an ellipse")
-def _hyperbola() -> None:
-    """an orbit that leaves its star
-
-    Hard because: the elements of a hyperbola would go into the formulas of an ellipse
-    """
-    SUN.replace(orbit={"a": "1 au", "e": 1.2})
-
-
-@refused("lies inside")
-def _through_the_body() -> None:
-    """an orbit through the body
-
-    Hard because: its mean has a closed form, though no such orbit is
-    """
-    precession(perturbers=[MEAN_SUN, MOON.replace(orbit={"a": "20000 km", "e": 0.7})])
-
-
-@refused("contradict each other")
-def _contradiction() -> None:
-    """elements that contradict Kepler's third law
-
-    Hard because: each of the two gives a rate, a factor of two apart
-    """
-    precession(perturbers=[MEAN_SUN, MOON.replace(orbit={"a": "384399 km", "period": "40 d"})])

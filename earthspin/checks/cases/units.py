@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime as dt
-from fractions import Fraction
 
 import numpy as np
 import xarray as xr
@@ -106,58 +105,6 @@ def _year_zero() -> None:
     _days(["0000-06-01"])
 
 
-@refused("write a date like")
-def _negative_year() -> None:
-    """a year before the first
-
-    Hard because: a minus sign in a date is read in three ways
-    """
-    _days(["-0044-03-15"])
-
-
-@refused("years run from 1 to 9999")
-def _year_ten_thousand() -> None:
-    """the year 10000
-
-    Hard because: dates of five digits sort as text before the others
-    """
-    _days(np.array(["10000-01-01"], dtype="M8[us]"))
-
-
-@refused("NaT is no date")
-def _nat() -> None:
-    """a date that is no date
-
-    Hard because: NaT compares false with everything
-    """
-    _days(np.array(["2000-01-01", "NaT"], dtype="M8[us]"))
-
-
-@holds(bound=3.0, unit="us")
-def _microseconds() -> Distances:
-    """microseconds from 1550 to 2650
-
-    Hard because: a float of days keeps 5 us at the ends; nanoseconds would have wrapped to 2134
-    Held against: the date that went in
-    """
-    known = np.array(["1550-01-01T00:00:00.000001", "2650-12-31T23:59:59.999999"], dtype="M8[us]")
-    back = dates.datetime64(_days(known))
-    yield (back - known).astype(np.int64)
-
-
-@holds(bound=0.5, unit="us")
-def _thirds() -> Distances:
-    """a grid of a third of a second through a century
-
-    Hard because: ten billion steps of a length that no float holds
-    Held against: the last time in whole microseconds, exactly
-    """
-    grid = _grid("1950-01-01", "2050-01-01", 0.333333)
-    last = Fraction(grid.start + grid.step * (grid.size - 1), dates.MICROSECONDS_PER_DAY)
-    found = Fraction(float(grid.days(grid.size - 1)[0]))
-    yield float((found - last) * dates.MICROSECONDS_PER_DAY)
-
-
 @holds(bound=0.0)
 def _one_time() -> Distances:
     """a span of nothing, and a step longer than the span
@@ -169,56 +116,6 @@ def _one_time() -> Distances:
         grid = _grid("2000-01-01", end, step)
         yield grid.size - 1
         yield grid.days()[0] + 0.5
-
-
-@refused("greater than zero")
-def _nan_step() -> None:
-    """a step that is not a number
-
-    Hard because: NaN passes every comparison that is written the wrong way round
-    """
-    _grid("2000-01-01", "2001-01-01", float("nan"))
-
-
-@refused("ends before it starts")
-def _backward_span() -> None:
-    """a span that ends before it starts
-
-    Hard because: a grid of a negative number of times
-    """
-    _grid("2001-01-01", "2000-01-01", "1 d")
-
-
-@refused("is not a value in units of s")
-def _wrong_unit() -> None:
-    """a step in kilograms
-
-    Hard because: the number is fine
-    """
-    Scene(compute="torque", step="6 kg")
-
-
-@refused("a microsecond or more")
-def _no_step() -> None:
-    """a step of a billionth of a second
-
-    Hard because: it rounds to no microsecond at all: a grid without end
-    """
-    _grid("2000-01-01", "2001-01-01", 1e-9)
-
-
-@holds(bound=1.0, unit="us")
-def _index_in_utc() -> Distances:
-    """an index of dates that says UTC, over New Year 2017
-
-    Hard because: an index that says its zone looks like one that means TDB, 69 s away
-    Held against: the same times as a Time in UTC
-    """
-    import pandas as pd
-
-    index = pd.date_range("2016-12-31T22:00", "2017-01-01T02:00", freq="37min", tz="UTC")
-    plain = index.tz_localize(None).to_numpy().astype("datetime64[us]").astype(str)
-    yield (_days(index) - _days(_time(list(plain), "utc"))) * dates.MICROSECONDS_PER_DAY
 
 
 # --- times and numbers of a motion ---------------------------------------------------------------
@@ -257,45 +154,6 @@ def _years() -> Distances:
         yield found[name].values - same[name].values
 
 
-@refused("is not a value in units of s")
-def _kilograms() -> None:
-    """times in kilograms
-
-    Hard because: the number is fine
-    """
-    import astropy.units as u
-
-    free_rotor(**_RACKET, times=[0.0, 1.0] * u.kg)
-
-
-@refused("is not a value in units of s")
-def _lapse_of_nothing() -> None:
-    """a lapse of time that is none
-
-    Hard because: NaT is a whole number inside, -292 billion years in microseconds
-    """
-    free_rotor(**_RACKET, times=np.array([0, "NaT"], dtype="m8[us]"))
-
-
-@refused("give numbers that are all known")
-def _masked_number() -> None:
-    """a masked number among good ones
-
-    Hard because: what is under the mask is a number, too
-    """
-    free_rotor(**_RACKET, times=np.ma.masked_array([0.0, 1.0], [False, True]))
-
-
-@refused("give times that are all known")
-def _masked_date() -> None:
-    """a masked date among good ones
-
-    Hard because: what is under the mask is a date, too
-    """
-    listed = np.array(["2000-01-01", "2000-01-02"], dtype="M8[us]")
-    _days(np.ma.masked_array(listed, [False, True]))
-
-
 @refused("give it")
 def _no_top() -> None:
     """a top without numbers
@@ -314,12 +172,3 @@ def _not_aligned() -> None:
     j2 = xr.DataArray([1.0e-3, 1.1e-3], {"member": ["a", "b"]}, ("member",))
     h = xr.DataArray([3.0e-3, 3.1e-3], {"member": ["b", "c"]}, ("member",))
     BODY.replace(j2=j2, dynamical_flattening=h)
-
-
-@refused("has no such key")
-def _key_of_another() -> None:
-    """a key of another question
-
-    Hard because: a step means nothing to an average, and would change nothing
-    """
-    Scene(compute="precession", step="1 h")

@@ -4,34 +4,21 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from earthspin.checks.case import Distances, holds, refused, relative_error, without_folder
 from earthspin.constants import UAS
-from earthspin.questions.polar_motion import (
-    excitation,
-    fit_chandler,
-    polar_motion,
-    polar_motion_from,
-)
-from earthspin.questions.wobble import wobble_ladder
+from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
 from earthspin.sky.eop import c04_path, read_polar_motion
 from earthspin.wobble import resonance
-from earthspin.wobble.ladder import turns_rigid, turns_triaxial
+from earthspin.wobble.ladder import turns_rigid
 
 PERIOD = 433.0
 DAYS = 64 * 365 + 16
-
-
-@lru_cache
-def _observed() -> xr.Dataset:
-    return polar_motion()
 
 
 def _round_trip(
@@ -45,29 +32,6 @@ def _round_trip(
     again = resonance.excitation(p, step, s)
     yield again - chi
     yield resonance.polar_motion_from(again, step, s, p[0]) - p
-
-
-@holds(bound=1e-11, unit="mas")
-def _there_and_back() -> Distances:
-    """64 years of excitation, there and back
-
-    Hard because: the excitation is a difference of nearly equal poles, 1/70 of their size
-    Held against: the excitation that drove the pole, and that pole
-    """
-    yield from _round_trip(100.0)
-
-
-@holds(bound=5e-11, unit="mas")
-def _observed_round_trip() -> Distances:
-    """64 years as observed, there and back
-
-    Hard because: labelled data, dates rounded to microseconds, units changed on the way
-    Held against: the observed pole
-    """
-    seen = _observed()
-    back = polar_motion_from(excitation(seen))
-    for name in ("x", "y"):
-        yield (back[name].values - seen[name].values) * 1e3
 
 
 @holds(bound=2e-11, unit="mas")
@@ -101,16 +65,6 @@ def _resonant_step() -> Distances:
     yield from _round_trip(100.0, step=PERIOD, size=400)
 
 
-@refused("leaves no trace")
-def _resonant_step_without_loss() -> None:
-    """step of exactly one free period without loss
-
-    Hard because: whatever drove it leaves no trace: 0/0, which rounding turns into numbers
-    """
-    s = resonance.chandler_frequency(PERIOD, np.inf)
-    resonance.excitation(np.array([1.0, 2.0, 3.0], dtype=complex), PERIOD, s)
-
-
 @holds(bound=1e-6, unit="mas")
 def _tiny_steps() -> Distances:
     """steps of a second
@@ -119,36 +73,6 @@ def _tiny_steps() -> Distances:
     Held against: the excitation that drove the pole; rounding of the pole times 6e6
     """
     yield from _round_trip(100.0, step=1 / 86400, size=5000)
-
-
-@holds(bound=1e-9, unit="mas")
-def _free() -> Distances:
-    """a free wobble without excitation
-
-    Hard because: the result is nothing but what cancels
-    Held against: zero, for a wobble of 150 mas over 64 years
-    """
-    s = resonance.chandler_frequency(PERIOD, 100.0)
-    p = 150 * np.exp(1j * s * np.arange(float(DAYS)))
-    yield resonance.excitation(p, 1.0, s)
-
-
-@refused("greater than zero")
-def _zero_quality() -> None:
-    """quality factor of zero
-
-    Hard because: all is lost at once: the frequency is infinite
-    """
-    resonance.chandler_frequency(PERIOD, 0.0)
-
-
-@refused("greater than zero")
-def _nan_period() -> None:
-    """a free period that is not a number
-
-    Hard because: NaN passes every comparison that is written the wrong way round
-    """
-    resonance.chandler_frequency(float("nan"), 100.0)
 
 
 @refused("a gap of 21.0 d")
@@ -173,16 +97,7 @@ def _uneven() -> None:
 
     Hard because: each step has its own response; one for all would be wrong by per cents
     """
-    excitation(_observed().isel(time=[0, 1, 2, 4, 5]))
-
-
-@refused("too short to separate")
-def _too_short() -> None:
-    """the free wobble from two years of data
-
-    Hard because: the beat with the annual wobble takes six years; some number would come out
-    """
-    fit_chandler(_observed().isel(time=slice(0, 730)))
+    excitation(polar_motion().isel(time=[0, 1, 2, 4, 5]))
 
 
 @holds(bound=0.0)
@@ -206,24 +121,6 @@ def _prolate() -> Distances:
     h = np.array([0.3, 3e-3, 1e-9, 1e-15])
     for sign in (1, -1):
         yield turns_rigid(sign * h) * h / (1 - sign * h) - 1
-
-
-@refused("middle one of the three principal axes")
-def _middle() -> None:
-    """a wobble about the middle axis
-
-    Hard because: the square of its period is below zero
-    """
-    turns_triaxial(1e-6, 3e-7, 1e-5)
-
-
-@refused("exponent")
-def _exponent() -> None:
-    """a ladder with an exponent of loss of 2
-
-    Hard because: the formula would give a wobble that gains energy, or numbers without meaning
-    """
-    wobble_ladder(anelastic_exponent=2.0)
 
 
 @holds(bound=2e-14)

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.solvers.simulation import simulate
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import METHODS, fit
 from earthspin.wobble.record import BAND
-from earthspin.wobble.simulation import simulate
 
 Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
 

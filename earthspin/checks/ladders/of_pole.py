@@ -12,12 +12,12 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.checks.ladders import taylor
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, settings
 from earthspin.constants import DAY, J2000_JD, UAS
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.axes import axis_path
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.checks.ladders.rotation import Rotation
+from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.checks.stored import load, rotation_error
 from earthspin.checks.work_precision import Ladder, Method, settings
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above
 from earthspin.motion.rotation import Motion, start_of

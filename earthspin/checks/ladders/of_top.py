@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.checks.ladders.rotation import FEW_FINE, FINE, Rotation, ladder_of_rotation
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top
 from earthspin.checks.work_precision import Ladder
-from earthspin.top.integration import integrate_heavy_top
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 
