@@ -141,7 +141,7 @@ def errors_of(
 
 
 @dataclass(frozen=True)
-class Largest:
+class LargestError:
     """Largest error of a series.
 
     Attributes
@@ -163,7 +163,7 @@ def largest_error(
     body: Body,
     pulls: Pulls,
     interior_shift: Shift | None = None,
-) -> Largest:
+) -> LargestError:
     """The largest error of the whole series, before the first of its stretches is written."""
     remedies = {
         "kernel": "the sky is no better known that far from J2000.0",
@@ -172,7 +172,7 @@ def largest_error(
         "method": "the integration takes the finest windows",
     }
     shares = _largest_shares(axis_path, epochs, body, pulls, interior_shift)
-    return Largest(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
+    return LargestError(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
 
 
 def _largest_shares(
@@ -276,7 +276,7 @@ def _follow(
 
 
 @dataclass(frozen=True)
-class Analysed:
+class PoleComparison:
     """Our pole and the IAU's, analysed alike.
 
     Attributes
@@ -357,7 +357,7 @@ def iau_nutation(
     return days, ends, complex_nutation(angles)
 
 
-def residual_error(analysed: Analysed, body: Body, eta: ComplexArray) -> float:
+def residual_error(analysed: PoleComparison, body: Body, eta: ComplexArray) -> float:
     """95 % half-width of either angle of a residual, from the integration and H in nutation."""
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
@@ -369,7 +369,7 @@ def rigid(effects: Sequence[str]) -> list[str]:
 
 
 @part(unless=no_iau_model)
-def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
+def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
     from earthspin.nutation.nutation import complex_nutation
@@ -406,7 +406,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
         their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
         advance(1)
     eta = complex_nutation(iau.nutation_of(pole, days))
-    return Analysed(
+    return PoleComparison(
         days=days,
         start=start,
         epoch=epoch,
@@ -421,7 +421,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
 
 
 @part
-def core_response(pole_analysis: Analysed, body: Body) -> Response:
+def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
     """Resonance form fitted to IAU 2000A over our rigid amplitudes."""
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     return _fitted(ours, ours.amplitude, theirs.amplitude, body)
@@ -449,7 +449,7 @@ def _used(circles: Circles) -> NDArray[np.bool_]:
 
 
 @dataclass(frozen=True)
-class Apart:
+class ResponseFit:
     """A response that is not allowed to absorb what no response makes.
 
     Attributes
@@ -476,8 +476,8 @@ class Apart:
 
 @part
 def response_apart(
-    pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
-) -> Apart:
+    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+) -> ResponseFit:
     """Resonance form fitted with geodesic nutation and additive terms taken away."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.nutation import complex_nutation
@@ -497,7 +497,7 @@ def response_apart(
     added = added_to(ours.multiples)
     response = _fitted(ours, torques, theirs - added, body)
     left = theirs - response.transfer(ours.frequency) * torques
-    return Apart(response, _used(ours), torques, left, added)
+    return ResponseFit(response, _used(ours), torques, left, added)
 
 
 @dataclass(frozen=True)
@@ -543,7 +543,7 @@ class Shift:
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
-def _shift(analysed: Analysed, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
+def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
     """Shift by circles of given amplitudes, and what it leaves of the distance from the IAU."""
     from earthspin.sky import iau
 
@@ -570,7 +570,7 @@ def _shift(analysed: Analysed, amplitude: ComplexArray, effects: Sequence[str]) 
 
 @part
 def nonrigid_shift(
-    pole_analysis: Analysed, response_apart: Apart, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
 ) -> Shift:
     """What core, mantle, oceans and atmosphere add to rigid nutation, fitted to IAU 2000A."""
     factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
@@ -580,7 +580,7 @@ def nonrigid_shift(
 
 @part(unless=no_layers)
 def predicted_shift(
-    pole_analysis: Analysed, prediction: Prediction, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
 ) -> Shift:
     """What the interior adds to the rigid nutations, predicted from its layers."""
     circles = pole_analysis.our_circles

@@ -214,9 +214,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     """Rate against the length of the averaging window."""
 
     rate_by_window: Value = number(
-        "arcsec/yr",
-        "rate of precession by all perturbers",
-        along=("window", "window_cycles"),
+        "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
     window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
     window: Labels = labels()
