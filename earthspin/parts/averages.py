@@ -320,7 +320,8 @@ class MeanRates:
 
     Attributes
     ----------
-    labels : list of str
+    means : MeanTorques
+        That they follow from, with the labels of the perturbers.
     rate : Estimate
         Of precession, rad/s.
     torque : Estimate
@@ -330,22 +331,13 @@ class MeanRates:
     second_order : float
         Bound on what a first-order average leaves out of the rate of all, rad/s; the largest of
         many.
-    method : str
-        Window and sampling in words.
-    evaluations : int
-        Epochs at which the sky was evaluated.
-    no_error : str
-        Why errors are not given; empty if they are.
     """
 
-    labels: list[str]
+    means: MeanTorques
     rate: Estimate
     torque: Estimate
     ratio: Numeric
     second_order: float
-    method: str
-    evaluations: int
-    no_error: str
 
     def total(self) -> tuple[Numeric, Numeric]:
         """Rate by all perturbers and its error, rad/s."""
@@ -389,14 +381,11 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         u_gm,
     )
     return MeanRates(
-        labels=means.labels,
+        means=means,
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
         second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(of_all(rate.value))),
-        method=means.method,
-        evaluations=means.evaluations,
-        no_error=means.no_error,
     )
 
 
