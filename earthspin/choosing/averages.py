@@ -42,8 +42,8 @@ class Averaging:
 
 
 @dataclass(frozen=True)
-class AveragedBody:
-    """Numbers of a body by which an error of the mean tensor becomes one of the precession rate.
+class Turned:
+    """What decides how far an error of the mean tensor is one of the rate of precession.
 
     Attributes
     ----------
@@ -77,12 +77,12 @@ class Pull(NamedTuple):
     slow_swing: float
 
 
-def average_choices(body: AveragedBody, cycles: float) -> list[Choice[Averaging]]:
+def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
     """Windows of an average with the relative error of the rate.
 
     Parameters
     ----------
-    body : AveragedBody
+    body : Turned
     cycles : float
         As many as there is room for.
 

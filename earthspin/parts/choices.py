@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.choosing.averages import AveragedBody, Averaging, Pull, average_choices
-from earthspin.choosing.choice import Choice, cheapest
-from earthspin.choosing.nutation import NutationNodes, nutation_choices
+from earthspin.choosing.averages import Pull, Turned, average_choices
+from earthspin.choosing.choice import cheapest
+from earthspin.choosing.nutation import nutation_choices
 from earthspin.choosing.promises import MARGIN
-from earthspin.choosing.windows import PoleWindows, window_choices
+from earthspin.choosing.windows import window_choices
 from earthspin.constants import DAY
-from earthspin.dates import TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.motion.effects import GEODESIC, MEASURED_WITH
-from earthspin.parts.pulls import Pulls, forces_of, start_of
+from earthspin.parts.pulls import forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.equator import angle
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.average import best_window
 from earthspin.torque.rates import left_for_method
+
+if TYPE_CHECKING:
+    from earthspin.choosing.averages import Averaging
+    from earthspin.choosing.choice import Choice
+    from earthspin.choosing.nutation import NutationNodes
+    from earthspin.choosing.windows import PoleWindows
+    from earthspin.dates import TimeGrid, TimeList
+    from earthspin.parts.pulls import Pulls
+    from earthspin.parts.sky import Sky, Stretch
 
 
 def windows_on_offer(
@@ -31,13 +39,15 @@ def windows_on_offer(
     epochs: TimeGrid | TimeList,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where sky or effects were not measured."""
-    measured = set(effects) <= set(MEASURED_WITH)
-    if not measured or not all(member.naif for member in (body, *perturbers)):
+    if not set(effects) <= set(MEASURED_WITH):
         return []
+
     forces = forces_of(body, pulls, effects)
     _, epoch = start_of(body, pulls)
     first, last = (day * DAY - epoch for day in epochs.span())
     bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in perturbers}
+    if not all(one.naif for one in (body, *perturbers)):
+        return []
     masses: dict[int, float] = {}
     for name, gm in forces.gm.items():
         code = bodies[name].naif[0]
@@ -77,12 +87,12 @@ def averages_on_offer(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
-    if not all(member.naif for member in (body, *perturbers)):
+    if not all(one.naif for one in (body, *perturbers)):
         return []
     cycle = max(p.cycle for p in perturbers)
     pole = body.needed("pole")
     normal = pole.orbit_normal(body.orbit_pole)
-    averaged = AveragedBody(
+    turned = Turned(
         code=body.naif[0],
         obliquity=angle(pole.true(0.0), normal),
         normal=normal,
@@ -91,7 +101,7 @@ def averages_on_offer(
         cycle=cycle,
     )
     widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    return average_choices(averaged, widest.cycles)
+    return average_choices(turned, widest.cycles)
 
 
 @part(unless=no_accuracy, chooses=True)

@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.parts.elements import Chain, all_by_elements, chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
@@ -35,7 +35,6 @@ from earthspin.sky.sources import (
 )
 
 if TYPE_CHECKING:
-    from earthspin.sky.elements import Ellipse
     from earthspin.sky.iau import Nutation
     from earthspin.sky.poles import Pole
 
@@ -111,30 +110,30 @@ class PerturbedBody(Question):
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
-        for other in self.perturbers:
-            if other.labelled_field is not None and not (
-                self.many_pulls and other.labelled_field == "gm"
+        for one in self.perturbers:
+            if one.labelled_field is not None and not (
+                self.many_pulls and one.labelled_field == "gm"
             ):
                 raise self.error(
-                    f"perturbers.{other.name}.{other.labelled_field}",
+                    f"perturbers.{one.name}.{one.labelled_field}",
                     "an array",
                     "what pulls is one body: one number each; ask again for every other",
                 )
-            if names.count(other.name) > 1:
-                raise self.error("perturbers", names, f"'{other.name}' is named twice")
+            if names.count(one.name) > 1:
+                raise self.error("perturbers", names, f"'{one.name}' is named twice")
         if "total" in names:
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for other in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(other) or (mixed and other.orbit is not None)
+        for one in (self.body, *self.perturbers):
+            of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)
             if getattr(self, "accuracy", None) is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
                     getattr(self, "accuracy", None),
-                    f"how far off the positions of '{other.name}' are was never measured, so none "
+                    f"how far off the positions of '{one.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
 
@@ -153,54 +152,24 @@ def unmeasured(body: Body) -> bool:
     return body.position is not None and not is_measured(body.position)
 
 
-class Address(NamedTuple):
-    """How a body is known to a source.
-
-    Attributes
-    ----------
-    name : str
-    codes : tuple of int
-        NAIF; of a body that has ellipses, the codes of where the first one begins.
-    position : vector function or Trajectory or None
-        Its own place, if it has one.
-    ellipses : tuple of (Ellipse, int)
-        That lead to it, if it has elements; -1 where one is gone back.
-    """
-
-    name: str
-    codes: tuple[int, ...]
-    position: Any = None
-    ellipses: tuple[tuple[Ellipse, int], ...] = ()
-
-    def in_source(self, source: Source) -> Place:
-        """Where a source finds it."""
-        if not self.ellipses:
-            return place_of(source, self.name, self.codes, self.position)
-        return self.by_elements(source.code(self.codes, self.name))
-
-    def by_elements(self, centre: int) -> Place:
-        """Where ellipses put it, from a NAIF code on."""
-        return ByElements(self.ellipses, centre)
-
-
 @dataclass(frozen=True)
 class Places:
-    """How the bodies of a question are known to a source of positions.
+    """What places the bodies of a question.
 
     Attributes
     ----------
-    centre : Address
-        Of the body that spins.
-    targets : tuple of Address
-        Of each perturber.
+    body : Body
+        That spins.
+    targets : dict of str to Chain
+        Ellipses that lead to each perturber; a chain without ellipses starts from itself.
     reach : dict of str to float
         How near each perturber may come, m: the radii of both bodies, the largest of arrays.
     by_elements : bool
-        Whether ellipses lead from the centre to all of them: no kernel is needed.
+        Whether ellipses lead from the body to all of them: no kernel is needed.
     """
 
-    centre: Address
-    targets: tuple[Address, ...]
+    body: Body
+    targets: dict[str, Chain]
     reach: dict[str, float]
     by_elements: bool = False
 
@@ -233,10 +202,10 @@ class Sky:
             for name, place in self.targets.items()
             if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
-        attributes = (
-            {"own_positions": "; ".join(f"{n}: {text}" for n, text in own.items())} if own else {}
-        )
-        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | attributes
+        attributes = self.source.provenance | {"pyerfa_version": version("pyerfa")}
+        if own:
+            attributes["own_positions"] = "; ".join(f"{name}: {text}" for name, text in own.items())
+        return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """How far a body may be from where it is seen, at the worst of some days: rad and m."""
@@ -266,7 +235,7 @@ class Sky:
 
     def place(self, body: Body) -> Place:
         """Where the source finds another body."""
-        return place_of(self.source, body.name, body.naif, body.position)
+        return _place(self.source, body.name, Chain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
         """First and last day on which the bodies can be placed; the perturbers by default."""
@@ -299,8 +268,8 @@ class Sky:
         """
         targets = self.targets if targets is None else targets
         positions = self.source.positions(targets, self.centre, days)
-        for name, place in positions.items():
-            self._refuse_inside(name, np.einsum("ti,ti->t", place, place))
+        for name, position in positions.items():
+            self._refuse_inside(name, np.einsum("ti,ti->t", position, position))
         return positions
 
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
@@ -354,7 +323,7 @@ class Sky:
             return seen
         axes = equator(days)
         positions = self.positions(days, targets)
-        return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
+        return {name: spherical(rotate(axes, position)) for name, position in positions.items()}
 
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
@@ -371,33 +340,26 @@ class Stretch:
     last: float
 
 
-def address(body: Body) -> Address:
-    """How a body is known to a source."""
-    return Address(body.name, body.naif, body.position)
-
-
-def _address_by_chain(body: Body, chain: EllipseChain | None) -> Address:
-    """How a body is known to a source, or where ellipses to it begin."""
-    if chain is None:
-        return address(body)
-    start = chain.start
-    if start.position is not None:
-        raise SceneError(
-            f"{body.name}.orbit",
-            str(body.orbit),
-            f"'{start.name}' has no NAIF code, but a position",
-        )
-    return Address(body.name, start.naif, None, chain.ellipses)
+def _place(source: Source, name: str, chain: Chain) -> Place:
+    """Where a source finds a body: by itself, or at the end of its ellipses."""
+    if chain.ellipses:
+        return ByElements(chain.ellipses, source.code(chain.start.naif, name))
+    return place_of(source, name, chain.start.naif, chain.start.position)
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    chains = ellipse_chains(body, perturbers)
+    targets = {p.name: Chain(p) for p in perturbers} | chains(body, perturbers)
+    for p in perturbers:
+        start = targets[p.name].start
+        if targets[p.name].ellipses and start.position is not None:
+            problem = f"'{start.name}' has no NAIF code, but a position"
+            raise SceneError(f"{p.name}.orbit", str(p.orbit), problem)
     return Places(
-        address(body),
-        tuple(_address_by_chain(perturber, chains.get(perturber.name)) for perturber in perturbers),
-        {perturber.name: extent(body) + extent(perturber) for perturber in perturbers},
+        body,
+        targets,
+        {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -406,25 +368,27 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Say which source the positions come from."""
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
-    sources = [f"positions {describe_source(source, ephemeris)}"]
-    sources += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
-    sources += [
-        f"{other.name} by {describe_position(other.position)}"
-        for other in (body, *perturbers)
-        if other.position is not None
+    phrases = [f"positions {describe_source(source, ephemeris)}"]
+    phrases += [f"{name} by the elements of its orbit" for name in chains(body, perturbers)]
+    phrases += [
+        f"{member.name} by {describe_position(member.position)}"
+        for member in (body, *perturbers)
+        if member.position is not None
     ]
-    return "; ".join(sources)
+    return "; ".join(phrases)
 
 
 @part(tells=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:
-        ellipses = {target.name: target.by_elements(CENTRE) for target in places.targets}
+        ellipses: dict[str, Place] = {
+            name: ByElements(chain.ellipses, CENTRE) for name, chain in places.targets.items()
+        }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
-    centre = places.centre.in_source(opened)
-    targets = {target.name: target.in_source(opened) for target in places.targets}
+    centre = _place(opened, places.body.name, Chain(places.body))
+    targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")

@@ -190,7 +190,7 @@ def numbers(
     return SideBySide.of(
         **{
             name: of_one(mean_rates.rate.value, place)
-            for place, name in enumerate(mean_rates.labels)
+            for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
         published=_published() * as_published,

@@ -20,7 +20,7 @@ from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
-    Largest,
+    LargestError,
     Shift,
     Turns,
     axis_path,
@@ -176,7 +176,7 @@ def axes(
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
-    largest_error: Largest | None = None,
+    largest_error: LargestError | None = None,
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
@@ -293,7 +293,7 @@ class DirectionAccuracy(Report, units="uas", error_of="in direction"):
 
 @part(unless=no_accuracy)
 def pole_accuracy(
-    axes: xr.Dataset, largest_error: Largest, accuracy: float | None
+    axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
     """Accuracy of the pole: asked, estimated, and the method chosen."""
     by = axes.direction_error.attrs

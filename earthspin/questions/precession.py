@@ -168,17 +168,17 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         mean_torque=mean_rates.torque,
         obliquity=mean_torques.obliquity,
         reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
-        perturber=mean_rates.labels,
+        perturber=mean_torques.labels,
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         precession_rate={
             "window": mean_torques.over,
             "pole": str(body.needed("pole")),
             "plane": _plane(body),
         },
         precession_rate_error={
-            "method": mean_rates.method,
-            "evaluations": mean_rates.evaluations,
+            "method": mean_torques.method,
+            "evaluations": mean_torques.evaluations,
         },
     )
 
@@ -202,8 +202,8 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy
     return RateAccuracy(
         error_asked=accuracy,
         error_estimated=float((error / abs(rate)).max()),
-        method_chosen=mean_rates.method,
-        evaluations=mean_rates.evaluations,
+        method_chosen=mean_rates.means.method,
+        evaluations=mean_rates.means.evaluations,
     )
 
 
@@ -214,9 +214,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     """Rate against the length of the averaging window."""
 
     rate_by_window: Value = number(
-        "arcsec/yr",
-        "rate of precession by all perturbers",
-        along=("window", "window_cycles"),
+        "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
     window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
     window: Labels = labels()
@@ -373,7 +371,7 @@ def seasons(
             year, calendar.GREGORIAN_YEAR
         ),
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         general_precession={
             "effects": f"torques of Sun and Moon alone; no published effects apply: {another}"
             if another
@@ -407,7 +405,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
         closure=(closure(rate, iau_rate), error),
-    ).with_attributes(no_error=mean_rates.no_error)
+    ).with_attributes(no_error=mean_torques.no_error)
 
 
 class Standstills(Variables, along=("standstill",)):
