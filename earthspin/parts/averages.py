@@ -11,26 +11,25 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.choosing.averages import Averaging
+from earthspin.choosing.choice import Choice
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
+from earthspin.numerics.estimate import Estimate
 from earthspin.parts.elements import chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
 from earthspin.torque import average, locking, mean_orbit, rates
-from earthspin.torque.average import best_window, precessing_torque, window_mean_and_error
+from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
 from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.choosing.averages import Averaging
-    from earthspin.choosing.choice import Choice
-    from earthspin.numerics.estimate import Estimate
-    from earthspin.torque.average import Window
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from earthspin.bodies import Body
 from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
-
-if TYPE_CHECKING:
-    from earthspin.sky.elements import Ellipse
 
 #: How far half the long axis and the period of one orbit may be from Kepler's third law, relative:
 #: the Sun makes the Moon's month 0.3 per cent longer than its mean distance says.

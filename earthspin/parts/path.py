@@ -11,7 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
+from earthspin.choosing.choice import Choice
+from earthspin.choosing.windows import PoleWindows
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.dates import TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
@@ -29,9 +32,6 @@ from earthspin.sky.kernel_differences import DRIFT_FROM, growth
 from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
-    from earthspin.choosing.choice import Choice
-    from earthspin.choosing.windows import PoleWindows
-    from earthspin.dates import TimeGrid, TimeList
     from earthspin.nutation.analysis import PoleAnalysis, Secular
     from earthspin.nutation.nutation import Circles
     from earthspin.nutation.response import Response

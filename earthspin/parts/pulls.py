@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, Body
@@ -18,10 +18,8 @@ from earthspin.motion.forces import Figure, Forces
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
+from earthspin.sky.protocol import Place
 from earthspin.units import FloatArray, Several, Word
-
-if TYPE_CHECKING:
-    from earthspin.sky.protocol import Place
 
 
 class AxisMotion(Series):

@@ -23,6 +23,7 @@ from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.elements import Chain, all_by_elements, chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
+from earthspin.sky.poles import Pole
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -36,7 +37,6 @@ from earthspin.sky.sources import (
 
 if TYPE_CHECKING:
     from earthspin.sky.iau import Nutation
-    from earthspin.sky.poles import Pole
 
 FloatArray = NDArray[np.float64]
 

@@ -31,7 +31,7 @@ from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
-from earthspin.nutation.budget import budget_of, published_effects
+from earthspin.nutation.budget import Budget, budget_of, published_effects
 from earthspin.parts.path import (
     PoleComparison,
     ResponseFit,
@@ -54,7 +54,6 @@ from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
-    from earthspin.nutation.budget import Budget
     from earthspin.nutation.response import Response
 
 #: The terms of the nutation table.

@@ -15,7 +15,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
-from earthspin.motion.axes import AXES
+from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
@@ -41,8 +41,6 @@ from earthspin.units import AngleError, FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.motion.axes import AxisPath
 
 
 class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):

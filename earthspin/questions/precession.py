@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,6 +26,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
+from earthspin.numerics.estimate import Estimate
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
@@ -47,9 +46,6 @@ from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
 from earthspin.units import Relative
-
-if TYPE_CHECKING:
-    from earthspin.numerics.estimate import Estimate
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
