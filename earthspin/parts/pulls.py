@@ -22,7 +22,7 @@ from earthspin.sky.protocol import Place
 from earthspin.units import FloatArray, Several, Word
 
 
-class Moved(Series):
+class AxisMotion(Series):
     """Keys of every question about axes that move under torques."""
 
     effects: Annotated[tuple[str, ...], Several(Word(EFFECTS))] = key(
