@@ -16,12 +16,11 @@ from scipy.spatial.transform import Rotation
 from earthspin.bodies import MOON, SUN
 from earthspin.checks.case import Distances, holds, relative_error
 from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.attitude import attitude_about, attitude_motion
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces
-from earthspin.motion.triaxial import equatorial_basis
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.averages import Samples, torque_samples
 from earthspin.parts.sky import Stretch, places, sky, stretch
@@ -103,7 +102,7 @@ def _exact_and_attitude() -> Distances:
     days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
     start, tide = _momentum(_path(days), 0.0), Tide(days * DAY)
     _, axis = axisymmetric_motion(tide, H, SPIN, start, NORTH, times)
-    _, turn = attitude_motion(tide, H, 0.0, SPIN, start, _attitude(NORTH, 0.3), times)
+    _, turn = attitude_motion(tide, H, 0.0, SPIN, start, attitude_about(NORTH, 0.3), times)
     yield _angle(Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2], axis)
 
 
@@ -118,17 +117,9 @@ def _triaxial() -> Distances:
     path = _path(days, _figure(triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
     found = path.at(times)
     start = np.linalg.norm(_momentum(path, 0.0)) * found["angular_momentum"][0]
-    turned = _attitude(found["figure"][0], float(BODY.meridian))
+    turned = attitude_about(found["figure"][0], float(BODY.meridian))
     _, turn = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, turned, times)
     yield _angle(found["figure"], Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2])
-
-
-def _attitude(axis: FloatArray, turned: float) -> FloatArray:
-    """Quaternion of a body whose third axis is given, turned about it."""
-    first, second = equatorial_basis(axis)
-    x = np.cos(turned) * first + np.sin(turned) * second
-    frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
-    return np.asarray(frame.as_quat(scalar_first=True))
 
 
 @holds(bound=2e-5, unit="arcsec/yr")
@@ -218,7 +209,7 @@ def _cost_of_attitude() -> Distances:
     Hard because: the step is bound to the turn of the body
     Held against: exponent 1 of the number of evaluations, over 8 to 32 d
     """
-    start, turned = _momentum(_path(8.0), 0.0), _attitude(NORTH, 0.3)
+    start, turned = _momentum(_path(8.0), 0.0), attitude_about(NORTH, 0.3)
 
     def count(days: float) -> int:
         tide = Tide(days * DAY)
