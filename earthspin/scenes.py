@@ -16,21 +16,24 @@ import numpy as np
 import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering
+from earthspin.engine import answering, loop
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
 from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of
+from earthspin.engine.series import Series
+from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.parts.orbits import OWN, OrbitChoice
 from earthspin.parts.sky import KernelName
+from earthspin.parts.times import epochs
 from earthspin.questions.polar_motion import C04, TableFile
 from earthspin.sky.columns import is_table
+from earthspin.sky.ephemeris import NAMED_KERNELS
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.engine.series import Series
 
 #: Every question, by the word after ``compute =``.
 QUESTIONS: dict[str, type[Question]] = {
@@ -163,8 +166,6 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     elif not isinstance(scene, (str, os.PathLike)):
         raise SceneError("scene", scene, "give a name, a path, a question or an answer")
     elif Path(str(scene)).suffix in (".nc", ".zarr"):
-        from earthspin.engine.store import open as open_file
-
         answer = open_file(Path(scene))
         text, source, title = _scene_of(answer), str(scene), ""
     else:
@@ -332,8 +333,6 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 def _say_what_differs(scene: Any, answer: Any) -> None:
     """Warn if an answer that was run again was made with other versions."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
-        from earthspin.engine.store import open as open_file
-
         scene = open_file(scene)
     old = getattr(scene, "attrs", {})
     differ = [
@@ -380,22 +379,15 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     >>> print(earthspin.open(path).sizes["time"])
     87673
     """
-    from earthspin.engine import loop
-
     return loop.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
 def _series(question: Question) -> Series:
     """A long series as work in blocks."""
-    from earthspin.engine.series import Series
-
     size = series_length(question)
     if size == 0:
-        raise SceneError(
-            "compute",
-            question.word,
-            "only a series of torques, pole or rotation is written by region",
-        )
+        problem = "only a series of torques, pole or rotation is written by region"
+        raise SceneError("compute", question.word, problem)
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
@@ -403,7 +395,6 @@ def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
     if not any(BY_BLOCK in one.uses for one in question.graph.parts.values()):
         return 0
-    from earthspin.parts.times import epochs
 
     keys = question.keys()
     return epochs(keys["span"], keys["step"], keys["times"]).size
@@ -469,9 +460,8 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
     try:
         return path.read_text(encoding="utf-8-sig"), text, path.stem
     except FileNotFoundError:
-        raise SceneError(
-            "scene", text, f"there is no such file; shipped: {', '.join(shipped_scenes())}"
-        ) from None
+        problem = f"there is no such file; shipped: {', '.join(shipped_scenes())}"
+        raise SceneError("scene", text, problem) from None
     except OSError as error:
         raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -500,8 +490,6 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
     but : iterable of str
         Keys to leave out.
     """
-    from earthspin.sky.ephemeris import NAMED_KERNELS
-
     words = {KernelName: (*NAMED_KERNELS,), OrbitChoice: (OWN,), TableFile: (C04,)}
     members, files = question.members, []
     for name, key in keys_of(type(question)).items():

@@ -9,6 +9,7 @@ from tests.mutants.catalogue import ROOT, Mutant, load
 from tests.mutants.runner import Finding, failing_without_error, try_mutant
 from tests.mutants.tables import page, tally
 
+pytestmark = pytest.mark.any_version
 MUTANTS = load()
 #: Packages of which every module is a kernel: all save those that only hold names.
 PACKAGES = (

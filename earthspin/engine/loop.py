@@ -152,15 +152,18 @@ def _go_on(work: Work, unfinished: Unfinished, target: Path, client: object) -> 
     """Make what is missing, and again what is damaged, until all is as the ledger says."""
     layout, own = work.layout, set[int]()
     try:
-        while (damaged := unfinished.drop_damaged()) or unfinished.missing:
-            if own.intersection(damaged):
-                words = f"block {damaged[0]} is not what was just written"
-                raise OutputError(unfinished.folder, words, "check the disk and run it again")
+        unfinished.drop_damaged()
+        while True:
             with progress(work.what, layout.size, unfinished.length) as advance:
                 for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
                     unfinished.note(number, sums)
                     own.add(number)
                     advance(layout.length(number))
+            if not (damaged := unfinished.drop_damaged()):
+                break
+            if own.intersection(damaged):
+                words = f"block {damaged[0]} is not what was just written"
+                raise OutputError(unfinished.folder, words, "check the disk and run it again")
     except BaseException as ended:
         if not isinstance(ended, Exception):  # from outside
             kept = f"{unfinished.length} of {layout.size} are kept in {unfinished.folder.name}"

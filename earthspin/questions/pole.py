@@ -15,7 +15,9 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
 from earthspin.engine.variables import Labels, Value, labels, number
+from earthspin.motion.axes import AXES
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
+from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     Largest,
@@ -179,8 +181,6 @@ def axes(
     block: Block | None = None,
 ) -> Directions:
     """Directions of angular-momentum, rotation and figure axis at every time."""
-    from earthspin.motion.axes import AXES
-
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = _days(epochs, block)
@@ -280,8 +280,6 @@ def pole_angles(
     block: Block | None = None,
 ) -> Angles:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
-    from earthspin.nutation.angles import on_fixed_ecliptic
-
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)

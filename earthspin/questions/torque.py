@@ -16,10 +16,13 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
+from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import Dated, Series, epochs, refuse_what_does_not_fit
+from earthspin.torque.gravity import torque_error, torque_from_declination
+from earthspin.torque.neglected import largest_torque_on_figure
 from earthspin.units import AngleError
 
 if TYPE_CHECKING:
@@ -134,9 +137,6 @@ def torques(
     """Declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
-    from earthspin.mass.inertia import moment_difference
-    from earthspin.torque.gravity import torque_error, torque_from_declination
-
     if block is None:
         refuse_what_does_not_fit(
             epochs,
@@ -222,8 +222,6 @@ def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAcc
 @part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Largest torque of each part of the figure beyond the bulge, at the nearest distance."""
-    from earthspin.torque.neglected import largest_torque_on_figure
-
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")

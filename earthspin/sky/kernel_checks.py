@@ -72,9 +72,8 @@ def check_summaries(daf: Any, path: Path) -> None:
     number, seen = daf.fward, set()
     while number:
         if number in seen:
-            raise KernelError(
-                path, f"its list of segments comes back to record {number} and never ends", AGAIN
-            )
+            problem = f"its list of segments comes back to record {number} and never ends"
+            raise KernelError(path, problem, AGAIN)
         seen.add(number)
         following, _, count = daf.summary_control_struct.unpack(daf.read_record(number)[:24])
         if not 0 <= count <= daf.summaries_per_record:
@@ -101,11 +100,8 @@ def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
         raise KernelError(path, "the file is cut short", AGAIN)
     for before, after in pairwise(placed):
         if after.start_i <= before.end_i:
-            raise KernelError(
-                path,
-                f"its segments {_name(before)} and {_name(after)} share the same words",
-                AGAIN,
-            )
+            problem = f"its segments {_name(before)} and {_name(after)} share the same words"
+            raise KernelError(path, problem, AGAIN)
 
 
 class Records:
@@ -311,22 +307,20 @@ def check_bodies(
             distance = _size(vectors)
             outside = ~((distance >= low) & (distance <= high))  # NaN is outside
             if outside.any():
-                raise KernelError(
-                    path,
+                problem = (
                     f"it puts {name} {distance[outside].flat[0]:.4g} m from NAIF {centre}, where "
-                    f"{low:.3g} to {high:.3g} m are possible",
-                    AGAIN,
+                    f"{low:.3g} to {high:.3g} m are possible"
                 )
+                raise KernelError(path, problem, AGAIN)
         for name, vectors, pull in _pulls(positions):
             acceleration = np.einsum("k,nkc->nc", _STENCIL, vectors) / (_STEP * DAY) ** 2
             residual = _size(acceleration - pull) / _size(pull)
             if not np.all(residual <= _NEWTON):
-                raise KernelError(
-                    path,
+                problem = (
                     f"{name} does not move in it as Sun and planets pull: by "
-                    f"{np.max(residual):.2g} of the acceleration",
-                    AGAIN,
+                    f"{np.max(residual):.2g} of the acceleration"
                 )
+                raise KernelError(path, problem, AGAIN)
 
 
 def _distances(

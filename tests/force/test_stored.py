@@ -13,7 +13,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -318,6 +318,7 @@ ATTRIBUTES = st.dictionaries(
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
+@settings(max_examples=30)
 @given(values=ARRAYS, attrs=ATTRIBUTES)
 def test_nothing_sound_is_refused(
     tmp_path_factory: pytest.TempPathFactory, kind: str, values: np.ndarray, attrs: dict

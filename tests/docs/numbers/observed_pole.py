@@ -201,7 +201,6 @@ MEASURED = [
         '| {} ± {} d, $Q$ = {} ({} to {}) |\n| `"likelihood"`',
         partial(of_c04, "burg"),
         (0, 0, 0, 0, 50),
-        newest=True,
     ),
     Sentence(PAGE, "For $Q$ = 100 and {} years that is {} days", lambda: [65, limit()]),
     Sentence(
@@ -235,7 +234,6 @@ MEASURED = [
         PAGE,
         "The last window of the table to September 2026 has its middle in June 2023: {} ± {} mas",
         last_amplitude,
-        newest=True,
     ),
     Sentence(
         PAGE,
