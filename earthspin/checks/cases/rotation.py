@@ -33,9 +33,9 @@ def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) ->
     """Largest angle from Jacobi's closed form."""
     times = np.linspace(0.0, end, 50)
     body = _body(*moments)
-    found = Motion(body, ALONE, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
+    result = Motion(body, ALONE, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
     true = free_rotation((*moments, 1.0), omega, times).attitude
-    chord = [np.linalg.norm(found.attitude - s * true, axis=1) for s in (1, -1)]
+    chord = [np.linalg.norm(result.attitude - s * true, axis=1) for s in (1, -1)]
     return float(2 * np.max(np.minimum(*chord)))
 
 
@@ -94,14 +94,14 @@ def _passage(eccentricity: float) -> float:
         return {"mass": np.stack([np.cos(anomaly) - eccentricity, across, 0 * times], axis=-1)}
 
     above, start = Above(gm={"mass": 1.0}, positions=places), np.array([0.1, 0.0, 1.0])
-    found = [
+    result = [
         Motion(body, above, start_of(body, UPRIGHT, start), 9.0, tolerance=tolerance).at(
             np.array([9.0])
         )
         for tolerance in (1e-13, 1e-9)
     ]
-    chord = min(np.linalg.norm(found[0].attitude - s * found[1].attitude) for s in (1, -1))
-    return float(2 * chord / (found[0].error[0, 0, -1] + found[1].error[0, 0, -1]))
+    chord = min(np.linalg.norm(result[0].attitude - s * result[1].attitude) for s in (1, -1))
+    return float(2 * chord / (result[0].error[0, 0, -1] + result[1].error[0, 0, -1]))
 
 
 @holds(bound=1.0)

@@ -62,8 +62,8 @@ def _one_ulp() -> Distances:
     times = np.linspace(0.0, 100 * 2 * np.pi / float(rotor.wobble_rate), 500)
     exact = rotor.omega_body(times)
     for b in (1.0 + EPS, 1.0 - EPS / 2):
-        found = free_rotation([1.0, b, 1.3], exact[0], times)
-        yield relative_error(found.omega_body, exact)
+        result = free_rotation([1.0, b, 1.3], exact[0], times)
+        yield relative_error(result.omega_body, exact)
 
 
 @holds(bound=5e-15)
@@ -73,8 +73,8 @@ def _nearly_sphere() -> Distances:
     Hard because: the wobble takes 10^16 turns, and the polhode is decided by two bits
     Held against: omega in space that stays as it was, over 100 turns
     """
-    found = free_rotation([1.0, 1.0 + EPS, 1.0 + 2 * EPS], START, np.linspace(0.0, 800.0, 300))
-    yield relative_error(found.omega_inertial, START)
+    result = free_rotation([1.0, 1.0 + EPS, 1.0 + 2 * EPS], START, np.linspace(0.0, 800.0, 300))
+    yield relative_error(result.omega_inertial, START)
 
 
 @holds(bound=1e-14)
@@ -88,8 +88,8 @@ def _prolate() -> Distances:
     for difference in (-0.9, -1e-9, 0.4):
         for alpha in (0.3, np.pi - 0.3):
             rotor = SymmetricRotor(1.0, difference, 1.0, alpha)
-            found = _followed(rotor, times)
-            yield relative_error(found.omega_inertial, _seen_from_start(rotor, times))
+            result = _followed(rotor, times)
+            yield relative_error(result.omega_inertial, _seen_from_start(rotor, times))
 
 
 def _seen_from_start(rotor: SymmetricRotor, times: FloatArray) -> FloatArray:
@@ -123,8 +123,8 @@ def _separatrix() -> Distances:
     rate = g / i2 * math.sqrt((i2 - i1) * (i3 - i2) / (i1 * i3))
     sech = 1 / np.cosh(rate * times)
     exact = np.stack([2.0 * sech, -g / i2 * np.tanh(rate * times), sech], axis=-1)
-    found = free_rotation(body, start, times).omega_body
-    yield min(relative_error(found, exact), relative_error(found, exact * [1.0, -1.0, 1.0]))
+    result = free_rotation(body, start, times).omega_body
+    yield min(relative_error(result, exact), relative_error(result, exact * [1.0, -1.0, 1.0]))
 
 
 @holds(bound=1e-14)
@@ -143,8 +143,8 @@ def _near_separatrix() -> Distances:
         k = math.sqrt((r * x3 - s * x1) / (r * x3))
         rate = abs(i3 - i1) * math.sqrt(r * x3 / (i1 * i2 * i3))
         exact = 4 * math.log(4 / k) / rate
-        found = float(jacobi_motion([3.0, 4.0, 6.0], [2.0, 0.0, float(w3)]).period)
-        yield found / exact - 1
+        result = float(jacobi_motion([3.0, 4.0, 6.0], [2.0, 0.0, float(w3)]).period)
+        yield result / exact - 1
 
 
 @holds(bound=5e-9, slow=True)
@@ -190,8 +190,8 @@ def _direction() -> Distances:
     Hard because: attitude and spin must err together, or not at all
     Held against: L in space at the start, over |L|
     """
-    found = _many_periods(1e4)
-    space = quaternion.rotate(found.attitude, found.angular_momentum_body)
+    result = _many_periods(1e4)
+    space = quaternion.rotate(result.attitude, result.angular_momentum_body)
     yield relative_error(space, space[0])
 
 
@@ -216,8 +216,8 @@ def _polhode() -> Distances:
     start = np.array([1e-6, 0.0, 1.0]) * SPIN
     period = float(jacobi_motion(moments, start).period)
     rounds = np.arange(0, int(60 * JULIAN_YEAR / period) + 1)
-    found = free_rotation(moments, start, rounds * period).omega_body
-    yield (found - start) / SPIN / UAS
+    result = free_rotation(moments, start, rounds * period).omega_body
+    yield (result - start) / SPIN / UAS
 
 
 def _moments_of_a_planet() -> dict[str, float]:

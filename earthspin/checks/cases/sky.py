@@ -116,8 +116,8 @@ def _beside_the_pole() -> Distances:
     vectors = 4e8 * np.stack([np.sin(away), 0 * away, np.cos(away)], axis=1)
     both = np.concatenate([vectors, vectors * [1, 1, -1]])
     _, declination, _ = spherical(both)
-    found = np.pi / 2 - np.abs(declination)
-    yield found - np.concatenate([away, away])
+    result = np.pi / 2 - np.abs(declination)
+    yield result - np.concatenate([away, away])
 
 
 @holds(bound=5e-15)
@@ -142,9 +142,9 @@ def _legs() -> Distances:
     Held against: Moon from planet less barycentre from planet, over the distance
     """
     days = np.linspace(-30000.0, 15000.0, 50)
-    found = positions(days)
+    result = positions(days)
     from_moon = kernel().positions({"sun": CODES["sun"]}, CODES["moon"], days)["sun"]
-    yield relative_error(found["moon"] + from_moon, found["sun"])
+    yield relative_error(result["moon"] + from_moon, result["sun"])
 
 
 @holds(bound=0.0)

@@ -77,10 +77,10 @@ def ladder(quick: bool) -> Ladder:
     )
 
 
-def scaled_error(true: Values, found: Array) -> float:
+def scaled_error(true: Values, result: Array) -> float:
     """Largest error of an answer over the geometric mean of the two on the diagonal."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
-    return float(np.max(abs(true.error_of(found)) / np.outer(own, own)))
+    return float(np.max(abs(true.error_of(result)) / np.outer(own, own)))
 
 
 def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:

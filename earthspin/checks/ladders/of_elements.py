@@ -108,12 +108,12 @@ def _error(off: FloatArray) -> float:
 
 def _placed(run: InPlane, t: FloatArray, setting: float) -> Found:
     """Places on all ellipses by a method that finds them in the plane, x to the pericentre."""
-    found, calls = [], 0
+    result, calls = [], 0
     for one in ORBITS:
         x, y, more = run(one, one.mean_anomaly + one.motion * DAY * t, setting)
-        found.append(_turned(one, t, x, y))
+        result.append(_turned(one, t, x, y))
         calls += more
-    return np.stack(found), calls
+    return np.stack(result), calls
 
 
 def _turned(one: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:

@@ -107,8 +107,8 @@ def _windows(t: FloatArray, tolerance: float) -> Rotation:
     above = Above(gm={"planet": 1.0}, positions=lambda times: {"planet": _places(times)})
     start = start_of(body, np.array([1.0, 0.0, 0.0, 0.0]), np.array(OMEGA))
     motion = Motion(body, above, start, float(t[-1]), tolerance=tolerance)
-    found = motion.at(t)
-    return (found.omega, found.attitude), motion.evaluations
+    result = motion.at(t)
+    return (result.omega, result.attitude), motion.evaluations
 
 
 def _attitude(t: FloatArray, rtol: float) -> Rotation:
