@@ -73,7 +73,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     span = FEW if quick else SPAN
     start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0])
     motion = Motion(start, np.linspace(-span, 0.0, TIMES))

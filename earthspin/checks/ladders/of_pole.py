@@ -27,7 +27,7 @@ Found = tuple[FloatArray, int]
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {
     "h": H,
     "spin_rate": SPIN,
@@ -79,7 +79,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("pole", INPUTS)
     wanted = slice(0, FEW_TIMES if quick else TIMES)
     span = FEW_DAYS if quick else DAYS

@@ -28,7 +28,7 @@ OMEGA = (0.5, 0.3, 1.5)
 #: Time that is followed, of which the first part in a quick run; asked for at so many times.
 SPAN, SHORT = 16.0, 4.0
 TIMES, FEW = 32, 8
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {
     "h": H,
     "triaxiality": TRIAXIALITY,
@@ -46,7 +46,7 @@ def times() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("rotation", INPUTS)
     wanted = slice(0, FEW if quick else TIMES)
     t = times()[wanted]

@@ -40,7 +40,7 @@ def points() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     place = points()
     true = load("spheroid", {"flattening": FLATTENING, "points": place.tolist()})
     degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))

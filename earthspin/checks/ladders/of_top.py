@@ -30,7 +30,7 @@ TOP = {
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     fine = FEW_FINE if quick else FINE
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     return ladder_of_rotation(

@@ -40,7 +40,7 @@ SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
     ends = float(days[0]), float(days[-1])
     true = reference(days)
