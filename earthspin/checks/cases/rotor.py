@@ -89,13 +89,9 @@ def _prolate() -> Distances:
         for alpha in (0.3, np.pi - 0.3):
             rotor = SymmetricRotor(1.0, difference, 1.0, alpha)
             result = _followed(rotor, times)
-            yield relative_error(result.omega_inertial, _seen_from_start(rotor, times))
-
-
-def _seen_from_start(rotor: SymmetricRotor, times: FloatArray) -> FloatArray:
-    """Angular velocity along the body's axes at t = 0."""
-    begin = quaternion.conjugate(rotor.attitude(np.zeros(1)))
-    return quaternion.rotate(begin, rotor.omega_inertial(times))
+            start = quaternion.conjugate(rotor.attitude(np.zeros(1)))  # the axes at t = 0
+            expected = quaternion.rotate(start, rotor.omega_inertial(times))
+            yield relative_error(result.omega_inertial, expected)
 
 
 @holds(bound=5e-15)
@@ -212,19 +208,15 @@ def _polhode() -> Distances:
     Hard because: 72 rounds of a cone of 0.2 arcsec, A and B 7e-6 apart, after 22,000 turns
     Held against: omega at the start after every whole round
     """
-    moments = _moments_of_a_planet()
+    # in units of A, from J2 = (C - (A + B)/2)/(M a2), H, and B - A over M a2; C/(M a2) is J2/H
+    b_a = float(BODY.triaxiality)
+    a, c_a = J2 / H - J2 - b_a / 2, J2 + b_a / 2
+    moments = {"A": 1.0, "B-A": b_a / a, "C-A": c_a / a}
     start = np.array([1e-6, 0.0, 1.0]) * SPIN
     period = float(jacobi_motion(moments, start).period)
     rounds = np.arange(0, int(60 * JULIAN_YEAR / period) + 1)
     result = free_rotation(moments, start, rounds * period).omega_body
     yield (result - start) / SPIN / UAS
-
-
-def _moments_of_a_planet() -> dict[str, float]:
-    """In units of A, from J2 = (C - (A + B)/2)/(M a2), H, and B - A over M a2."""
-    b_a = float(BODY.triaxiality)
-    a, c_a = J2 / H - J2 - b_a / 2, J2 + b_a / 2  # C/(M a2) is J2/H
-    return {"A": 1.0, "B-A": b_a / a, "C-A": c_a / a}
 
 
 @holds(bound=5e-15)

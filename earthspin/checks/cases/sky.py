@@ -8,7 +8,6 @@ from pathlib import Path
 
 import erfa
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import MARS, MOON
 from earthspin.checks.case import Distances, holds, refused, relative_error, without_folder
@@ -19,8 +18,6 @@ from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.equator import fixed_equator, spherical
 from earthspin.sky.iau import Nutation
 from earthspin.sky.standstill import find_standstills
-
-FloatArray = NDArray[np.float64]
 
 
 def _ends() -> tuple[float, float]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 import xarray as xr
@@ -39,11 +38,6 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     samples = torque_samples(above, stretch(above, None), *both)
     means = mean_torques(window_means(samples, both[1]))
     return precession_rates(mean_rates(means, *both), means, body).dataset()
-
-
-@lru_cache
-def _usual() -> xr.Dataset:
-    return _rate()
 
 
 def _leaning(angle: float) -> Body:
@@ -84,7 +78,7 @@ def _tiny_h() -> Distances:
     Held against: the rate in proportion to H, relative
     """
     tiny = _rate(BODY.replace(j2=1e-12 / 3, dynamical_flattening=1e-12))
-    yield tiny.precession_rate[0] / _usual().precession_rate[0] * H / 1e-12 - 1
+    yield tiny.precession_rate[0] / _rate().precession_rate[0] * H / 1e-12 - 1
 
 
 @holds(bound=1e-14)
