@@ -585,7 +585,7 @@ class Inferred(Variables, along=("origin",)):
     """H and C/(M a2) by where they come from."""
 
     flattening: Pair = measured("1", "dynamical flattening H")
-    polar_moment: Pair = measured("1", "C/(M a2)")
+    polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
     origin: Labels = labels()
 
 

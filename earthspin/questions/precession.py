@@ -128,9 +128,12 @@ class Rates(Variables, along=("perturber",)):
         "arcsec/yr",
         "rate of precession in longitude along the fixed orbit",
         split=True,
+        short="rate",
         cell_methods=_OVER_WINDOW,
     )
-    precession_period: Pair = measured("yr", "period of one full turn of precession")
+    precession_period: Pair = measured(
+        "yr", "period of one full turn of precession", short="period"
+    )
     rate_ratio: Value = number(
         "1",
         "ratio of the rate to that of the first perturber",
@@ -335,7 +338,9 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
         "arcsec/yr",
         "general precession in longitude: motion of the equinox along the moving ecliptic",
     )
-    general_precession_period: Pair = measured("yr", "period of one full turn of the equinox")
+    general_precession_period: Pair = measured(
+        "yr", "period of one full turn of the equinox", short="period"
+    )
     time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
     tropical_year: Value = number("d", "tropical year, the period of the seasons")
     time_per_day_of_drift: Value = number(

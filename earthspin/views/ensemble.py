@@ -15,7 +15,7 @@ import xarray as xr
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.views import plain
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Drawing, axes, drawn, empty, style
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, PageFigure, axes, empty
 from earthspin.views.reading import Result
 from earthspin.views.table import Table, short_exponents, with_error
 
@@ -96,25 +96,15 @@ def lead(tree: Result) -> str:
     return f"{said}. {100 * float(shares.max()):.1f} % of the variance comes from {most}."
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Spread of the chief number, and shares of the inputs; none if all members are alike."""
+def _caption_of_spread(tree: Result) -> str:
     answer = _whole(tree)
-    if not _chiefs(answer):
-        return []
     name, labels, _ = _chief(answer)
-    told = f"{answer.sizes[MEMBER]} members"
-    made = [
-        drawn(
-            "How the members spread",
-            f"{_words(name, labels).capitalize()}, of {told}; the band is the central 95 %.",
-            plot_spread(answer),
-        )
-    ]
-    if _tells(answer):
-        caption = f"Share of each input in the variance of {told}."
-        made.append(drawn("Where the spread comes from", caption, plot_shares(answer)))
-    return made
+    words = _words(name, labels).capitalize()
+    return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
+
+
+def _caption_of_shares(tree: Result) -> str:
+    return f"Share of each input in the variance of {_whole(tree).sizes[MEMBER]} members."
 
 
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
@@ -184,6 +174,22 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.grid(axis="y", visible=False)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, fontsize=8)
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "How the members spread",
+        _caption_of_spread,
+        plot_spread,
+        applies=lambda tree: bool(_chiefs(_whole(tree))),
+    ),
+    PageFigure(
+        "Where the spread comes from",
+        _caption_of_shares,
+        plot_shares,
+        applies=lambda tree: bool(_chiefs(_whole(tree))) and _tells(_whole(tree)),
+    ),
+]
 
 
 # --- what is shown -------------------------------------------------------------------------------
