@@ -6,8 +6,10 @@ LOWEST := .venv-lowest
 NEWEST := .venv-newest
 # Another Python than that of $(VENV), by name or by path.
 PYTHON_NEWEST ?= python3.13
-# Every test but those that want hours of their own.
-WHOLE := not every_number and not every_kill
+# What test-lowest and test-newest repeat: the quick tests that another version of a library can
+# change. `any_version` marks the others: text and numbers of pages, catalogues, style.
+VERSIONS := not slow and not every_number and not every_kill and not any_version
+SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
 .PHONY: report test slow test-lowest test-newest check docs numbers bench fuzz kills mutants clean
 
@@ -21,15 +23,15 @@ test: $(VENV)/.test
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -q -m slow --numprocesses=auto --dist=load
 
-# The oldest versions that pyproject.toml allows, slow tests too; what they themselves need is the
-# newest. A few numbers of the pages stand on newer tables of polar motion: those are left out.
+# The oldest versions that pyproject.toml allows; what they themselves need is the newest. Tests
+# that need newer tables of polar motion or a newer netCDF4 are left out.
 test-lowest: $(LOWEST)/.test
-	$(LOWEST)/bin/python -m pytest -q -m '$(WHOLE) and not newest' --numprocesses=auto --dist=loadfile $(TESTS)
+	$(LOWEST)/bin/python -m pytest -q -m '$(VERSIONS) and not newest' --numprocesses=auto --dist=loadfile $(TESTS)
 
-# The newest Python and the newest of all that runs on it, sought again each time; slow tests too.
+# The newest Python and the newest of all that runs on it, sought again each time.
 test-newest: $(NEWEST)/bin/python
 	$(NEWEST)/bin/python -m pip install --quiet --upgrade --upgrade-strategy eager --editable '.[test]'
-	$(NEWEST)/bin/python -m pytest -q -m '$(WHOLE)' --numprocesses=auto --dist=loadfile $(TESTS)
+	$(NEWEST)/bin/python -m pytest -q -m '$(VERSIONS)' --numprocesses=auto --dist=loadfile $(TESTS)
 
 check: $(VENV)/.check
 	$(BIN)/ruff check .
@@ -37,10 +39,10 @@ check: $(VENV)/.check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m data_tools cf
-	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	$(SPHINX)
 
 docs: $(VENV)/.check
-	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	$(SPHINX)
 
 # Every measured number of the pages, made again: an hour; those by DE440 if it is installed.
 numbers: $(VENV)/.test

@@ -1,11 +1,14 @@
-"""The signatures of the public calls, for editors and type checkers.
+"""Signatures of the public calls, for editors and type checkers, and the index of the reference.
 
-``python -m data_tools signatures`` writes earthspin/__init__.pyi from the classes of the questions.
+``python -m data_tools signatures`` writes earthspin/__init__.pyi, and the lists of calls and views
+in docs/reference/index.md, from the classes of the questions.
 """
 
 from __future__ import annotations
 
 import argparse
+import inspect
+from collections.abc import Iterable
 from pathlib import Path
 
 import earthspin
@@ -14,6 +17,7 @@ from earthspin.engine.question import Key, Question
 from earthspin.scenes import QUESTIONS
 
 FILE = Path(earthspin.__file__).with_name("__init__.pyi")
+INDEX = FILE.parents[1] / "docs" / "reference" / "index.md"
 
 _HEAD = '''"""Signatures of the public names, written by `python -m data_tools signatures`."""
 
@@ -49,12 +53,35 @@ def signatures() -> str:
     calls = {question.call: question for question in QUESTIONS.values()}
     lines = [_HEAD]
     for module, names in vars(earthspin)["_HOME"].items():
-        lines += [f"from {module} import {name} as {name}" for name in names if name not in calls]
+        lines += [f"from {module} import {name} as {name}" for name in names]
     lines += ["from earthspin._version import __version__ as __version__", ""]
     for question in calls.values():
         lines += ["", *_definition(question)]
     lines += ["", f"__all__ = {list(earthspin.__all__)!r}", ""]
     return "\n".join(lines)
+
+
+def index() -> str:
+    """Text of the index of the reference: first the questions, then all other calls."""
+    calls = [question.call for question in QUESTIONS.values()]
+    names = [
+        name
+        for name in earthspin.__all__
+        if inspect.isfunction(getattr(earthspin, name)) and name != "Scene"
+    ]
+    views = [f"views.{question.views}" for question in QUESTIONS.values()]
+    text = INDEX.read_text(encoding="utf-8")
+    text = _listed(text, "Calls", [*calls, *(name for name in names if name not in calls)])
+    return _listed(text, "Views", ["views.of_question", *views])
+
+
+def _listed(text: str, heading: str, names: Iterable[str]) -> str:
+    """A page with other names in the list under a heading."""
+    before, _, rest = text.partition(f"\n## {heading}\n")
+    head, _, tail = rest.partition("   :toctree: generated\n\n")
+    after = tail[tail.index("```") :]
+    listed = "".join(f"   {name}\n" for name in names)
+    return f"{before}\n## {heading}\n{head}   :toctree: generated\n\n{listed}{after}"
 
 
 def _definition(question: type[Question]) -> list[str]:
@@ -78,5 +105,6 @@ def _hint(name: str, one: Key | None) -> str:
 def main(given: argparse.Namespace) -> int:
     """Write the file."""
     FILE.write_text(signatures(), encoding="utf-8")
-    print(f"wrote {FILE.name}")
+    INDEX.write_text(index(), encoding="utf-8")
+    print(f"wrote {FILE.name} and {INDEX.name}")
     return 0

@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import xarray as xr
+
 from earthspin.checks.case import FAILS
-from earthspin.checks.gauntlet import stability
-from earthspin.views.gauntlet_views import markdown, tally, tally_line
+from earthspin.checks.stability import stability
+from earthspin.views.stability_tables import rows_by_part, tally, tally_line
 
 PAGE = Path(__file__).parents[1] / "docs" / "stability.md"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
@@ -25,6 +27,45 @@ def with_tables(page: str, tables: str) -> str:
     before, rest = page.split(BEGIN)
     after = rest.split(END)[1]
     return f"{before}{BEGIN}\n\n{tables}\n{END}{after}"
+
+
+def markdown(result: xr.Dataset) -> str:
+    """Return the tables in markdown, with what each case is held against.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `stability` gives it.
+    """
+    lines = []
+    for part, rows in rows_by_part(result):
+        answered = [
+            (
+                *(row[name] for name in ("case", "hard_because", "held_against")),
+                *(f"{row[name]} {row['unit']}".strip() for name in ("measured", "bound")),
+                row["verdict"],
+            )
+            for row in rows
+            if row["verdict"] != "refused"
+        ]
+        refused = [
+            (row["case"], row["hard_because"], row["reason"])
+            for row in rows
+            if row["verdict"] == "refused"
+        ]
+        lines.append(f"### {part}\n")
+        for head, cells in (
+            (("case", "hard because", "held against", "measured", "bound", "verdict"), answered),
+            (("refused", "hard because", "the line"), refused),
+        ):
+            if cells:
+                rule = f"|{'---|' * len(head)}"
+                lines += [_line(head), rule, *(_line(row) for row in cells), ""]
+    return "\n".join([*lines, tally_line(result), ""])
+
+
+def _line(cells: tuple[str, ...]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def main(given: argparse.Namespace) -> int:

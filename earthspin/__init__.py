@@ -10,32 +10,36 @@ from importlib import import_module as _import_module
 
 from earthspin._version import __version__ as __version__
 
+#: Every question by its public call, in the order in which they are listed, and the module of each.
+_QUESTIONS = {
+    "precession": "earthspin.questions.precession",
+    "torque_series": "earthspin.questions.torque",
+    "pole": "earthspin.questions.pole",
+    "compare_iau": "earthspin.questions.iau",
+    "nutation_ladder": "earthspin.questions.nutation",
+    "long_term": "earthspin.questions.long_term",
+    "rotation": "earthspin.questions.rotation",
+    "wobble_ladder": "earthspin.questions.wobble",
+    "polar_motion": "earthspin.questions.polar_motion",
+    "free_rotor": "earthspin.questions.free_rotor",
+    "heavy_top": "earthspin.questions.top",
+    "spheroid_field": "earthspin.questions.spheroid",
+    "cassini_states": "earthspin.questions.cassini",
+    "love_numbers": "earthspin.questions.love_numbers",
+    "compliances": "earthspin.questions.compliances",
+}
+#: The other public names, by their modules.
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
-    "earthspin.questions.precession": ("precession",),
-    "earthspin.questions.torque": ("torque_series",),
-    "earthspin.questions.pole": ("pole",),
-    "earthspin.questions.iau": ("compare_iau",),
-    "earthspin.questions.nutation": ("nutation_ladder",),
-    "earthspin.questions.love_numbers": ("love_numbers",),
-    "earthspin.questions.compliances": ("compliances",),
-    "earthspin.questions.long_term": ("long_term",),
-    "earthspin.questions.cassini": ("cassini_states",),
-    "earthspin.questions.rotation": ("rotation",),
     "earthspin.sky.orbit_files": ("read_orbit",),
     "earthspin.parts.insolation": ("daily_insolation",),
-    "earthspin.questions.wobble": ("wobble_ladder",),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",
-        "polar_motion",
         "polar_motion_from",
         "read_excitation",
     ),
-    "earthspin.questions.free_rotor": ("free_rotor",),
-    "earthspin.questions.top": ("heavy_top",),
-    "earthspin.questions.spheroid": ("spheroid_field",),
-    "earthspin.checks.gauntlet": ("stability",),
+    "earthspin.checks.stability": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",
@@ -63,7 +67,7 @@ _HOME = {
     "earthspin.many": ("ensemble",),
     "earthspin.engine.store": ("open", "read", "verify", "write"),
 }
-_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+_MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = ["__version__", *sorted(_MODULE_OF)]
 

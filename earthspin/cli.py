@@ -1,22 +1,26 @@
-"""The command line: report, play, run, ensemble, plan, scenes, keys, accuracy, stability, ..."""
+"""The command line: report, play, run, ensemble, plan, scenes, keys, accuracy, stability, ...
+
+What can be asked, and what a shell completes, comes from the questions.
+"""
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from argparse import Action, ArgumentParser, Namespace
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError, SceneError, printable
+from earthspin.errors import EarthspinError, MissingExtraError, SceneError, printable
 from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
 
+    Command = Callable[[Namespace], int | None]
 
 #: Pages to play with.
 PAGES = ("precession", "rotor", "top", "wobble")
@@ -37,18 +41,31 @@ And then:
 """
 
 
-class _Parser(argparse.ArgumentParser):
+class _Parser(ArgumentParser):
     """A parser whose complaints are one line."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.add_argument(
-            "--traceback", action="store_true", help="show where an error arose, after its line"
-        )
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        words = "show where an error arose, after its line"
+        self.add_argument("--traceback", action="store_true", help=words)
 
     def error(self, message: str) -> NoReturn:
         line = EarthspinError(f"earthspin: {message}; see {self.prog} --help")
         self.exit(USAGE_ERROR, f"{line}\n")
+
+
+class _ShowHelp(Action):
+    """Help of a command, and of the scene's keys where one is named before it."""
+
+    def __call__(self, parser: ArgumentParser, options: Namespace, *_: object) -> NoReturn:
+        """Print and leave."""
+        parser.print_help()
+        if options.scene is not None:
+            try:
+                print(f"\n{_keys_of(options.scene)}")
+            except EarthspinError as error:
+                parser.error(str(error))
+        parser.exit()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -70,392 +87,254 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _complete(parser)
 
     def command() -> int | None:
-        given = parser.parse_args(arguments)
-        status: int | None = given.command(given)
+        options = parser.parse_args(arguments)
+        status: int | None = options.command(options)
         return status
 
     words = sys.argv[1:] if arguments is None else arguments
     return run_command(command, show_traceback="--traceback" in words)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="earthspin",
-        description="How an oblate, spinning body answers to what pulls on it.",
-    )
+def _parser() -> ArgumentParser:
+    words = "How an oblate, spinning body answers to what pulls on it."
+    parser = _Parser(prog="earthspin", description=words)
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
-    commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
     parser.set_defaults(command=_welcome)
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
+    flag: dict[str, Any] = {"action": "store_true"}
+    words = "de421, de440, or the path of a .bsp file"
+    kernel: dict[str, Any] = {"metavar": "NAME|PATH", "help": words}
+    opens = flag | {"help": "open the page in the browser"}
+    sections = "what to tell beside the answer (default: {})".format
 
-    report = commands.add_parser("report", help="print and write the precession or wobble report")
-    report.add_argument(
-        "topic", nargs="?", default="precession", choices=("precession", "wobble"), help="of what"
-    )
-    report.add_argument("--out", default="report", metavar="DIR", help="folder (default: report)")
-    report.add_argument("--no-figures", action="store_true", help="tables alone, much faster")
-    report.add_argument("--open", action="store_true", help="open the page in the browser")
-    _add_ephemeris(report)
-    report.set_defaults(command=_report)
+    def command(name: str, run: Command, words: str, **settings: Any) -> ArgumentParser:
+        added = commands.add_parser(name, help=words, **settings)
+        added.set_defaults(command=run)
+        return added
 
-    play = commands.add_parser("play", help="write a page to play with")
-    play.add_argument("what", choices=PAGES, help="of what")
-    play.add_argument("--out", metavar="FILE", help="default: play-WHAT.html")
-    play.add_argument("--open", action="store_true", help="open the page in the browser")
-    play.set_defaults(command=_play)
+    def of_scene(name: str, run: Command, words: str) -> ArgumentParser:
+        added = command(name, run, words, add_help=False)
+        words = "name of a shipped scene, a TOML file, or a file with a result"
+        added.add_argument("scene", help=words)
+        added.add_argument("--ephemeris", **kernel)
+        several: dict[str, Any] = {"action": "append", "default": [], "dest": "settings"}
+        words = "change a key of the scene, e.g. --set step='1 h'"
+        added.add_argument("--set", metavar="KEY=VALUE", help=words, **several)
+        words = "show this, and the keys of a scene named before"
+        added.add_argument("-h", "--help", action=_ShowHelp, nargs=0, help=words)
+        return added
 
-    run = commands.add_parser("run", help="run a scene", add_help=False)
-    _add_scene(run)
-    run.add_argument(
-        "--out", metavar="DIR|FILE", help="folder for a page and the data, or a .nc or .zarr file"
-    )
-    run.add_argument("--json", action="store_true", help="print the result as JSON")
-    _add_sections(run, "default: none on the screen, all with --out")
-    run.set_defaults(command=_run)
+    add = command("report", _report, "print and write the precession or wobble report").add_argument
+    topics = ("precession", "wobble")
+    add("topic", nargs="?", default="precession", choices=topics, help="of what")
+    add("--out", default="report", metavar="DIR", help="folder (default: report)")
+    add("--no-figures", **flag, help="tables alone, much faster")
+    add("--open", **opens)
+    add("--ephemeris", **kernel)
 
-    many = commands.add_parser(
-        "ensemble", help="run a scene for many members whose numbers differ", add_help=False
-    )
-    _add_scene(many)
-    many.add_argument(
-        "--members",
-        metavar="N|FILE",
-        help="how many, or a .csv, .nc or .zarr with their values (default: what the scene says)",
-    )
-    many.add_argument("--seed", type=int, metavar="N", help="of the random numbers (default: 0)")
-    many.add_argument("--out", required=True, metavar="X.zarr", help="store, gone on with if begun")
-    cluster = many.add_mutually_exclusive_group()
+    add = command("play", _play, "write a page to play with").add_argument
+    add("what", choices=PAGES, help="of what")
+    add("--out", metavar="FILE", help="default: play-WHAT.html")
+    add("--open", **opens)
+
+    add = of_scene("run", _run, "run a scene").add_argument
+    words = "folder for a page and the data, or a .nc or .zarr file"
+    add("--out", metavar="DIR|FILE", help=words)
+    add("--json", **flag, help="print the result as JSON")
+    words = sections("none on the screen, all with --out")
+    add("--sections", metavar="NAMES|all", help=words)
+
+    ensemble = of_scene("ensemble", _ensemble, "run a scene for many members whose numbers differ")
+    add = ensemble.add_argument
+    words = "how many, or a .csv, .nc or .zarr with their values (default: what the scene says)"
+    add("--members", metavar="N|FILE", help=words)
+    add("--seed", type=int, metavar="N", help="of the random numbers (default: 0)")
+    add("--out", required=True, metavar="X.zarr", help="store, gone on with if begun")
+    cluster = ensemble.add_mutually_exclusive_group()
     cluster.add_argument("--workers", type=int, metavar="N", help="start a cluster of N here")
     cluster.add_argument("--scheduler", metavar="ADDRESS", help="join one, like tcp://host:8786")
-    many.add_argument("--block", type=int, metavar="N", help="members that are kept at a time")
-    many.add_argument(
-        "--drop", action="store_true", help="leave out members that cannot exist, counted"
-    )
-    many.add_argument("--json", action="store_true", help="print progress as lines of JSON")
-    many.set_defaults(command=_ensemble)
+    add("--block", type=int, metavar="N", help="members that are kept at a time")
+    add("--drop", **flag, help="leave out members that cannot exist, counted")
+    add("--json", **flag, help="print progress as lines of JSON")
 
-    plan = commands.add_parser(
-        "plan", help="show what a scene needs, and what it leaves out", add_help=False
-    )
-    _add_scene(plan)
-    _add_sections(plan, "default: none")
-    plan.add_argument("--script", action="store_true", help="the parts as a plain script")
-    plan.set_defaults(command=_plan)
+    add = of_scene("plan", _plan, "show what a scene needs, and what it leaves out").add_argument
+    add("--sections", metavar="NAMES|all", help=sections("none"))
+    add("--script", **flag, help="the parts as a plain script")
 
-    accuracy = commands.add_parser("accuracy", help="measure error against run time")
-    quantity = accuracy.add_argument(
-        "quantity", nargs="?", metavar="QUANTITY", help="all by default"
-    )
-    quantity.completer = _quantities  # type: ignore[attr-defined]
-    accuracy.add_argument("--quick", action="store_true", help="short problems, few settings")
-    accuracy.add_argument("--out", metavar="DIR", help="folder for data, figures and a page")
-    accuracy.set_defaults(command=_accuracy)
+    add = command("accuracy", _accuracy, "measure error against run time").add_argument
+    add("quantity", nargs="?", metavar="QUANTITY", help="all by default")
+    add("--quick", **flag, help="short problems, few settings")
+    add("--out", metavar="DIR", help="folder for data, figures and a page")
 
-    commands.add_parser("scenes", help="list the shipped scenes").set_defaults(command=_scenes)
-    keys = commands.add_parser("keys", help="list what can be asked, question by question")
-    question = keys.add_argument("question", nargs="?", help="all by default")
-    question.completer = _words  # type: ignore[attr-defined]
-    keys.set_defaults(command=_keys)
-    info = commands.add_parser("info", help="versions and kernels; or what is known of bodies")
-    info.add_argument("what", nargs="?", choices=("bodies",), help="bodies: list them")
-    info.add_argument("name", nargs="?", metavar="NAME", help="each number of one, and its source")
-    info.set_defaults(command=_info)
+    command("scenes", _scenes, "list the shipped scenes")
 
-    verify = commands.add_parser("verify", help="hold a result on disk to its checksums")
-    verify.add_argument("file", metavar="FILE", help="a .nc file or a .zarr folder of ours")
-    verify.set_defaults(command=_verify)
+    add = command("keys", _keys, "list what can be asked, question by question").add_argument
+    add("question", nargs="?", help="all by default")
 
-    stability = commands.add_parser("stability", help="run the stiff and extreme cases")
-    stability.add_argument("--quick", action="store_true", help="only those that take a moment")
-    stability.add_argument("--only", metavar="WORD", help="a part, or a word of a case's name")
-    stability.add_argument("--long", action="store_true", help="also those that take minutes")
-    stability.set_defaults(command=_stability)
+    add = command("info", _info, "versions and kernels; or what is known of bodies").add_argument
+    add("what", nargs="?", choices=("bodies",), help="bodies: list them")
+    add("name", nargs="?", metavar="NAME", help="each number of one, and its source")
 
-    completion = commands.add_parser("completion", help="print what a shell needs to complete")
-    completion.add_argument("shell", choices=("bash", "zsh", "fish"))
-    completion.set_defaults(command=_completion)
+    add = command("verify", _verify, "hold a result on disk to its checksums").add_argument
+    add("file", metavar="FILE", help="a .nc file or a .zarr folder of ours")
+
+    add = command("stability", _stability, "run the stiff and extreme cases").add_argument
+    add("--quick", **flag, help="only those that take a moment")
+    add("--only", metavar="WORD", help="a part, or a word of a case's name")
+    add("--long", **flag, help="also those that take minutes")
+
+    add = command("completion", _completion, "print what a shell needs to complete").add_argument
+    add("shell", choices=("bash", "zsh", "fish"))
     return parser
 
 
-class _ShowHelp(argparse.Action):
-    """Help of a command, and of the scene's keys where one is named before it."""
-
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(nargs=0, **kwargs)
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: object,
-        option_string: str | None = None,
-    ) -> NoReturn:
-        """Print and leave."""
-        parser.print_help()
-        scene = getattr(namespace, "scene", None)
-        if scene is not None:
-            try:
-                print(f"\n{_keys_of(scene)}")
-            except EarthspinError as error:
-                parser.error(str(error))
-        parser.exit()
+# --- commands ------------------------------------------------------------------------------------
 
 
-def _add_scene(parser: argparse.ArgumentParser) -> None:
-    """Arguments of every command that takes a scene."""
-    scene = parser.add_argument(
-        "scene", help="name of a shipped scene, a TOML file, or a file with a result"
-    )
-    scene.completer = _scenes_and_files  # type: ignore[attr-defined]
-    _add_ephemeris(parser)
-    settings = parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        dest="settings",
-        help="change a key of the scene, e.g. --set step='1 h'",
-    )
-    settings.completer = _key_words  # type: ignore[attr-defined]
-    parser.add_argument(
-        "-h", "--help", action=_ShowHelp, help="show this, and the keys of a scene named before"
-    )
-
-
-def _add_sections(parser: argparse.ArgumentParser, default: str) -> None:
-    sections = parser.add_argument(
-        "--sections", metavar="NAMES|all", help=f"what to tell beside the answer ({default})"
-    )
-    sections.completer = _section_names  # type: ignore[attr-defined]
-
-
-def _add_ephemeris(parser: argparse.ArgumentParser) -> None:
-    kernel = parser.add_argument(
-        "--ephemeris", metavar="NAME|PATH", help="de421, de440, or the path of a .bsp file"
-    )
-    kernel.completer = _kernels  # type: ignore[attr-defined]
-
-
-def _report(given: argparse.Namespace) -> None:
-    from earthspin.views.of_question import print_tables
-
-    if given.topic == "wobble":
-        from earthspin.views.report import write_wobble_report
-
-        if given.ephemeris is not None:
-            raise SceneError("--ephemeris", given.ephemeris, "the wobble report needs no kernel")
-        results, written = write_wobble_report(given.out, figures=not given.no_figures)
-    else:
-        from earthspin.views.report import write_report
-
-        kernel = "de421" if given.ephemeris is None else given.ephemeris
-        result, written = write_report(
-            given.out,
-            ephemeris=kernel,
-            figures=not given.no_figures,
-        )
-        results = [result]
-    for each in results:
-        print_tables(each)
-    for path in written:
-        print(f"wrote {printable(str(path))}")
-    if given.open:
-        _open(written[0])
-
-
-def _play(given: argparse.Namespace) -> None:
-    from earthspin.views.play import write_page
-
-    path = write_page(given.what, given.out or f"play-{given.what}.html")
-    print(f"wrote {printable(str(path))}")
-    if given.open:
-        _open(path)
-
-
-def _open(page: Path) -> None:
-    """Open a page in the browser that the system prefers, or say that there is none."""
-    import webbrowser
-
-    if not webbrowser.open(page.resolve().as_uri()):
-        print("no browser could be opened; open the page by hand", file=sys.stderr)
-
-
-def _welcome(_given: argparse.Namespace) -> None:
+def _welcome(_: Namespace) -> None:
     print(WELCOME, end="")
 
 
-def _run(given: argparse.Namespace) -> None:
-    from earthspin.engine import drafts
+def _report(options: Namespace) -> None:
+    """Print and write the precession or wobble report."""
+    from earthspin.views import report
+    from earthspin.views.of_question import print_tables
+
+    kernel, figures = options.ephemeris, not options.no_figures
+    if options.topic == "wobble":
+        if kernel is not None:
+            raise SceneError("--ephemeris", kernel, "the wobble report needs no kernel")
+        answers, written = report.write_wobble_report(options.out, figures=figures)
+    else:
+        kernel = "de421" if kernel is None else kernel
+        answer, written = report.write_report(options.out, ephemeris=kernel, figures=figures)
+        answers = [answer]
+    for answer in answers:
+        print_tables(answer)
+    _print_written(*written)
+    if options.open:
+        _open(written[0])
+
+
+def _play(options: Namespace) -> None:
+    """Write a page to play with."""
+    from earthspin.views.play import write_page
+
+    page = write_page(options.what, options.out or f"play-{options.what}.html")
+    _print_written(page)
+    if options.open:
+        _open(page)
+
+
+def _run(options: Namespace) -> None:
+    """Run a scene."""
+    from earthspin.engine import drafts, store
     from earthspin.parts import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
+    from earthspin.views import of_question
 
-    question = _question(given)
-    target = None if given.out is None else Path(given.out)
-    name = Path(given.scene).stem
-    if target is not None:
-        is_file = target.suffix in (".nc", ".zarr")
-        drafts.check_writable(target.parent if is_file else target)
+    question, sections = _question(options), _sections(options)
+    data = page = None
+    if options.out is not None:
+        data = folder = Path(options.out)
+        if data.suffix in (".nc", ".zarr"):
+            folder = data.parent
+        else:
+            data, page = (folder / f"{Path(options.scene).stem}{end}" for end in (".nc", ".html"))
+        drafts.check_writable(folder)
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
-            if given.json:
+            if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
-            place = target if target.suffix == ".zarr" else target / f"{name}.zarr"
-            print(f"wrote {printable(str(write_series(question, place)))}")
+            _print_written(write_series(question, data.with_suffix(".zarr") if page else data))
             return
-    wanted = _sections(given)
-    everything = target is not None and wanted is None
-    tree = run_tree(question, "all" if everything else wanted or ())
-    written = [] if target is None else [_store(tree, target, name)]
-    with _note_of_results([*written]):
-        if target is not None and written != [target]:
-            written.insert(0, _write_page(tree, target, name))
-        if given.json:
+        sections = "all" if sections is None else sections
+    tree = run_tree(question, sections or ())
+    if data is not None:
+        store.write(tree, data)
+    with _note_of_results(data):
+        if page is not None:
+            with drafts.replacing(page) as draft:
+                draft.write_text(of_question.scene_page(tree), encoding="utf-8")
+        if options.json:
             from earthspin.views.as_json import write_json
 
             write_json(tree, sys.stdout)
         else:
-            from earthspin.views.of_question import print_tables
+            of_question.print_tables(tree)
+            others = [name for name in question.graph.sections if name not in tree.children]
+            if others and not tree.children.keys() - {"plan"}:
+                print(f"More: --sections {','.join(others)}, or all")
+    _print_written(*filter(None, (page, data)), file=sys.stderr if options.json else sys.stdout)
 
-            print_tables(tree)
-            _say_what_else(question, tree)
-    for path in written:
-        print(f"wrote {printable(str(path))}", file=sys.stderr if given.json else sys.stdout)
 
-
-def _ensemble(given: argparse.Namespace) -> None:
+def _ensemble(options: Namespace) -> None:
+    """Run a scene for many members whose numbers differ."""
     import json
-    from contextlib import nullcontext
 
     from earthspin.many import ensemble
     from earthspin.progress import lines_to
 
-    members = given.members
+    members = options.members
     if members is not None and members.lstrip("+-").isdecimal():
         members = int(members)
-    client = given.scheduler if given.workers is None else given.workers
-    with lines_to(sys.stdout) if given.json else nullcontext():
+    client = options.scheduler if options.workers is None else options.workers
+    with lines_to(sys.stdout) if options.json else nullcontext():
         answer = ensemble(
-            _question(given),
+            _question(options),
             members,
-            seed=given.seed,
-            path=given.out,
+            seed=options.seed,
+            path=options.out,
             client=client,
-            block=given.block,
-            impossible="drop" if given.drop else None,
+            block=options.block,
+            impossible="drop" if options.drop else None,
         )
-    if given.json:
-        print(json.dumps({"wrote": given.out, "members": answer.sizes["member"]}))
+    if options.json:
+        print(json.dumps({"wrote": options.out, "members": answer.sizes["member"]}))
         return
-    from earthspin.views.of_question import print_tables
+    with _note_of_results(options.out):
+        from earthspin.views.of_question import print_tables
 
-    with _note_of_results([Path(given.out)]):
         print_tables(answer)
-    print(f"wrote {printable(given.out)}")
+    _print_written(options.out)
 
 
-def _store(tree: Any, target: Path, name: str) -> Path:
-    """Write the results: one file, or the data of a folder."""
-    from earthspin.engine import store
-
-    is_file = target.suffix in (".nc", ".zarr")
-    return store.write(tree, target if is_file else target / f"{name}.nc")
-
-
-def _write_page(tree: Any, folder: Path, name: str) -> Path:
-    from earthspin.engine import drafts
-    from earthspin.views.of_question import scene_page
-
-    page = folder / f"{name}.html"
-    with drafts.replacing(page) as draft:
-        draft.write_text(scene_page(tree), encoding="utf-8")
-    return page
-
-
-@contextmanager
-def _note_of_results(stored: Sequence[Path]) -> Iterator[None]:
-    """Add to whatever ends the views where the results are, which are stored before."""
-    try:
-        yield
-    except BaseException as error:
-        for path in stored:
-            error.add_note(f"{RESULTS} {path}")
-        raise
-
-
-def _say_what_else(question: Question, tree: Any) -> None:
-    """Name the sections that were not asked for."""
-    others = [name for name in question.graph.sections if name not in tree.children]
-    if others and not tree.children.keys() - {"plan"}:
-        print(f"More: --sections {','.join(others)}, or all")
-
-
-def _plan(given: argparse.Namespace) -> None:
+def _plan(options: Namespace) -> None:
+    """Show what a scene needs, and what it leaves out."""
+    from earthspin.engine.asking import script_of
     from earthspin.scenes import chosen, plan
 
-    question = _question(given)
-    if given.script:
-        from earthspin.engine.asking import script_of
-
+    question = _question(options)
+    if options.script:
         print(script_of(type(question)))
         return
-    print(plan(question, _sections(given) or ()))
-    accuracy = getattr(question, "accuracy", None)
-    if accuracy is not None:
-        asked = question.to_table()["accuracy"]
+    print(plan(question, _sections(options) or ()))
+    if getattr(question, "accuracy", None) is not None:
         words = ", ".join(chosen(question)) or "no settings to choose"
-        print(
-            f"\nchosen for an accuracy of {asked}: {words}\n"
-            "(whether the body's numbers and the kernel allow it shows when it runs)"
-        )
+        print(f"\nchosen for an accuracy of {question.to_table()['accuracy']}: {words}")
+        print("(whether the body's numbers and the kernel allow it shows when it runs)")
 
 
-def _sections(given: argparse.Namespace) -> str | list[str] | None:
-    """Names after --sections; None if they are not named."""
-    if given.sections is None or given.sections.strip() == "all":
-        return None if given.sections is None else "all"
-    return [name.strip() for name in given.sections.split(",") if name.strip()]
-
-
-def _keys(given: argparse.Namespace) -> None:
-    from earthspin.engine.question import describe_keys
-    from earthspin.scenes import QUESTIONS, question_named
-
-    words = QUESTIONS if given.question is None else [given.question]
-    print("\n\n".join(f"compute = {w!r}\n\n{describe_keys(question_named(w))}" for w in words))
-
-
-def _keys_of(scene: str) -> str:
-    """Keys and sections of the question that a scene asks."""
-    from earthspin.engine.question import describe_keys
-    from earthspin.scenes import load_scene
-
-    question = type(load_scene(scene))
-    sections = ", ".join(question.graph.sections)
-    return f"keys of {scene}:\n\n{describe_keys(question)}\n\nsections: {sections}"
-
-
-def _accuracy(given: argparse.Namespace) -> int:
+def _accuracy(options: Namespace) -> int:
+    """Measure error against run time."""
     from earthspin.checks.work_precision import QUANTITIES, accuracy
     from earthspin.engine import drafts
-    from earthspin.views.work_precision_views import (
-        print_accuracy,
-        store_accuracy,
-        write_accuracy,
-    )
+    from earthspin.views import work_precision_views as views
 
-    if given.out is not None:
-        drafts.check_writable(given.out)
+    if options.out is not None:
+        drafts.check_writable(options.out)
     results = []
-    for quantity in QUANTITIES if given.quantity is None else [given.quantity]:
-        results.append(accuracy(quantity, quick=given.quick))
-        if given.out is not None:
-            store_accuracy(results[-1], given.out)
-        print_accuracy(results[-1:])
-    if given.out is not None:
-        for path in write_accuracy(results, given.out):
-            print(f"wrote {printable(str(path))}")
-    return int(not all(result.holds.all() for result in results))
+    for quantity in QUANTITIES if options.quantity is None else [options.quantity]:
+        results.append(accuracy(quantity, quick=options.quick))
+        if options.out is not None:
+            views.store_accuracy(results[-1], options.out)
+        views.print_accuracy(results[-1:])
+    if options.out is not None:
+        _print_written(*views.write_accuracy(results, options.out))
+    return 0 if all(result.holds.all() for result in results) else CHECK_FAILED
 
 
-def _scenes(given: argparse.Namespace) -> None:
+def _scenes(_: Namespace) -> None:
+    """List the shipped scenes."""
     from earthspin.scenes import shipped_scenes
 
     scenes = shipped_scenes()
@@ -464,13 +343,23 @@ def _scenes(given: argparse.Namespace) -> None:
         print(f"{name:<{width}}  {title}")
 
 
-def _info(given: argparse.Namespace) -> None:
+def _keys(options: Namespace) -> None:
+    """List what can be asked, question by question."""
+    from earthspin.engine.question import describe_keys
+    from earthspin.scenes import QUESTIONS, question_named
+
+    words = QUESTIONS if options.question is None else [options.question]
+    print("\n\n".join(f"compute = {w!r}\n\n{describe_keys(question_named(w))}" for w in words))
+
+
+def _info(options: Namespace) -> None:
+    """Versions and kernels; or what is known of bodies."""
     from importlib.metadata import PackageNotFoundError, version
 
-    if given.what:
+    if options.what:
         from earthspin.bodies.told import all_in_words, in_words
 
-        print(all_in_words() if given.name is None else in_words(given.name))
+        print(all_in_words() if options.name is None else in_words(options.name))
         return
     print(f"earthspin {__version__}, Python {sys.version.split()[0]}")
     for package in ("numpy", "scipy", "xarray", "astropy", "pyerfa", "skyfield", "jplephem"):
@@ -485,33 +374,88 @@ def _info(given: argparse.Namespace) -> None:
         print(f"  {name:<10} {describe_kernel(name)}")
 
 
-def _verify(given: argparse.Namespace) -> None:
+def _verify(options: Namespace) -> None:
+    """Hold a result on disk to its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(given.file)))} is what was written")
+    print(f"{printable(str(verify(options.file)))} is what was written")
 
 
-def _stability(given: argparse.Namespace) -> int:
+def _stability(options: Namespace) -> int:
+    """Run the stiff and extreme cases."""
     from earthspin.checks.case import FAILS
-    from earthspin.checks.gauntlet import stability
-    from earthspin.views.gauntlet_views import print_verdicts, tally
+    from earthspin.checks.stability import stability
+    from earthspin.views.stability_tables import print_verdicts, tally
 
-    result = stability(quick=given.quick, only=given.only, long=given.long)
+    result = stability(quick=options.quick, only=options.only, long=options.long)
     print_verdicts(result)
     return CHECK_FAILED if tally(result)[FAILS] else 0
 
 
-def _question(given: argparse.Namespace) -> Question:
+def _completion(options: Namespace) -> None:
+    """Print what a shell needs to complete."""
+    try:
+        from argcomplete.shell_integration import shellcode
+    except ImportError:
+        raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
+    print(shellcode(["earthspin"], shell=options.shell))
+
+
+# --- what commands share -------------------------------------------------------------------------
+
+
+def _print_written(*paths: str | Path, file: Any = None) -> None:
+    for path in paths:
+        print(f"wrote {printable(str(path))}", file=file)
+
+
+def _open(page: Path) -> None:
+    """Open a page in the browser that the system prefers, or say that there is none."""
+    import webbrowser
+
+    if not webbrowser.open(page.resolve().as_uri()):
+        print("no browser could be opened; open the page by hand", file=sys.stderr)
+
+
+@contextmanager
+def _note_of_results(data: str | Path | None) -> Iterator[None]:
+    """Add to whatever ends the views where the results are, which are stored before."""
+    try:
+        yield
+    except BaseException as error:
+        if data is not None:
+            error.add_note(f"{RESULTS} {data}")
+        raise
+
+
+def _sections(options: Namespace) -> str | list[str] | None:
+    """Names after --sections; None if they are not named."""
+    if options.sections is None or options.sections.strip() == "all":
+        return options.sections and "all"
+    return [name.strip() for name in options.sections.split(",") if name.strip()]
+
+
+def _keys_of(scene: str) -> str:
+    """Keys and sections of the question that a scene asks."""
+    from earthspin.engine.question import describe_keys
+    from earthspin.scenes import load_scene
+
+    question = type(load_scene(scene))
+    sections = ", ".join(question.graph.sections)
+    return f"keys of {scene}:\n\n{describe_keys(question)}\n\nsections: {sections}"
+
+
+def _question(options: Namespace) -> Question:
     """Question of the command line: the scene, then --set, then --ephemeris."""
     from earthspin.scenes import files_of, typed_scene
 
-    changes = dict(_setting(text) for text in given.settings)
-    if given.ephemeris is not None:
-        changes["ephemeris"] = given.ephemeris
-    question = typed_scene(given.scene, changes)
-    if Path(given.scene).suffix in (".nc", ".zarr"):
+    changes = dict(_setting(text) for text in options.settings)
+    if options.ephemeris is not None:
+        changes["ephemeris"] = options.ephemeris
+    question = typed_scene(options.scene, changes)
+    if Path(options.scene).suffix in (".nc", ".zarr"):
         for key, path, _ in files_of(question, changes):
-            words = f"{given.scene} names a file, which is opened: {key} = '{path}'"
+            words = f"{options.scene} names a file, which is opened: {key} = '{path}'"
             print(f"earthspin: {printable(words)}", file=sys.stderr)
     return question
 
@@ -536,68 +480,40 @@ def _setting(text: str) -> tuple[str, Any]:
 # --- completion ----------------------------------------------------------------------------------
 
 
-def _completion(given: argparse.Namespace) -> None:
-    """Print the lines that teach a shell to complete; they ask this program for the words."""
-    try:
-        from argcomplete.shell_integration import shellcode
-    except ImportError:
-        from earthspin.errors import MissingExtraError
-
-        raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
-    print(shellcode(["earthspin"], shell=given.shell))
-
-
-def _complete(parser: argparse.ArgumentParser) -> None:
+def _complete(parser: ArgumentParser) -> None:
     """Answer a shell that asks for words, and leave; do nothing for anyone else."""
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
 
-        argcomplete.autocomplete(parser)
+        argcomplete.autocomplete(parser, default_completer=_offer)  # type: ignore[arg-type]
 
 
-def _scenes_and_files(prefix: str, **_: object) -> list[str]:
-    from earthspin.scenes import shipped_scenes
+def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> list[str]:
+    """Words for an argument: the scenes, kernels, keys, sections and files that there are."""
+    from argcomplete.completers import FilesCompleter
 
-    files = Path(prefix).parent.glob("*")
-    return [*shipped_scenes(), *(str(p) for p in files if p.suffix in (".toml", ".nc", ".zarr"))]
-
-
-def _question_of(parsed_args: argparse.Namespace) -> type[Question] | None:
-    """Class of the question of the scene that stands on the line so far."""
-    from earthspin.scenes import load_scene
-
-    try:
-        return type(load_scene(parsed_args.scene))
-    except EarthspinError:
-        return None
-
-
-def _key_words(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    from earthspin.checks.work_precision import QUANTITIES
     from earthspin.engine.question import keys_of
-
-    question = _question_of(parsed_args)
-    keys = {} if question is None else keys_of(question)
-    return [f"{question.table}.{n}=" if one.setting else f"{n}=" for n, one in keys.items()]  # type: ignore[union-attr]
-
-
-def _section_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    question = _question_of(parsed_args)
-    return ["all"] if question is None else [*question.graph.sections, "all"]
-
-
-def _kernels(prefix: str, **_: object) -> list[str]:
+    from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
     from earthspin.sky.ephemeris import NAMED_KERNELS
 
-    return [*NAMED_KERNELS, *map(str, Path(prefix).parent.glob("*.bsp"))]
-
-
-def _words(**_: object) -> list[str]:
-    from earthspin.scenes import QUESTIONS
-
-    return list(QUESTIONS)
-
-
-def _quantities(**_: object) -> list[str]:
-    from earthspin.checks.work_precision import QUANTITIES
-
-    return list(QUANTITIES)
+    files = [*Path(prefix).parent.glob("*")]
+    match action.dest:
+        case "scene":
+            ours = [str(path) for path in files if path.suffix in (".toml", ".nc", ".zarr")]
+            return [*shipped_scenes(), *ours]
+        case "ephemeris":
+            return [*NAMED_KERNELS, *(str(path) for path in files if path.suffix == ".bsp")]
+        case "settings" | "sections":
+            with suppress(EarthspinError):
+                question = type(load_scene(parsed_args.scene))
+                if action.dest == "sections":
+                    return [*question.graph.sections, "all"]
+                keys = keys_of(question).items()
+                return [f"{question.table}.{n}=" if key.setting else f"{n}=" for n, key in keys]
+            return []
+        case "question":
+            return list(QUESTIONS)
+        case "quantity":
+            return list(QUANTITIES)
+    return list(FilesCompleter()(prefix))

@@ -167,10 +167,8 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
         known = False
     if not known:
         newer = f", or install newer tables ({TABLES})" if np.max(time.jd) > FIRST_UTC else ""
-        raise where.error(
-            shown or f"JD {np.ravel(time.jd)[0]}",
-            f"its scale, {time.scale}, is not known there; give TDB{newer}",
-        ) from None
+        problem = f"its scale, {time.scale}, is not known there; give TDB{newer}"
+        raise where.error(shown or f"JD {np.ravel(time.jd)[0]}", problem) from None
     return found
 
 
@@ -233,9 +231,8 @@ def first_and_last(
         raise where.error(given, f"give {allowed}")
     first, last = (read(time, where) for time in given)
     if last < first:
-        raise where.error(
-            [str(time) for time in given], "it ends before it starts; put the earlier first"
-        )
+        problem = "it ends before it starts; put the earlier first"
+        raise where.error([str(time) for time in given], problem)
     return first, last
 
 
@@ -367,10 +364,8 @@ class Spacing(Number):
                 raise
             value = float("nan")
         if not 1e-6 <= value < LONGEST_STEP:
-            raise where.error(
-                given,
-                "a step is greater than zero: a microsecond or more, less than 10000 years",
-            )
+            problem = "a step is greater than zero: a microsecond or more, less than 10000 years"
+            raise where.error(given, problem)
         return value
 
 

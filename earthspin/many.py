@@ -7,6 +7,10 @@ from typing import Any, Literal
 
 import xarray as xr
 
+from earthspin.engine.drafts import as_path
+from earthspin.engine.ensemble import Ensemble, asked_of_members
+from earthspin.engine.store import open as open_store
+from earthspin.errors import OutputError
 from earthspin.scenes import load_scene
 
 
@@ -70,11 +74,6 @@ def ensemble(
     >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
     25712.1 +/- 0.016 years
     """
-    from earthspin.engine.drafts import as_path
-    from earthspin.engine.ensemble import Ensemble, asked_of_members
-    from earthspin.engine.store import open as open_store
-    from earthspin.errors import OutputError
-
     asked = asked_of_members(load_scene(question), members, seed, impossible=impossible)
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
         raise asked.error("block", block, "give a whole number, 1 or more")

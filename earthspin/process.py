@@ -6,23 +6,22 @@ warning is told when the command has succeeded, never before a message.
 
 from __future__ import annotations
 
-import io
 import logging
 import os
 import signal
 import sys
-import threading
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from io import TextIOWrapper
 from types import FrameType
 
 from earthspin.errors import EarthspinError, one_line, printable
 
 CHECK_FAILED, USAGE_ERROR = 1, 2
-#: A defect of the program (EX_SOFTWARE of sysexits), an interrupt, and a reader who has gone.
-DEFECT, INTERRUPTED, READER_GONE = 70, 130, 141
+#: A defect of the program (EX_SOFTWARE of sysexits), and a reader who has gone.
+DEFECT, READER_GONE = 70, 141
 
 #: Beginning of a note to an error that is shown after its line; libraries add notes of their own.
 RESULTS = "the results are stored in"
@@ -32,14 +31,6 @@ TRACEBACK = "EARTHSPIN_TRACEBACK"
 
 #: What ends a program politely; each leaves it time to clear up as an interrupt does.
 _ENDINGS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
-
-
-class _EndedError(BaseException):
-    """The system asked the program to end."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
-        self.number = number
 
 
 def run_command(command: Callable[[], int | None], *, show_traceback: bool = False) -> int:
@@ -59,18 +50,18 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         be written; 70 for a defect of the program; 130 if interrupted, 143 if terminated, 129 if
         the terminal is gone; 141 if whoever read the output has gone.
     """
-    held: list[str] = []
     try:
-        with _streams(), _endings(), _warnings_into(held):
+        _check_streams()
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its own affairs
+        with _endings(), warnings.catch_warnings(record=True) as held:
             status = command()
             sys.stdout.flush()
     except KeyboardInterrupt as ended:
-        _say(f"interrupted; {_what_is_left(ended)}")
-        return INTERRUPTED
-    except _EndedError as ended:
-        name = signal.Signals(ended.number).name
-        _say(f"ended by {name}; {_what_is_left(ended)}")
-        return 128 + ended.number
+        number = ended.args[0] if ended.args else signal.SIGINT
+        how = f"ended by {signal.Signals(number).name}" if ended.args else "interrupted"
+        kept = "; ".join(getattr(ended, "__notes__", ())) or "nothing was left half-written"
+        _say(f"{how}; {kept}")
+        return 128 + int(number)
     except BrokenPipeError:
         _drop_output()  # the interpreter must not try to flush it again
         return READER_GONE
@@ -79,16 +70,11 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(RESULTS))
         _say("; ".join([words, *notes]))
         if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
-            _tell("".join(traceback.format_exception(error)).rstrip())
+            _print("".join(traceback.format_exception(error)).rstrip())
         return status
-    for words in held:
-        _say(words)
+    for warning in held:
+        _say(" ".join(str(warning.message).split()))
     return status or 0
-
-
-def _what_is_left(ended: BaseException) -> str:
-    """What an end from outside leaves behind: the note of whoever was working, if there is one."""
-    return "; ".join(getattr(ended, "__notes__", ())) or "nothing was left half-written"
 
 
 def _judged(error: Exception) -> tuple[int, str]:
@@ -103,27 +89,15 @@ def _judged(error: Exception) -> tuple[int, str]:
     words = str(EarthspinError(f"{type(error).__name__}: {error}"))
     return DEFECT, (
         f"a defect of earthspin, not of what was given: {words}; please report it, with the "
-        f"command, {_to_whom()}; --traceback shows where it arose"
+        "command, to whoever you have it from; --traceback shows where it arose"
     )
 
 
-def _to_whom() -> str:
-    """Where defects are reported: the address that the package names, if it names one."""
-    from importlib.metadata import PackageNotFoundError, metadata
-
-    with suppress(PackageNotFoundError):
-        for line in metadata("earthspin").get_all("Project-URL") or ():
-            what, _, address = line.partition(", ")
-            if what.lower() in ("issues", "bug tracker", "repository", "source", "homepage"):
-                return f"at {address}"
-    return "to whoever you have it from"
-
-
 def _say(words: str) -> None:
-    _tell(f"earthspin: {printable(words)}")
+    _print(f"earthspin: {printable(words)}")
 
 
-def _tell(words: str) -> None:
+def _print(words: str) -> None:
     """Print on stderr, if there is one that takes it."""
     with suppress(OSError, ValueError, AttributeError):
         print(words, file=sys.stderr or None, flush=True)
@@ -135,58 +109,39 @@ def _drop_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-@contextmanager
-def _streams() -> Iterator[None]:
+def _check_streams() -> None:
     """See that there are all three streams, and that no character is too much for them.
 
     A stream that is closed leaves its number to the next file that is opened, which what is
     printed would then be written into. In place of stdout stands one that cannot be written to.
     """
-    ways = (os.O_WRONLY, os.O_RDONLY, os.O_WRONLY)
-    for number, way in enumerate(ways):
+    for number, mode in enumerate((os.O_WRONLY, os.O_RDONLY, os.O_WRONLY)):
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, way)  # the lowest number that is free: this one
+            os.open(os.devnull, mode)  # the lowest number that is free: this one
     sys.stdout = sys.stdout or os.fdopen(1, "w", encoding="utf-8", closefd=False)
     sys.stderr = sys.stderr or os.fdopen(2, "w", encoding="utf-8", closefd=False)
     for stream in (sys.stdout, sys.stderr):
-        if stream in (sys.__stdout__, sys.__stderr__) and isinstance(stream, io.TextIOWrapper):
+        if stream in (sys.__stdout__, sys.__stderr__) and isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    yield
 
 
 @contextmanager
 def _endings() -> Iterator[None]:
-    """Turn signals that end the program into exceptions, so that drafts are cleared away."""
+    """Turn signals that end the program into interrupts, so that drafts are cleared away."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once
-        raise _EndedError(number)
+        raise KeyboardInterrupt(number)
 
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {n: signal.getsignal(n) for n in _ENDINGS}
-    for number, handler in before.items():
-        if handler is signal.SIG_DFL:  # not where nohup has asked to go on
-            signal.signal(number, end)
+    before = [n for n in _ENDINGS if signal.getsignal(n) is signal.SIG_DFL]  # not under nohup
     try:
+        with suppress(ValueError):  # in another thread than the main one
+            for number in before:
+                signal.signal(number, end)
         yield
     finally:
-        for number, handler in before.items():
-            if handler is not None:
-                signal.signal(number, handler)
-
-
-@contextmanager
-def _warnings_into(held: list[str]) -> Iterator[None]:
-    """Keep warnings for later; what libraries log of their own affairs is nobody's business."""
-
-    def hold(message: Warning | str, *_: object, **__: object) -> None:
-        held.append(" ".join(str(message).split()))
-
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)
-    with warnings.catch_warnings():
-        warnings.showwarning = hold
-        yield
+        with suppress(ValueError):
+            for number in before:
+                signal.signal(number, signal.SIG_DFL)

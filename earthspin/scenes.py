@@ -13,45 +13,33 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering
+from earthspin.engine import answering, loop
 from earthspin.engine import plan as planning
 from earthspin.engine import run as running
+from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of
+from earthspin.engine.series import Series
+from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.parts.orbits import OWN, OrbitChoice
 from earthspin.parts.sky import KernelName
-from earthspin.questions.cassini import CassiniStates
-from earthspin.questions.compliances import Compliances
-from earthspin.questions.free_rotor import FreeRotor
-from earthspin.questions.iau import IAU
-from earthspin.questions.long_term import LongTerm
-from earthspin.questions.love_numbers import LoveNumbers
-from earthspin.questions.nutation import NutationLadder
-from earthspin.questions.polar_motion import C04, PolarMotion, TableFile
-from earthspin.questions.pole import Pole
-from earthspin.questions.precession import Precession
-from earthspin.questions.rotation import Rotation
-from earthspin.questions.spheroid import Spheroid
-from earthspin.questions.top import Top
-from earthspin.questions.torque import Torque
-from earthspin.questions.wobble import Wobble
+from earthspin.parts.times import epochs
+from earthspin.questions.polar_motion import C04, TableFile
 from earthspin.sky.columns import is_table
+from earthspin.sky.ephemeris import NAMED_KERNELS
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.engine.series import Series
 
 #: Every question, by the word after ``compute =``.
 QUESTIONS: dict[str, type[Question]] = {
     question.word: question
-    for question in (
-        Precession, Torque, Pole, IAU, NutationLadder, LongTerm, Rotation, Wobble, PolarMotion,
-        FreeRotor, Top, Spheroid, CassiniStates, LoveNumbers, Compliances,
-    )
-}  # fmt: skip
+    for question in (getattr(earthspin, call).question for call in vars(earthspin)["_QUESTIONS"])
+}
 
 #: Most parts of a key between dots.
 MOST_PARTS = 32
@@ -178,8 +166,6 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     elif not isinstance(scene, (str, os.PathLike)):
         raise SceneError("scene", scene, "give a name, a path, a question or an answer")
     elif Path(str(scene)).suffix in (".nc", ".zarr"):
-        from earthspin.engine.store import open as open_file
-
         answer = open_file(Path(scene))
         text, source, title = _scene_of(answer), str(scene), ""
     else:
@@ -347,8 +333,6 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 def _say_what_differs(scene: Any, answer: Any) -> None:
     """Warn if an answer that was run again was made with other versions."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
-        from earthspin.engine.store import open as open_file
-
         scene = open_file(scene)
     old = getattr(scene, "attrs", {})
     differ = [
@@ -395,32 +379,25 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     >>> print(earthspin.open(path).sizes["time"])
     87673
     """
-    from earthspin.engine import loop
-
     return loop.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
 def _series(question: Question) -> Series:
     """A long series as work in blocks."""
-    from earthspin.engine.series import Series
-
     size = series_length(question)
     if size == 0:
-        raise SceneError(
-            "compute",
-            question.word,
-            "only a series of torques, pole or rotation is written by region",
-        )
+        problem = "only a series of torques, pole or rotation is written by region"
+        raise SceneError("compute", question.word, problem)
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not isinstance(question, (Torque, Pole, Rotation)):
+    if not any(BY_BLOCK in one.uses for one in question.graph.parts.values()):
         return 0
-    from earthspin.parts.times import epochs
 
-    return epochs(question.span, question.step, question.times).size
+    keys = question.keys()
+    return epochs(keys["span"], keys["step"], keys["times"]).size
 
 
 def members_of(question: Question) -> int:
@@ -483,9 +460,8 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
     try:
         return path.read_text(encoding="utf-8-sig"), text, path.stem
     except FileNotFoundError:
-        raise SceneError(
-            "scene", text, f"there is no such file; shipped: {', '.join(shipped_scenes())}"
-        ) from None
+        problem = f"there is no such file; shipped: {', '.join(shipped_scenes())}"
+        raise SceneError("scene", text, problem) from None
     except OSError as error:
         raise SceneError("scene", text, f"it cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -514,8 +490,6 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
     but : iterable of str
         Keys to leave out.
     """
-    from earthspin.sky.ephemeris import NAMED_KERNELS
-
     words = {KernelName: (*NAMED_KERNELS,), OrbitChoice: (OWN,), TableFile: (C04,)}
     members, files = question.members, []
     for name, key in keys_of(type(question)).items():

@@ -23,13 +23,15 @@ settings.load_profile("ci" if os.environ.get("CI") else "here")
 
 @dataclass(frozen=True)
 class Pin:
-    """A number from an independent source, and how far we measured ourselves to be from it."""
+    """A number from an independent source, and how far from it the package may be.
+
+    How a tolerance is chosen stands in docs/testing.md, "Pinned numbers".
+    """
 
     name: str
     value: float
     unit: str
     source: str
-    measured_error: float
     tolerance: float
 
     def check(self, found: object) -> None:
@@ -44,7 +46,9 @@ class Pin:
 def load_pins(topic: str) -> dict[str, Pin]:
     """Pins of one file of tests/reference, by name."""
     rows = json.loads((REFERENCE / f"{topic}.json").read_text(encoding="utf-8"))
-    return {row["name"]: Pin(**row) for row in rows}
+    pins = {row["name"]: Pin(**row) for row in rows}
+    assert len(pins) == len(rows), f"{topic}.json names a pin twice"
+    return pins
 
 
 @pytest.fixture(scope="session")

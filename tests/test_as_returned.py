@@ -78,6 +78,7 @@ def test_what_the_nonrigid_pole_leaves_is_the_closure_of_the_rates() -> None:
         assert slope[axis] == pytest.approx(float(closure) * scale, abs=1.1 * analysis * scale)
 
 
+@pytest.mark.slow
 def test_the_predicted_pole_is_near_that_of_the_iau() -> None:
     answer = century("predicted")
     difference = from_the_iau(answer)

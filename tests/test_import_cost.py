@@ -1,8 +1,8 @@
 """Only what a scene needs is loaded, shown in fresh processes."""
 
+import json
 import subprocess
 import sys
-from functools import cache
 
 import pytest
 
@@ -28,8 +28,11 @@ def modules_after(program: str) -> set[str]:
 
 
 def test_importing_costs_nothing() -> None:
-    loaded = modules_after("import earthspin; earthspin.EARTH; earthspin.Body; dir(earthspin)")
-    assert not loaded & {"numpy", *HEAVY}
+    assert not modules_after("import earthspin; dir(earthspin)") & {"numpy", *HEAVY}
+
+
+def test_bodies_load_numpy_at_most() -> None:
+    assert not modules_after("import earthspin; earthspin.EARTH; earthspin.Body") & HEAVY
 
 
 def test_a_wobble_opens_no_sky() -> None:
@@ -79,25 +82,46 @@ WATCHED = {
 }
 
 
-@cache
-def watched_after(program: str) -> frozenset[str]:
-    """Watched modules that a fresh process has imported after a program."""
-    # xarray loads dask where it is installed: here as if it were not
-    lines = f"import sys; sys.modules['dask'] = None\n{program}\nprint(' '.join(sys.modules))"
+#: Runs each program in a child of one process that holds what all answers import, and prints for
+#: each the modules that it has imported.
+CHILDREN = """
+import json, os, sys
+sys.modules["dask"] = None  # xarray loads dask where it is installed: here as if it were not
+import numpy, xarray, earthspin
+for program in json.load(sys.stdin):
+    if os.fork() == 0:
+        exec(program)
+        print(" ".join(sys.modules), flush=True)
+        os._exit(0)
+    assert os.wait()[1] == 0, program
+"""
+
+
+def watched_after(programs: list[str]) -> list[set[str]]:
+    """Watched modules that a process has imported after each of some programs, run alone."""
     out = subprocess.run(
-        [sys.executable, "-W", "error", "-c", lines], check=True, capture_output=True, text=True
+        [sys.executable, "-W", "error", "-c", CHILDREN],
+        input=json.dumps(programs),
+        check=True,
+        capture_output=True,
+        text=True,
     ).stdout
-    return frozenset(out.splitlines()[-1].split()) & WATCHED
+    return [set(line.split()) & WATCHED for line in out.splitlines()]
 
 
-@pytest.mark.parametrize("scene", shipped_scenes())
-def test_a_scene_loads_the_heavy_modules_that_it_uses(scene: str) -> None:
+@pytest.mark.slow
+def test_a_question_loads_the_heavy_modules_that_it_uses() -> None:
     """And no other in a fresh process, but for those that these bring along."""
-    drawing_members = {"scipy.special"} if scene.endswith("-ensemble") else set()
-    used = USED.get(type(load_scene(scene)).word, set()) | drawing_members
-    loaded = watched_after(f"import earthspin; earthspin.run({scene!r})")
-    brought = watched_after("\n".join(f"import {name}" for name in ("xarray", *sorted(used))))
-    assert used <= loaded <= used | brought
+    drawing = {"scipy.special"}
+    scenes = {type(load_scene(s)).word: s for s in reversed(list(shipped_scenes()))}  # the first
+    used = {scene: frozenset(USED.get(word, ())) for word, scene in scenes.items()}
+    used |= {f"{word}-ensemble": used[scenes[word]] | drawing for word in ("precession", "wobble")}
+    imports = {names: f"import {', '.join(['numpy', *sorted(names)])}" for names in used.values()}
+    runs = {scene: f"earthspin.run({scene!r})" for scene in used}
+    loaded = watched_after([*imports.values(), *runs.values()])
+    brought = dict(zip(imports, loaded, strict=False))
+    for (scene, names), found in zip(used.items(), loaded[len(imports) :], strict=True):
+        assert names <= found <= names | brought[names], scene
 
 
 def test_run_times_leave_imports_out() -> None:
@@ -121,14 +145,15 @@ def test_skyfield_is_loaded_where_it_is_asked_for() -> None:
     assert "skyfield" in modules_after(f"import earthspin; earthspin.run({question})")
 
 
-@pytest.mark.parametrize("scene", shipped_scenes())
-def test_planning_loads_numpy_at_most(scene: str) -> None:
+def test_planning_loads_numpy_at_most() -> None:
     """And no physics that a plan does not tell of."""
-    loaded = modules_after(
-        f"import earthspin; print(earthspin.plan({scene!r}), earthspin.plan({scene!r}, 'all'))"
-    )
-    assert "earthspin" in loaded
-    assert not loaded & HEAVY
+    program = """
+import earthspin
+from earthspin.scenes import shipped_scenes
+for scene in shipped_scenes():
+    print(earthspin.plan(scene), earthspin.plan(scene, "all"))
+"""
+    assert not modules_after(program) & HEAVY
 
 
 def test_every_way_to_give_a_key_in_text_loads_numpy_at_most() -> None:
@@ -163,12 +188,7 @@ def test_public_names_alone_are_shown() -> None:
     modules_after(program)
 
 
-@pytest.mark.parametrize("program", ["import earthspin.engine.accessor", "import earthspin.scenes"])
-def test_the_accessor_is_registered_when_it_is_asked_for(program: str) -> None:
-    look = f"{program}\nimport xarray as xr; print(hasattr(xr.Dataset, 'earthspin'))"
-    out = subprocess.run([sys.executable, "-c", look], check=True, capture_output=True, text=True)
-    assert out.stdout == f"{'accessor' in program}\n"
-
-
-def test_the_first_call_registers_the_accessor() -> None:
-    modules_after("import earthspin; assert earthspin.wobble_ladder().earthspin.scene")
+def test_the_accessor_is_registered_when_it_is_asked_for_or_by_the_first_call() -> None:
+    look = "import earthspin.scenes, xarray\nassert not hasattr(xarray.Dataset, 'earthspin')\n"
+    modules_after(f"{look}import earthspin.engine.accessor; assert xarray.Dataset.earthspin")
+    modules_after(f"{look}assert earthspin.wobble_ladder().earthspin.scene")

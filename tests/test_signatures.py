@@ -4,7 +4,7 @@ import ast
 import inspect
 
 import earthspin
-from data_tools.signatures import FILE, signatures
+from data_tools.signatures import FILE, INDEX, index, signatures
 from earthspin.engine.question import keys_of
 from earthspin.scenes import QUESTIONS
 
@@ -12,6 +12,10 @@ from earthspin.scenes import QUESTIONS
 def test_the_file_is_what_the_command_writes() -> None:
     written, made = (ast.dump(ast.parse(t)) for t in (FILE.read_text("utf-8"), signatures()))
     assert written == made, "run `python -m data_tools signatures`"
+
+
+def test_the_reference_lists_what_there_is() -> None:
+    assert INDEX.read_text("utf-8") == index(), "run `python -m data_tools signatures`"
 
 
 def test_every_public_name_has_a_signature() -> None:

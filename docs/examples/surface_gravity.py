@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
 from earthspin.bodies import EARTH, Body
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.units import FloatArray, Whole
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class SurfaceGravity(Question, word="surface-gravity", call="surface_gravity"):
@@ -41,11 +38,15 @@ def surface(body: Body, points: int) -> FloatArray:
     return np.stack([x, np.zeros_like(x), z], axis=-1)
 
 
-GRAVITY = {"gravity": Variable(("latitude",), "m/s2", "gravity, attraction and spin together")}
+class Gravity(Variables, along=("latitude",)):
+    """Gravity by latitude."""
+
+    gravity: Value = number("m/s2", "gravity, attraction and spin together")
+    latitude: Labels = labels()
 
 
-@part(gives=GRAVITY)
-def gravity(body: Body, surface: FloatArray) -> xr.Dataset:
+@part
+def gravity(body: Body, surface: FloatArray) -> Gravity:
     """Attraction less the centrifugal acceleration at each point."""
     from earthspin.mass.spheroid import spheroid_attraction
 
@@ -53,7 +54,7 @@ def gravity(body: Body, surface: FloatArray) -> xr.Dataset:
     outward = body.spin_rate**2 * surface * np.array([1.0, 1.0, 0.0])
     felt = np.linalg.norm(spheroid_attraction(*figure, surface) + outward, axis=-1)
     latitude = np.linspace(0.0, 90.0, surface.shape[0])
-    return build(GRAVITY, {"gravity": felt}, coords={"latitude": latitude})
+    return Gravity(gravity=felt, latitude=latitude)
 
 
 @part

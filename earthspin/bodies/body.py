@@ -33,8 +33,10 @@ from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
+from earthspin.sky.elements import Plane
 from earthspin.sky.pole_tables import Angles
 from earthspin.sky.poles import Direction, Pole, pole_of
+from earthspin.sky.sources import describe_position, read_position
 from earthspin.text import Text
 
 #: What a table starts from that names every number of its body; and one whose figure follows from
@@ -176,8 +178,6 @@ class Body(FromMass):
             if given is not None:
                 object.__setattr__(self, name, sense.as_direction(self.name, name, given, of))
         if self.position is not None:
-            from earthspin.sky.sources import read_position
-
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
         if self.orbit is not None:
@@ -205,8 +205,6 @@ class Body(FromMass):
         if self.position is not None:
             raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
         if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
-            from earthspin.sky.elements import Plane
-
             if orbit.plane == "orbit":
                 allowed = "of its own orbit it is circular"
                 raise BodyError(self.name, "orbit.plane", "orbit", allowed)
@@ -328,8 +326,6 @@ class Body(FromMass):
             return ""
         words = []
         if self.position is not None:
-            from earthspin.sky.sources import describe_position
-
             words.append(f"position = {describe_position(self.position)}")
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value, before = getattr(self, name), getattr(start, name)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from earthspin.bodies.labelled import Numeric, all_of
 from earthspin.constants import Constant
 from earthspin.errors import BodyError
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
 
@@ -35,8 +36,6 @@ def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
     j2, h, triaxiality : float
         (C - (A + B)/2) and (B - A) over M a2, and the former over C, which is not zero.
     """
-    import numpy as np
-
     polar = j2 / h
     equatorial, half = polar - j2, triaxiality / 2
     return np.array([equatorial - half, equatorial + half, polar])

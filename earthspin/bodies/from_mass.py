@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Self
 
+from earthspin.bodies.shapes import of_density, of_layers, of_masses, of_mesh
+
 
 class FromMass:
     """What a body can be made of; each names the body's other fields as `Body.replace` does."""
@@ -52,8 +54,6 @@ class FromMass:
         >>> print(dumbbell.moments.round(3))
         [0.e+00 5.e+17 5.e+17]
         """
-        from earthspin.bodies.shapes import of_masses
-
         return cls(name=name, **of_masses(masses, positions, radius)).replace(**fields)
 
     @classmethod
@@ -91,8 +91,6 @@ class FromMass:
         >>> print(brick.moments.round(6))
         [ 5000. 10000. 13000.]
         """
-        from earthspin.bodies.shapes import of_density
-
         return cls(name=name, **of_density(density, (x, y, z), radius)).replace(**fields)
 
     @classmethod
@@ -139,8 +137,6 @@ class FromMass:
         >>> print(f"{rock.mass:.6e} kg")
         5.000000e+11 kg
         """
-        from earthspin.bodies.shapes import of_mesh
-
         return cls(name=name, **of_mesh(mesh, unit, density, mass, radius)).replace(**fields)
 
     @classmethod
@@ -173,6 +169,4 @@ class FromMass:
         >>> print(f"1/{1 / slow.flattening:.0f}")
         1/1206
         """
-        from earthspin.bodies.shapes import of_layers
-
         return cls(name=name, **of_layers(layers, spin_period)).replace(**fields)

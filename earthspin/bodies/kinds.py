@@ -6,8 +6,12 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+import numpy as np
+
 from earthspin.constants import Constant
 from earthspin.errors import EarthspinError, Where, nearest
+from earthspin.sky.sources import read_position, write_position
+from earthspin.units import pack, quantity, unpack
 
 #: What a scene file can hold. The border itself is loaded when there is something to read.
 Plain = Any
@@ -42,15 +46,12 @@ class Magnitude:
         """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""
         if isinstance(given, Mapping):
             return _labelled(given, where)
-        from earthspin.units import quantity
 
         return quantity(given, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
         """Give a number with its unit; an array as a table of its bytes, dims and labels."""
         if hasattr(value, "dims"):
-            from earthspin.units import pack
-
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
         return f"{float(value)!r} {self.unit}" if self.unit else value
@@ -64,8 +65,6 @@ class Moments:
 
     def read(self, given: object, where: Where) -> list[Any]:
         """Read each."""
-        from earthspin.units import quantity
-
         if not isinstance(given, (list, tuple)) or len(given) != 3:
             raise where.error(given, "give three moments")
         return [quantity(one, "kg m2", where, "8.03e37 kg m2") for one in given]
@@ -98,7 +97,6 @@ class Uncertainties:
         """Read each; the body knows which names it has."""
         if not isinstance(given, Mapping):
             raise where.error(given, "give a table of one number for each field")
-        from earthspin.units import quantity
 
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in given.items()}
 
@@ -149,7 +147,6 @@ class CitedPeriod:
         """Take a constant, or a table of its fields."""
         if isinstance(given, Constant):
             return given
-        from earthspin.units import quantity
 
         try:
             table: dict[str, Any] = {"uncertainty": None} | dict(given)  # type: ignore[call-overload]
@@ -179,14 +176,10 @@ class OwnPlace:
 
     def read(self, given: object, where: Where) -> Any:
         """Take a vector function or trajectory, or a table that names segments of kernels."""
-        from earthspin.sky.sources import read_position
-
         return read_position(given, where)
 
     def write(self, value: Any) -> Plain:
         """Name the segments, or say what it was."""
-        from earthspin.sky.sources import write_position
-
         return write_position(value)
 
 
@@ -198,10 +191,7 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
     SceneError
         If its dimensions or labels do not fit.
     """
-    import numpy as np
     import xarray as xr
-
-    from earthspin.units import unpack
 
     values = unpack(table, where)
     try:
@@ -219,8 +209,6 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 def _labels_of(array: Any) -> dict[str, Any]:
     """Labels of an array, of whatever kind, as tables."""
-    from earthspin.units import pack
-
     told: dict[str, Any] = {}
     for name, of in array.coords.items():
         floats = of.dtype.kind == "f" and of.size

@@ -9,7 +9,10 @@ from typing import Any
 
 from earthspin.errors import Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.named import INTERIORS
+from earthspin.interior.samples import from_samples
 from earthspin.text import Text
+from earthspin.units import quantity, real_numbers
 
 #: Columns of samples with their units.
 COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q": ""}
@@ -31,8 +34,6 @@ class Layers:
         if isinstance(given, LayeredBody):
             return given
         if isinstance(given, str):
-            from earthspin.interior.named import INTERIORS
-
             named = {name: i.layers for name, i in INTERIORS.items() if i.layers is not None}
             if given not in named:
                 raise where.error(given, nearest(given, named))
@@ -78,8 +79,6 @@ def _layer(given: Any, where: Where) -> Layer:
     if unknown := set(given) - {"top", "density", "vp", "vs", "shear_q"}:
         raise where.error(min(unknown), "a layer has top, density, vp, vs and shear_q")
 
-    from earthspin.units import quantity
-
     def series(name: str, unit: str) -> tuple[float, ...]:
         values = given.get(name, ())
         several = values if isinstance(values, (list, tuple)) else (values,)
@@ -98,9 +97,6 @@ def _layer(given: Any, where: Where) -> Layer:
 
 def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody:
     """Samples as a table of columns, or anything with columns of these names."""
-    from earthspin.interior.samples import from_samples
-    from earthspin.units import real_numbers
-
     try:
         columns = {
             column: real_numbers(given[column]).tolist()
@@ -111,9 +107,8 @@ def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody
         return from_samples(name, **columns, reference=reference)
     except (KeyError, TypeError, ValueError) as error:
         units = ", ".join(f"{column} ({unit or 'a number'})" for column, unit in COLUMNS.items())
-        raise where.error(
-            "a table", f"give columns of one length, outwards: {units}; {error}"
-        ) from None
+        problem = f"give columns of one length, outwards: {units}; {error}"
+        raise where.error("a table", problem) from None
 
 
 class UnderTheSurface:

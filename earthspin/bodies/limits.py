@@ -81,12 +81,10 @@ def refuse_break_up(body: Any) -> None:
     if all_of((period >= by_gravity) | (period >= by_strength)):
         return
     shortest = float(period.min()) if hasattr(period, "dims") else float(period)
-    raise BodyError(
-        body.name,
-        "spin_period",
-        f"{shortest:g} s",
-        f"its equator flies off: gravity holds it at {largest(by_gravity) / 3600:.3g} h or more",
+    allowed = (
+        f"its equator flies off: gravity holds it at {largest(by_gravity) / 3600:.3g} h or more"
     )
+    raise BodyError(body.name, "spin_period", f"{shortest:g} s", allowed)
 
 
 def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 
 from earthspin.bodies.kinds import Magnitude, OneOf, Plain
+from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where, nearest
 from earthspin.text import Text
 
@@ -24,8 +25,6 @@ class Epoch:
 
     def read(self, given: object, where: Where) -> float:
         """Read a date; a number is days from J2000.0 TDB."""
-        from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
-
         if isinstance(given, (int, float)) and not isinstance(given, bool):
             if not abs(given) <= _LARGEST:
                 raise where.error(given, f"give a date, or at most {_LARGEST:g} days from J2000.0")

@@ -22,6 +22,7 @@ from earthspin.errors import (
     no_plain_file,
     one_line,
 )
+from earthspin.interior.equilibrium import equilibrium, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.units import is_masked, quantity
 
@@ -162,8 +163,6 @@ def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -
     SceneError
         If there is no such interior, or it has no layers.
     """
-    from earthspin.interior.equilibrium import equilibrium, figure
-
     layers = Layers().read(layers, Where("layers"))
     spin = 2 * math.pi / _single(spin_period, "s", "spin_period", "23.93 h")
     gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k

@@ -1,16 +1,20 @@
-"""What a stiff or extreme case is, and how it is judged.
+"""A stiff or extreme case, and how it is judged.
 
 A case measures how far a result is from what it is held against: an invariant, a closed form,
 another method. It runs with every warning and every overflow, division by zero and invalid
-operation of numpy made an error, so that nothing slips by unseen. It is written as
+operation of numpy made an error. A case that must have an answer is a function that yields
+distances, and its docstring holds the words:
 
-    @CASES.case("what is tried")
-    @hard_because("what makes it extreme")
-    @held_against("what it has to agree with", bound=1e-14, unit="rad")
+    @holds(bound=1e-14, unit="rad")
     def _name() -> Distances:
-        yield found - true
+        \"\"\"what is tried
 
-and one that has no answer with ``@refused("words of the refusal")`` in place of the third line.
+        Hard because: what makes it extreme
+        Held against: what it has to agree with
+        \"\"\"
+        yield result - reference
+
+A case without an answer has ``@refused("words of the refusal")`` and no line "Held against".
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +38,7 @@ HOLDS, REFUSED, FAILS = "holds", "refused", "fails"
 Distances = Iterable[ArrayLike]
 Measure = Callable[[], Distances | None]
 
-#: What later versions of a library will change is none of a case's business.
+#: Warnings about later versions of a library, which do not concern a case.
 _NOT_NUMERICAL = (DeprecationWarning, PendingDeprecationWarning, FutureWarning, ImportWarning)
 
 
@@ -45,7 +49,7 @@ class Case:
     Attributes
     ----------
     measure : callable
-        Yields distances from the reference; that of a refusal gives nothing.
+        Yields distances from the reference; the measure of a refusal returns None.
     held_against : str
         The invariant or the independent reference; for a refusal, what it must say.
     hard_because : str
@@ -59,7 +63,7 @@ class Case:
     bound : float
         Largest distance that holds.
     must_hold : bool
-        Whether only an answer will do; not so where a refusal is what is expected.
+        Whether only an answer will do; False where a refusal is expected.
     refusal : str
         Words that an expected refusal holds; empty where an answer is expected.
     slow : bool
@@ -81,9 +85,46 @@ class Case:
     long: bool = False
 
 
+def holds(
+    *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
+) -> Callable[[Measure], Case]:
+    """Make a measure a case that must hold within a bound; arguments as of `Case`."""
+
+    def case(measure: Measure) -> Case:
+        part, name, why, reference = _words(measure)
+        return Case(
+            measure=measure, part=part, name=name, hard_because=why, held_against=reference,
+            bound=bound, unit=unit, slow=slow, long=long,
+        )  # fmt: skip
+
+    return case
+
+
+def refused(words: str) -> Callable[[Measure], Case]:
+    """Make a measure a case that must be refused in a line that holds these words."""
+
+    def case(measure: Measure) -> Case:
+        part, name, why, _ = _words(measure)
+        reference = f"a refusal in one line that says '{words}'"
+        return Case(
+            measure=measure, part=part, name=name, hard_because=why, held_against=reference,
+            must_hold=False, refusal=words,
+        )  # fmt: skip
+
+    return case
+
+
+def _words(measure: Measure) -> tuple[str, str, str, str]:
+    """Return the part of the package, and from the docstring name, difficulty and reference."""
+    name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
+    why, _, reference = rest.partition("Held against:")
+    part = measure.__module__.rpartition(".")[2]
+    return part, _one_line(name), _one_line(why), _one_line(reference)
+
+
 @dataclass(frozen=True)
 class Outcome:
-    """How a case went.
+    """Outcome of a case.
 
     Attributes
     ----------
@@ -120,10 +161,10 @@ def judge(case: Case) -> Outcome:
         ``fails`` for all else: a NaN, a warning, an overflow, an exception, an answer where a
         refusal was due.
     """
-    begun = time.perf_counter()
+    begin = time.perf_counter()
     measured, verdict, reason = _verdict(case)
     bound = 0.0 if verdict == REFUSED else case.bound
-    return Outcome(measured, bound, verdict, reason, time.perf_counter() - begun)
+    return Outcome(measured, bound, verdict, reason, time.perf_counter() - begin)
 
 
 def _verdict(case: Case) -> tuple[float, str, str]:
@@ -133,11 +174,11 @@ def _verdict(case: Case) -> tuple[float, str, str]:
             for kind in _NOT_NUMERICAL:
                 warnings.simplefilter("ignore", kind)
             warnings.filterwarnings("ignore", message="numpy.ndarray size changed")
-            given = case.measure()
-            sizes = [] if given is None else [float(np.max(np.abs(one))) for one in given]
+            distances = case.measure()
+            sizes = [] if distances is None else [float(np.max(np.abs(d))) for d in distances]
     except EarthspinError as error:
-        return _on_refusal(case, str(error))
-    except Exception as error:  # whatever else comes out is a defect, which is to be reported
+        return _refusal_verdict(case, str(error))
+    except Exception as error:  # any other exception is a defect, which is to be reported
         return math.inf, FAILS, _one_line(f"{type(error).__name__}: {error}")
     if case.refusal:
         return math.inf, FAILS, f"it answered where a refusal was due ('{case.refusal}')"
@@ -151,7 +192,7 @@ def _verdict(case: Case) -> tuple[float, str, str]:
     return measured, FAILS, f"{measured:.3g} is beyond the bound of {case.bound:.3g}"
 
 
-def _on_refusal(case: Case, line: str) -> tuple[float, str, str]:
+def _refusal_verdict(case: Case, line: str) -> tuple[float, str, str]:
     if "\n" in line:
         return math.inf, FAILS, f"the refusal is not one line: {_one_line(line)}"
     if case.must_hold:
@@ -165,14 +206,15 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def apart(found: ArrayLike, true: ArrayLike) -> float:
+def relative_error(values: ArrayLike, reference: ArrayLike) -> float:
     """Largest difference of two arrays, over the largest size of the second."""
-    return float(np.max(np.abs(np.subtract(found, true))) / np.max(np.abs(true)))
+    difference = np.max(np.abs(np.subtract(values, reference)))
+    return float(difference / np.max(np.abs(reference)))
 
 
 @contextmanager
 def without_folder(path: Path) -> Iterator[None]:
-    """Let a refusal name a file without the folder that it happens to lie in.
+    """Let a refusal name a file without its temporary folder.
 
     Parameters
     ----------
@@ -182,41 +224,3 @@ def without_folder(path: Path) -> Iterator[None]:
         yield
     except EarthspinError as error:
         raise UndefinedError(str(error).replace(str(path), path.name)) from None
-
-
-def held_against(reference: str, *, bound: float, unit: str = "1") -> Callable[[Measure], Case]:
-    """Make a measure a case that must hold: its distance from the reference is within a bound."""
-    return lambda measure: Case(measure=measure, held_against=reference, bound=bound, unit=unit)
-
-
-def refused(saying: str) -> Callable[[Measure], Case]:
-    """Make a measure a case that must be refused in these words."""
-    told = f"a refusal in one line that says '{saying}'"
-    return lambda measure: Case(measure=measure, held_against=told, must_hold=False, refusal=saying)
-
-
-def hard_because(reason: str) -> Callable[[Case], Case]:
-    """Say what makes a case hard."""
-    return lambda case: replace(case, hard_because=reason)
-
-
-class Cases(list[Case]):
-    """The cases of one part, added where they are defined.
-
-    Parameters
-    ----------
-    part : str
-    """
-
-    def __init__(self, part: str) -> None:
-        super().__init__()
-        self.part = part
-
-    def case(self, name: str, *, slow: bool = False, long: bool = False) -> Callable[[Case], Case]:
-        """Add what follows under a name; arguments as of `Case`."""
-
-        def add(case: Case) -> Case:
-            self.append(replace(case, name=name, part=self.part, slow=slow, long=long))
-            return self[-1]
-
-        return add

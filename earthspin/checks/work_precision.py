@@ -20,7 +20,7 @@ from dataclasses import dataclass, fields
 from functools import partial
 from importlib import import_module
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-V = TypeVar("V", int, float)
 
 #: Quantities, and the module of `earthspin.checks.ladders` that measures each.
 QUANTITIES: dict[str, str] = {
@@ -85,18 +84,22 @@ class Setting:
     judged: Callable[[], Any] | None = None
 
 
-def settings(words: str, run: Callable[[V], tuple[Any, int]], values: Iterable[V]) -> list[Setting]:
-    """Settings that differ in one number.
+def settings(
+    words: str, run: Callable[..., tuple[Any, int]], values: Iterable[float] | None = None
+) -> list[Setting]:
+    """Return settings that differ in one number.
 
     Parameters
     ----------
     words : str
-        With braces in its place, e.g. ``"rtol {}"``.
+        With braces in the place of that number, e.g. ``"rtol {}"``.
     run : callable
         From that number.
-    values : iterable
-        From coarse to fine.
+    values : iterable, optional
+        From coarse to fine; by default there is one setting, whose run takes nothing.
     """
+    if values is None:
+        return [Setting(words, run)]
     return [Setting(words.format(plain(value)), partial(run, value)) for value in values]
 
 
@@ -107,22 +110,24 @@ class Method:
     Attributes
     ----------
     name : str
-    ours : bool
-        Whether it is what this package does, or what one would do with SciPy set by hand, or
-        with another library.
     settings : sequence of Setting
         From coarse to fine.
     bound : float
-        Error that the last setting stays within, SI; a method of ours that does not, fails.
+        Error that the last setting stays within, SI, or the method fails. Methods of this package
+        have one; SciPy set by hand and other libraries have none (infinite).
     task : str
-        Which way it goes, where a ladder holds two.
+        Direction, where a ladder holds two.
     """
 
     name: str
-    ours: bool
     settings: Sequence[Setting]
     bound: float = math.inf
     task: str = ""
+
+    @property
+    def ours(self) -> bool:
+        """Whether this is a method of this package."""
+        return math.isfinite(self.bound)
 
 
 @dataclass(frozen=True)
@@ -178,14 +183,14 @@ class Timing:
         Of the first call, with what it imports and prepares, s.
     median, spread : float
         Of the calls after it, and half the range, s.
-    given : object
-        What the first call gave.
+    result : object
+        Result of the first call.
     """
 
     first: float
     median: float
     spread: float
-    given: Any
+    result: Any
 
 
 @dataclass(frozen=True)
@@ -211,7 +216,7 @@ def timed(run: Callable[[], Any]) -> Timing:
     run : callable
     """
     with _without_garbage_collection():
-        first, given = _seconds(run, 1)
+        first, result = _seconds(run, 1)
         once, _ = _seconds(run, 1)
         loops = max(1, math.ceil(SHORTEST_SAMPLE / max(once, 1e-9)))
         samples = [once] if loops == 1 else []
@@ -222,16 +227,16 @@ def timed(run: Callable[[], Any]) -> Timing:
                 loops, samples = 2 * loops, []
                 continue
             samples.append(seconds / loops)
-    return Timing(first, statistics.median(samples), (max(samples) - min(samples)) / 2, given)
+    return Timing(first, statistics.median(samples), (max(samples) - min(samples)) / 2, result)
 
 
 def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
-    """Time of so many calls, s, and what the last one gave."""
-    given = None
-    begun = time.perf_counter()
+    """Time of so many calls, s, and the result of the last one."""
+    result = None
+    begin = time.perf_counter()
     for _ in range(loops):
-        given = run()
-    return time.perf_counter() - begun, given
+        result = run()
+    return time.perf_counter() - begin, result
 
 
 @contextmanager
@@ -253,37 +258,26 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
     ----------
     ladder : Ladder
     advance : callable
-        Told of each setting that is done.
+        Called after each setting.
 
     Returns
     -------
     list of list of Point
         By method; as many as its settings.
     """
-    found = []
-    for method in ladder.methods:
-        points = []
-        for setting in method.settings:
-            points.append(_measured(setting, ladder))
-            advance(1)
-        found.append(points)
-    return found
 
-
-def _measured(setting: Setting, ladder: Ladder) -> Point:
-    timing = timed(setting.run)
-    values, evaluations = timing.given
-    if setting.judged is not None:
-        values = setting.judged()
-    return Point(
-        setting=setting.words,
+    def point(setting: Setting) -> Point:
+        timing = timed(setting.run)
+        values, evaluations = timing.result
+        if setting.judged is not None:
+            values = setting.judged()
         # nothing is known below the error of the reference
-        error=max(float(ladder.error(values)), ladder.reference_error),
-        run_time=timing.median,
-        run_time_spread=timing.spread,
-        warm_up_time=timing.first,
-        evaluations=int(evaluations),
-    )
+        error = max(float(ladder.error(values)), ladder.reference_error)
+        advance(1)
+        times = timing.median, timing.spread, timing.first
+        return Point(setting.words, error, *times, int(evaluations))
+
+    return [[point(setting) for setting in method.settings] for method in ladder.methods]
 
 
 def pareto_front(error: Any, run_time: Any) -> BoolArray:
@@ -343,8 +337,8 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     Examples
     --------
     >>> import earthspin
-    >>> found = earthspin.accuracy("spheroid", quick=True)
-    >>> print(bool(found.holds.all()))
+    >>> result = earthspin.accuracy("spheroid", quick=True)
+    >>> print(bool(result.holds.all()))
     True
     """
     ladder = ladder_of(quantity, quick=quick)
@@ -364,8 +358,8 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
     if not isinstance(quantity, str) or quantity not in QUANTITIES:
         raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
     module = import_module(f"earthspin.checks.ladders.{QUANTITIES[quantity]}")
-    made: Ladder = module.ladder(quick)
-    return made
+    ladder: Ladder = module.ladder(quick)
+    return ladder
 
 
 def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -> xr.Dataset:
@@ -500,10 +494,10 @@ def _cheapest(rows: list[_Row]) -> _Row:
 
 def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
     """Cheapest row for each level of error, each once, at the finest level that it meets."""
-    found: dict[_Row, float] = {}
+    finest: dict[_Row, float] = {}
     for level in _levels(min(row.error for row in rows), max(row.error for row in rows)):
-        found[_cheapest([row for row in rows if row.error <= level])] = level
-    steps = [(level, row) for row, level in found.items()]
+        finest[_cheapest([row for row in rows if row.error <= level])] = level
+    steps = [(level, row) for row, level in finest.items()]
     if len(steps) <= MOST_STEPS:
         return steps
     chosen = np.linspace(0, len(steps) - 1, MOST_STEPS).round().astype(int)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 
 from earthspin.engine.labels import from_si, si
 from earthspin.engine.variables import Value, Variables, number, words
+from earthspin.errors import AccuracyError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,8 +87,6 @@ def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> N
     ------
     AccuracyError
     """
-    from earthspin.errors import AccuracyError
-
     if asked is not None and not best <= asked * (1 + 1e-12):
         factor = from_si(unit)
         raise AccuracyError(

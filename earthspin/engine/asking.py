@@ -38,6 +38,7 @@ def ask(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__doc__ = docstring_of(question)
     call.__module__ = question.__module__
     call.__signature__ = signature  # type: ignore[attr-defined]
+    call.question = question  # type: ignore[attr-defined]
     return call
 
 

@@ -1,165 +1,206 @@
-"""The checksum that a file carries of all that it says: every label, number and attribute.
+"""Checksums of what is stored: SHA-256 of all bytes, and of all that a file says.
 
-A file format guards some of its bytes (Fletcher-32 in netCDF, CRC-32 in our Zarr stores), but
-neither attributes nor the names and lengths of dimensions. Two attributes of the file guard the
-rest: SHA-256 of the header (names, dimensions, kinds of numbers, attributes), which costs nothing
-to check, and of the data. Both are of what is read, not of bytes on disk, so that both formats
-have the same.
+Of bytes: a netCDF file of ours ends in a line with the checksum of every byte before it, and a Zarr
+store holds a ledger of its files as ``sha256sum`` writes it. Both can be checked by hand::
+
+    head -c -110 answer.nc | sha256sum; tail -n 1 answer.nc
+    cd answer.zarr && sha256sum --check --quiet */SHA256SUMS
+
+The library that reads netCDF trusts the tables of a file: damaged ones can keep it busy without
+end. So the bytes are checked before it opens them. The line stands behind what the format counts as
+the file, where other readers do not look; the ledger stands in the folder of the first array, since
+Zarr takes a file beside the arrays for a mistake and warns of it.
+
+Of content: another program that writes to a netCDF file cuts the line off. An attribute holds a
+checksum of what is read, which remains.
 """
 
 from __future__ import annotations
 
 import hashlib
+import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
+
+from earthspin.errors import OutputError
 
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Attributes of the root of a file.
-HEADER, DATA = "header_sha256", "data_sha256"
-#: Attribute of a store that was made block by block: the dimension and the length of a block. The
-#: data along it are summed up by block, so that blocks may be made in any order.
-BLOCKS = "made_in_blocks"
+#: Attribute of the root of a netCDF file.
+CONTENT = "content_sha256"
+#: Attributes of files of earlier versions, whose checksums of content are not checked any more.
+EARLIER = ("header_sha256", "data_sha256", "made_in_blocks")
+#: Name of the ledger in a Zarr store.
+LEDGER = "SHA256SUMS"
 
-#: Numbers that are read at once to be summed up, of a store that may be larger than memory.
-AT_ONCE = 1 << 22
+_WORDS = b"\nearthspin: SHA-256 of all before this line: "
+#: Bytes of the last line of a netCDF file.
+LENGTH = len(_WORDS) + 64 + 1
+#: Bytes that are read at once.
+_AT_ONCE = 1 << 20
+_ENTRY = re.compile(r"([0-9a-f]{64})  (.+)")
 
 
-class Checksum:
-    """Sums up a result, whole or block by block.
+# --- the last line of a netCDF file --------------------------------------------------------------
 
-    Examples
-    --------
-    >>> summed = Checksum()
-    >>> summed.add("/", dataset)                        # doctest: +SKIP
-    >>> summed.attributes()                             # doctest: +SKIP
+
+def append_line(path: Path) -> None:
+    """Append the checksum of its bytes to a file that is complete."""
+    with path.open("r+b") as file:
+        size = file.seek(0, os.SEEK_END)
+        line = _line(file, size)
+        file.seek(size)
+        file.write(line)
+
+
+def line_holds(path: Path) -> bool | None:
+    """Whether the last line of a file matches the bytes before it.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    bool or None
+        None for a file without such a line: another program's, or one that it has written to.
     """
-
-    def __init__(self) -> None:
-        self._told: dict[str, list[str]] = {}
-        self._sums: dict[tuple[str, str], bytes] = {}
-        self._sizes: dict[tuple[str, str], dict[str, int]] = {}
-        self._kinds: dict[tuple[str, str], str] = {}
-
-    def add(
-        self,
-        group: str,
-        node: xr.Dataset,
-        *,
-        data: bool = True,
-        blocks: Iterable[Mapping[str, str]] | None = None,
-    ) -> None:
-        """Add a node.
-
-        Parameters
-        ----------
-        group : str
-            Path of the node, ``"/"`` for the root.
-        node : Dataset
-            As a file has it.
-        data : bool
-            Whether the numbers count; the header alone opens no chunk.
-        blocks : iterable of mapping of str to str, optional
-            What `of_block` gave for each block, in order, of a node that was made in blocks; its
-            own numbers are not read then.
-        """
-        self._told[group] = list(_attributes(node.attrs))
-        along, length = blocks_of(node)
-        summed = None if blocks is None else [*blocks]
-        for name, variable in node.variables.items():
-            place = (group, str(name))
-            self._sizes[place] = {str(d): n for d, n in variable.sizes.items()}
-            self._kinds[place] = _kind(variable.dtype)
-            self._told[group] += [f"{name} {line}" for line in _attributes(variable.attrs)]
-            total = hashlib.sha256()
-            if not data:
-                pass
-            elif along not in variable.dims:
-                for stretch in _stretches(variable):
-                    total.update(stretch)
-            elif summed is None:
-                for first in range(0, variable.sizes[along], length):
-                    block = variable.isel({along: slice(first, first + length)})
-                    total.update(_sum(block, along).digest())
-            else:
-                for sums in summed:
-                    total.update(bytes.fromhex(sums[str(name)]))
-            self._sums[place] = total.digest()
-
-    def attributes(self) -> dict[str, str]:
-        """Give the two checksums by the names of their attributes."""
-        header = hashlib.sha256()
-        for group in sorted(self._told):
-            for line in (group, *sorted(self._told[group])):
-                _put(header, line)
-        data = hashlib.sha256()
-        for place in sorted(self._sums):
-            for line in (*place, str(sorted(self._sizes[place].items())), self._kinds[place]):
-                _put(header, line)
-            data.update(self._sums[place])
-        return {HEADER: header.hexdigest(), DATA: data.hexdigest()}
+    with path.open("rb") as file:
+        size = file.seek(0, os.SEEK_END) - LENGTH
+        if size < 0:
+            return None
+        file.seek(size)
+        line = file.read(LENGTH)
+        # Damaged words are ours still: by chance three of them in four agree nowhere.
+        agree = sum(one == other for one, other in zip(line, _WORDS, strict=False))
+        return line == _line(file, size) if agree > 3 * len(_WORDS) // 4 else None
 
 
-def blocks_of(node: xr.Dataset) -> tuple[str, int]:
-    """Dimension and length of the blocks that a node was made in; empty if it was made whole."""
-    along, _, length = str(node.attrs.get(BLOCKS, "")).partition(" ")
-    return (along, int(length)) if length.isdecimal() and int(length) else ("", 0)
+def _line(file: BinaryIO, size: int) -> bytes:
+    """The line that belongs behind the first `size` bytes of a file."""
+    total = hashlib.sha256()
+    file.seek(0)
+    while size and (piece := file.read(min(size, _AT_ONCE))):
+        total.update(piece)
+        size -= len(piece)
+    return _WORDS + total.hexdigest().encode("ascii") + b"\n"
 
 
-def of_block(block: xr.Dataset, along: str) -> dict[str, str]:
-    """Sum up each variable of a block that grows along a dimension."""
-    return {
-        str(name): _sum(variable, along).hexdigest()
-        for name, variable in block.variables.items()
-        if along in variable.dims
-    }
+# --- the ledger of a Zarr store ------------------------------------------------------------------
 
 
-def _sum(block: xr.Variable, along: str) -> Any:
-    return hashlib.sha256(_bytes(block.transpose(along, ...).values))
+def files_in(store: Path) -> list[str]:
+    """Paths of all files in a Zarr store but its ledger, in order."""
+    files = (path for path in store.rglob("*") if path.is_file() and path.name != LEDGER)
+    return sorted(path.relative_to(store).as_posix() for path in files)
 
 
-def checksums(groups: Mapping[str, xr.Dataset], *, data: bool = True) -> dict[str, str]:
-    """Sum up the nodes of a file.
+def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
+    """SHA-256 of files in a Zarr store by their paths; empty for one that is not there."""
+    sums = dict.fromkeys(names, "")
+    for name in sums:
+        with suppress(FileNotFoundError, NotADirectoryError), (store / name).open("rb") as file:
+            sums[name] = hashlib.file_digest(file, "sha256").hexdigest()
+    return sums
+
+
+def entries(sums: Mapping[str, str]) -> bytes:
+    """Lines of a ledger."""
+    lines = "".join(f"{digest}  {path}\n" for path, digest in sums.items())
+    return lines.encode("utf-8", "surrogateescape")
+
+
+def read_entries(ledger: Path) -> dict[str, str]:
+    """SHA-256 of each file by its path, as the lines of a ledger say; of two lines, the last."""
+    lines = ledger.read_bytes().decode("utf-8", "surrogateescape").split("\n")
+    return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
+
+
+def ledger_of(store: Path) -> Path | None:
+    """The ledger of a Zarr store; None if it has none."""
+    return min(store.rglob(LEDGER), default=None)
+
+
+def write_ledger(store: Path, sums: Mapping[str, str]) -> None:
+    """Write the ledger of a complete store into the folder of its first array."""
+    first = min(store.rglob(".zarray"), default=None)
+    if first is not None:
+        first.with_name(LEDGER).write_bytes(entries(dict(sorted(sums.items()))))
+
+
+def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -> None:
+    """Refuse a file of a Zarr store that is not the one in its ledger.
+
+    Parameters
+    ----------
+    store : Path
+    name : str
+        Path of the file in the store.
+    digest : str
+        Its SHA-256; empty if it is not there.
+    ledger : mapping of str to str
+
+    Raises
+    ------
+    OutputError
+    """
+    if digest == ledger.get(name, ""):
+        return
+    if Path(name).name.startswith("."):
+        raise changed(store, "its names, sizes or attributes")
+    if not digest:
+        raise OutputError(store, f"the chunk '{name}' is missing", "write it again")
+    raise changed(store, "its numbers or words")
+
+
+def changed(path: Path, what: str) -> OutputError:
+    """What is said of a file that does not match a checksum."""
+    remedy = "if they were changed on purpose, read it with xarray.open_dataset"
+    return OutputError(path, f"{what} are not what was written", remedy)
+
+
+# --- content -------------------------------------------------------------------------------------
+
+
+def of_content(groups: Mapping[str, xr.Dataset]) -> str:
+    """SHA-256 of all that a file says, the same before it is written and after it is read.
 
     Parameters
     ----------
     groups : mapping of str to Dataset
-        By path, ``"/"`` for the root.
-    data : bool
-        Whether the numbers count; without them the second checksum means nothing.
-
-    Returns
-    -------
-    dict of str to str
-        The attributes `HEADER` and `DATA`.
+        By path, ``"/"`` for the root; an attribute `CONTENT` of it does not count.
     """
-    summed = Checksum()
-    for group, node in groups.items():
-        summed.add(group, node, data=data)
-    return summed.attributes()
+    total = hashlib.sha256()
+    for group, node in sorted(groups.items()):
+        _add(total, group, *_attributes(node.attrs))
+        for name, variable in sorted(node.variables.items(), key=lambda item: str(item[0])):
+            _add(total, str(name), str(dict(variable.sizes)), _kind(variable.dtype))
+            _add(total, *_attributes(variable.attrs))
+            _add(total, _bytes(variable.values))
+    return total.hexdigest()
 
 
-def _put(total: Any, line: str) -> None:
-    """Add a text with its length, so that no two lists of texts are alike."""
-    coded = line.encode("utf-8", "surrogatepass")
-    total.update(b"%d:" % len(coded))
-    total.update(coded)
+def _add(total: Any, *pieces: str | bytes) -> None:
+    """Add pieces with their number and lengths, so that no two lists of pieces are alike."""
+    total.update(b"%d;" % len(pieces))
+    for piece in pieces:
+        coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")
+        total.update(b"%d:" % len(coded))
+        total.update(coded)
 
 
 def _attributes(attrs: Mapping[Any, Any]) -> Iterator[str]:
-    """A line for each attribute but the checksums themselves.
-
-    Formats differ in what they make of lists of one and of kinds of numbers; what is said is the
-    same.
-    """
-    for name, value in attrs.items():
-        if name not in (HEADER, DATA):
-            listed = value if isinstance(value, str) else np.ravel(value).tolist()
-            yield f"{name} = {[listed] if isinstance(listed, str) else listed!r}"
+    """A line for each attribute, in order of names; lists of one are what netCDF makes of them."""
+    for name, value in sorted(attrs.items()):
+        if name != CONTENT:
+            listed = [value] if isinstance(value, str) else np.ravel(value).tolist()
+            yield f"{name} = {listed!r}"
 
 
 def _kind(dtype: np.dtype[Any]) -> str:
@@ -168,25 +209,11 @@ def _kind(dtype: np.dtype[Any]) -> str:
     return "date" if dtype.kind == "M" else f"{dtype.kind}{dtype.itemsize}"
 
 
-def _stretches(variable: xr.Variable) -> Iterator[bytes]:
-    """Bytes of the numbers in order, time first, no more at once than fit into memory."""
-    if "time" in variable.dims:
-        variable = variable.transpose("time", ...)
-    if variable.ndim == 0:
-        yield _bytes(variable.values)
-        return
-    along = variable.dims[0]
-    rows = max(1, AT_ONCE * variable.shape[0] // max(1, variable.size))
-    for first in range(0, variable.shape[0], rows):
-        yield _bytes(variable.isel({along: slice(first, first + rows)}).values)
-
-
 def _bytes(values: np.ndarray[Any, Any]) -> bytes:
     """The same bytes for the same numbers, on any machine and from any file."""
     kind = _kind(values.dtype)
     if kind == "words":
-        words = [_text(one).encode("utf-8", "surrogatepass") for one in np.ravel(values).tolist()]
-        return b"".join(b"%d:%s" % (len(word), word) for word in words)
+        return repr([_text(word) for word in np.ravel(values).tolist()]).encode()
     if kind == "date":
         values = values.astype("M8[us]").astype(np.int64)
     return np.ascontiguousarray(values, values.dtype.newbyteorder("<")).tobytes()

@@ -1,4 +1,4 @@
-"""Whole or not at all: what is written goes into a draft, which then takes its place in one step.
+"""Whole or not at all: what is written goes into a draft, which then takes its place.
 
 What is promised. Whoever reads a file finds the old one or the new one, never a part of either,
 whatever happens to the writer: an exception, a kill, a loss of power. When `replacing` has ended,
@@ -6,33 +6,34 @@ the new one is on the disk, as far as the disk keeps what it is told to keep. Tw
 same place do not disturb each other, in two processes, two containers, or on two machines whose
 network folder has locks; the last to finish stays.
 
-A folder (a Zarr store) is exchanged in one step as well where the system can do that, which Linux
-and macOS can on their own file systems. Elsewhere it is moved aside first: it is absent for a
-moment, and if the writer is killed in that moment, the next who opens or writes it puts it back.
+A file is replaced in one step. A folder (a Zarr store) takes two: the old one is moved aside, and
+the new one into its place. A reader who comes between waits for the second step; if the writer is
+killed there, the next who opens or writes it puts the old one back.
 """
 
 from __future__ import annotations
 
-import ctypes
 import errno
+import glob
 import os
 import shutil
-import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
+from filelock import FileLock, Timeout
 
-if sys.platform != "win32":
-    import fcntl
+from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
 
 #: Names inside the hidden folder of a draft: its owner's lock, and what was moved aside.
 _LOCK, _OLD = "owner", "old"
 #: A draft without a lock, older than this against the clock of its disk, has no owner, s. Its
 #: owner had a moment to make one.
 _GRACE = 60.0
+#: Time between two looks at a folder that is being replaced, s.
+_MOMENT = 0.01
 
 
 def as_path(given: object) -> Path:
@@ -48,11 +49,9 @@ def as_path(given: object) -> Path:
     if not isinstance(given, (str, os.PathLike)):
         raise TypeError(f"path is of type {type(given).__name__}; give a str or a Path")
     path = Path(given)
-    try:
+    with suppress(UnicodeEncodeError):
         if b"\0" not in os.fsencode(path):
             return path
-    except UnicodeEncodeError:
-        pass
     raise OutputError(path, "no file can have such a name")
 
 
@@ -70,11 +69,8 @@ def check_writable(folder: str | Path) -> Path:
         with tempfile.TemporaryFile(dir=there):
             pass
     except (OSError, ValueError) as error:
-        raise OutputError(
-            path,
-            f"the folder cannot be written to: {one_line(error)}",
-            "choose another with --out",
-        ) from None
+        words = f"the folder cannot be written to: {one_line(error)}"
+        raise OutputError(path, words, "choose another with --out") from None
     return path
 
 
@@ -97,11 +93,8 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
     there = next(p for p in path.absolute().parents if p.exists())
     free = shutil.disk_usage(there).free
     if size > free:
-        raise OutputError(
-            path,
-            f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free",
-            "ask for less: a longer step, a shorter span, fewer members",
-        )
+        words = f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free"
+        raise OutputError(path, words, "ask for less: a longer step, a shorter span, fewer members")
 
 
 @contextmanager
@@ -124,16 +117,15 @@ def replacing(path: str | Path) -> Iterator[Path]:
     OutputError
         If the place cannot be written; it is then as it was.
     """
-    target = made_ready(path)
+    target = prepared(path)
     remedy = "what stood there is kept" if target.exists() else ""
-    with told_as_output_error(path, remedy), box_of(target) as box:
+    with output_errors(path, remedy), box_of(target) as box:
         clear_up_after_the_dead(target, box)
-        draft = box / target.name
-        yield draft
-        put_in_place(draft, target, box)
+        yield box / target.name
+        put_in_place(box / target.name, target, box)
 
 
-def made_ready(path: str | Path) -> Path:
+def prepared(path: str | Path) -> Path:
     """Make the folder in which something is to stand, and give its place, links followed.
 
     Raises
@@ -142,16 +134,17 @@ def made_ready(path: str | Path) -> Path:
         If it cannot be written, or a folder stands there that is none of ours.
     """
     check_writable(as_path(path).parent)
-    with told_as_output_error(path):
+    with output_errors(path):
         target = Path(path).resolve()
-        if target.is_dir() and not _is_zarr(target):
+        zarr = (target / ".zgroup").exists() or (target / "zarr.json").exists()
+        if target.is_dir() and not zarr:
             raise OutputError(path, "a folder stands there that is no Zarr store", "move it away")
         target.parent.mkdir(parents=True, exist_ok=True)
         return target
 
 
 @contextmanager
-def told_as_output_error(path: str | Path, remedy: str = "") -> Iterator[None]:
+def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
     """Say in one line what the system says of something that cannot be written.
 
     Raises
@@ -166,10 +159,6 @@ def told_as_output_error(path: str | Path, remedy: str = "") -> Iterator[None]:
         raise OutputError(path, f"it cannot be written: {one_line(error)}", remedy) from None
 
 
-def _is_zarr(folder: Path) -> bool:
-    return (folder / ".zgroup").exists() or (folder / "zarr.json").exists()
-
-
 # --- whose a draft is ----------------------------------------------------------------------------
 
 
@@ -177,28 +166,11 @@ def _is_zarr(folder: Path) -> bool:
 def box_of(target: Path) -> Iterator[Path]:
     """Hidden folder beside the target, locked by its owner as long as he lives."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
-    lock = os.open(box / _LOCK, os.O_CREAT | os.O_RDWR, 0o600)
     try:
-        take_lock(lock)
-        yield box
+        with FileLock(box / _LOCK):
+            yield box
     finally:
         shutil.rmtree(box, ignore_errors=True)
-        os.close(lock)
-
-
-def take_lock(file: int) -> bool:
-    """Take the lock of an open file, which the system gives back when its owner ends.
-
-    Process ids would say nothing: each container counts its own. On Windows there is no such lock,
-    and nobody's draft is cleared but one's own.
-    """
-    if sys.platform == "win32":
-        return False
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True
 
 
 def put_back(path: str | Path) -> None:
@@ -207,17 +179,39 @@ def put_back(path: str | Path) -> None:
     Parameters
     ----------
     path : str or Path
-        Where it should be; if something stands there, nothing is done.
+        Where it should be; if something stands there, nothing is done. While its writer lives, the
+        new one is waited for.
     """
-    target = Path(path)
     with suppress(OSError):
-        if not target.exists():
-            clear_up_after_the_dead(target.resolve(), None)
+        target = Path(path).resolve()
+        while not target.exists() and any((box / _OLD).exists() for box in _boxes(target)):
+            clear_up_after_the_dead(target)
+            time.sleep(_MOMENT)
 
 
-def clear_up_after_the_dead(target: Path, own: Path | None) -> None:
+def identity(path: Path) -> tuple[int, int, int] | None:
+    """What tells a file or folder from another that takes its place; None if there is none."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_dev, status.st_ino, status.st_mtime_ns
+
+
+def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
+    """Refuse to read on in a file or folder that is not the one that was opened.
+
+    Raises
+    ------
+    OutputError
+    """
+    if identity(path) != opened:
+        raise OutputError(path, "it was replaced while it was read", "open it again")
+
+
+def clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
     """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
-    for box in target.parent.glob(f".{_literal(target.name)}.*.draft"):
+    for box in _boxes(target):
         if box == own or not _is_left(box, own):
             continue
         if (box / _OLD).exists() and not target.exists():
@@ -225,26 +219,19 @@ def clear_up_after_the_dead(target: Path, own: Path | None) -> None:
         shutil.rmtree(box, ignore_errors=True)
 
 
-def _literal(name: str) -> str:
-    """A name for `glob`, which means itself."""
-    return "".join(f"[{c}]" if c in "*?[" else c for c in name)
+def _boxes(target: Path) -> Iterator[Path]:
+    return target.parent.glob(f".{glob.escape(target.name)}.*.draft")
 
 
 def _is_left(box: Path, own: Path | None) -> bool:
     """Whether the owner of a draft has ended."""
-    try:
-        lock = os.open(box / _LOCK, os.O_RDWR)
-    except FileNotFoundError:
-        # Its owner may be about to lock it. Clocks of machines differ, a disk has one.
-        with suppress(OSError):
+    with suppress(OSError, Timeout):
+        if not (box / _LOCK).exists():
+            # Its owner may be about to lock it. Clocks of machines differ, a disk has one.
             return own is not None and own.stat().st_mtime - box.stat().st_mtime > _GRACE
-        return False
-    except OSError:
-        return False
-    try:
-        return take_lock(lock)
-    finally:
-        os.close(lock)
+        with FileLock(box / _LOCK, blocking=False):
+            return True
+    return False
 
 
 # --- into its place ------------------------------------------------------------------------------
@@ -253,27 +240,22 @@ def _is_left(box: Path, own: Path | None) -> bool:
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
     """Keep the draft on the disk, then let it take its place, then keep that."""
     sync(draft)
-    if not target.is_dir():
-        os.replace(draft, target)
-    elif not _exchange(draft, target):
-        aside = box / _OLD
+    aside = box / _OLD
+    if target.is_dir():
         os.replace(target, aside)
-        try:
-            os.replace(draft, target)
-        except BaseException:
+    try:
+        os.replace(draft, target)
+    except BaseException:
+        if aside.exists():
             os.replace(aside, target)
-            raise
+        raise
     sync_one(target.parent)
 
 
 def sync(path: Path) -> None:
     """Have a file, or a folder with all that is in it, written to the disk."""
-    for folder, _, files in os.walk(path):
-        for name in files:
-            sync_one(Path(folder, name))
-        sync_one(Path(folder))
-    if not path.is_dir():
-        sync_one(path)
+    for each in (*path.rglob("*"), path):
+        sync_one(each)
 
 
 def sync_one(path: Path) -> None:
@@ -290,16 +272,3 @@ def sync_one(path: Path) -> None:
             raise
     finally:
         os.close(file)
-
-
-def _exchange(one: Path, other: Path) -> bool:
-    """Let two folders change places in one step; False where the system cannot."""
-    here, swap = -100, 2  # AT_FDCWD; RENAME_EXCHANGE of Linux and RENAME_SWAP of macOS
-    names = os.fsencode(one), os.fsencode(other)
-    try:
-        library = ctypes.CDLL(None, use_errno=True)
-        if sys.platform == "darwin":
-            return bool(library.renamex_np(*names, swap) == 0)
-        return bool(library.renameat2(here, names[0], here, names[1], swap) == 0)
-    except (OSError, AttributeError, TypeError):
-        return False

@@ -305,8 +305,8 @@ class Ensemble:
     def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """The numbers of one member, or of several with the same words."""
         try:
-            again = self.variants[words]
-            return again.numbers(changed(again.planned.question, self.numbers, values))
+            rerun = self.variants[words]
+            return rerun(changed(rerun.planned.question, self.numbers, values)).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise

@@ -7,7 +7,7 @@ values have names: what is chosen for it is told by text.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from earthspin.engine.given import MEMBER
 from earthspin.engine.members import Distribution, texts
+from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
 from earthspin.units import FloatArray, Number, by_name
 
@@ -108,39 +109,37 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
 
 
 def _input(question: Question, name: str, where: Where) -> Input:
-    every = dict(_every(question))
+    every = {one.name: one for one in _every(question)}
     short = name.removeprefix(f"{question.table}.") if question.table else name
     for spelled in (name, short):
         if spelled in every:
-            key, element, of, kind, labelled = every[spelled]
-            return Input(name, key, element, of, kind, labelled)
+            return replace(every[spelled], name=name)
     raise where.error(name, nearest(name, every))
 
 
-def _every(question: Question) -> Iterable[tuple[str, tuple[str, int | None, str, Any, bool]]]:
+def _every(question: Question) -> Iterator[Input]:
     """Every number of a question that is set, and every key that takes a name."""
-    from earthspin.engine.question import Question, keys_of
-
     for key, one in keys_of(question.__class__).items():
         value = getattr(question, key)
         if by_name(one.kind) and key not in keys_of(Question):
-            yield key, (key, None, "", one.kind, False)
+            yield Input(key, key, None, "", one.kind, False)
         if hasattr(value, "magnitudes"):
             for field, kind in value.magnitudes().items():
-                yield f"{key}.{field}", (key, None, field, kind, field in value.LABELLED)
+                yield Input(f"{key}.{field}", key, None, field, kind, field in value.LABELLED)
         elif isinstance(value, tuple) and value and hasattr(value[0], "magnitudes"):
-            for number, of in enumerate(value):
-                for field, kind in of.magnitudes().items():
-                    yield f"{of.name}.{field}", (key, number, field, kind, field in of.LABELLED)
+            for place, body in enumerate(value):
+                for field, kind in body.magnitudes().items():
+                    name, labelled = f"{body.name}.{field}", field in body.LABELLED
+                    yield Input(name, key, place, field, kind, labelled)
         elif isinstance(one.kind, Number):
-            yield key, (key, None, "", one.kind, True)
+            yield Input(key, key, None, "", one.kind, True)
         elif hasattr(value, "numbers") or isinstance(value, np.ndarray):
-            of_list: Any = one.kind
-            kind = Number(of_list.unit, of_list.example)
+            list_kind: Any = one.kind
+            kind = Number(list_kind.unit, list_kind.example)
             if isinstance(value, np.ndarray):
-                yield key, (key, None, "", one.kind, True)
-            for number in range(np.size(getattr(value, "numbers", value))):
-                yield f"{key}.{number}", (key, number, "", kind, True)
+                yield Input(key, key, None, "", one.kind, True)
+            for place in range(np.size(getattr(value, "numbers", value))):
+                yield Input(f"{key}.{place}", key, place, "", kind, True)
 
 
 def published(question: Question) -> dict[str, Distribution]:
@@ -148,15 +147,17 @@ def published(question: Question) -> dict[str, Distribution]:
 
     Of a body that only pulls, the mass alone counts. No correlation was published with any.
     """
-    found: dict[str, Distribution] = {}
-    for name, (key, element, field, *_) in _every(question):
-        of = getattr(question, key)
-        of = of if element is None or not field else of[element]
-        u = getattr(of, "relative_uncertainty", {}).get(field, 0.0)
-        if u and (element is None or field == "gm") and np.ndim(getattr(of, field)) == 0:
-            value = float(getattr(of, field))
-            found[name] = Distribution("normal", (value, abs(value) * u))
-    return found
+    distributions: dict[str, Distribution] = {}
+    for one in _every(question):
+        body = getattr(question, one.key)
+        if one.element is not None and one.field:
+            body = body[one.element]
+        u = getattr(body, "relative_uncertainty", {}).get(one.field, 0.0)
+        counts = one.element is None or one.field == "gm"
+        if u and counts and np.ndim(getattr(body, one.field)) == 0:
+            value = float(getattr(body, one.field))
+            distributions[one.name] = Distribution("normal", (value, abs(value) * u))
+    return distributions
 
 
 def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]) -> Question:

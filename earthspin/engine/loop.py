@@ -8,8 +8,10 @@ keeps its ledger (`earthspin.engine.unfinished`).
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -23,7 +25,7 @@ from earthspin.engine.unfinished import (
     digest,
     held,
     write_block,
-)
+)  # fmt: skip
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
 from earthspin.progress import progress
 
@@ -91,24 +93,27 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     _check_client(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
-        raise OutputError(
-            place, "its name does not end in .zarr", "what is long goes to Zarr alone"
-        )
+        words = "its name does not end in .zarr"
+        raise OutputError(place, words, "what is long goes to Zarr alone")
     zarr_of()
-    target = drafts.made_ready(place)
-    there, asked = _made_of(target), _asked(work)
+    target, layout = drafts.prepared(place), work.layout
+    asked = dict(work.asked) | {"size": f"{layout.size} along {layout.along} by {layout.block}"}
+    there = _made_of(target)
     if there is not None and there != digest(asked) and not replace:
         raise OutputError(place, "a store of something else stands there", "move it away")
     if there == digest(asked):
-        _clear_up(target, work)
+        with held(target, asked) as left:  # by a run that was ended when all was done
+            if left is not None:
+                shutil.rmtree(left)
         return verify(place)
-    with drafts.told_as_output_error(place, _remedy(target)):
+    remedy = f"what is done stays in {target.name}{PARTIAL}: make room and run it again"
+    with drafts.output_errors(place, remedy):
         while True:
-            with held(target, asked, work.layout) as unfinished:
-                if unfinished is not None:
-                    _go_on(work, unfinished, target, client)
+            with held(target, asked) as folder:
+                if folder is not None:
+                    _go_on(work, Unfinished(folder, layout), target, client)
                     return place
-            begin(target, asked, work.layout, work.first())
+            begin(target, asked, layout, work.first())
 
 
 def hold(work: Work, *, client: object = None) -> xr.Dataset:
@@ -144,41 +149,44 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 
 
 def _go_on(work: Work, unfinished: Unfinished, target: Path, client: object) -> None:
+    """Make what is missing, and again what is damaged, until all is as the ledger says."""
     layout, own = work.layout, set[int]()
-    unfinished.check_frame()
-    with _interrupts_told(unfinished):
+    try:
+        unfinished.drop_damaged()
         while True:
-            before = sum(map(layout.length, unfinished.done))
-            with progress(work.what, layout.size, before) as advance:
+            with progress(work.what, layout.size, unfinished.length) as advance:
                 for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
                     unfinished.note(number, sums)
                     own.add(number)
                     advance(layout.length(number))
-            damaged = unfinished.drop_damaged()
+            if not (damaged := unfinished.drop_damaged()):
+                break
             if own.intersection(damaged):
                 words = f"block {damaged[0]} is not what was just written"
                 raise OutputError(unfinished.folder, words, "check the disk and run it again")
-            if not damaged:
-                break
+    except BaseException as ended:
+        if not isinstance(ended, Exception):  # from outside
+            kept = f"{unfinished.length} of {layout.size} are kept in {unfinished.folder.name}"
+            ended.add_note(f"{kept}; the same command goes on from there")
+        raise
     unfinished.finish(target)
 
 
 def _made(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Blocks by their numbers, as they come; with a folder, the checksums of what is in it."""
+    """Blocks by their numbers, as they come; with a folder, the checksums of their files."""
     if client is None:
-        for number in numbers:
-            yield number, _one(work, number, folder)
+        yield from (_one(work, number, folder) for number in numbers)
     elif numbers:
-        with _client(client) as of:
-            yield from _by_cluster(work, numbers, of, folder)
+        with _cluster(client) as cluster:
+            yield from _by_cluster(work, numbers, cluster, folder)
 
 
-def _one(work: Work, number: int, folder: Path | None) -> Any:
+def _one(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
     """Make a block, and write it if there is a folder for it; runs on workers, too."""
     block = work.make(number)
-    return block if folder is None else write_block(folder, work.layout, number, block)
+    return number, block if folder is None else write_block(folder, work.layout, number, block)
 
 
 def _by_cluster(
@@ -188,19 +196,11 @@ def _by_cluster(
 
     sent = client.scatter(work, broadcast=True, hash=False)
     threads = sum(client.nthreads().values()) or 1
-    waiting = iter(numbers)
-    numbered: dict[Any, int] = {}
-
-    def submit(number: int) -> Any:
-        future = client.submit(_one, sent, number, folder, pure=False)
-        numbered[future] = number
-        return future
-
-    first = [submit(n) for _, n in zip(range(WAITING * threads), waiting, strict=False)]
-    done = as_completed(first, loop=client.loop)
-    for future in done:
+    submitted = (client.submit(_one, sent, n, folder, pure=False) for n in numbers)
+    running = as_completed([*islice(submitted, WAITING * threads)], loop=client.loop)
+    for future in running:
         try:
-            yield numbered.pop(future), future.result()
+            yield future.result()
         except EarthspinError:
             raise
         except Exception as error:
@@ -208,46 +208,37 @@ def _by_cluster(
                 raise
             words = f"the cluster lost it: {one_line(error)}"
             raise SceneError("client", str(client.scheduler), words) from None
-        for number in waiting:
-            done.add(submit(number))
-            break
+        running.update(islice(submitted, 1))
 
 
 @contextmanager
-def _client(given: object) -> Iterator[Client]:
+def _cluster(given: object) -> Iterator[Client]:
     """A client of a cluster that there is, or of one that lives as long as it is needed."""
     try:
+        import dask
         import distributed
     except ImportError:
         raise MissingExtraError("distributed", "scale", "work by many processes") from None
     if isinstance(given, distributed.Client):
         yield given
-    elif isinstance(given, str):
+        return
+    options: dict[str, Any] = {"address": given, "timeout": PATIENCE}
+    if isinstance(given, int):
+        options = {"n_workers": given, "threads_per_worker": 1, "silence_logs": 50}
+        options |= {"host": HERE, "dashboard_address": f"{HERE}:0"}
+    quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
+    with dask.config.set(quiet if isinstance(given, int) else {}):
         try:
-            found = distributed.Client(given, timeout=PATIENCE, set_as_default=False)
+            client = distributed.Client(**options, set_as_default=False)
         except Exception as error:  # of the address, the network or another version
+            if isinstance(given, int):
+                raise
             words = f"no scheduler answers there within {PATIENCE} s: {one_line(error)}"
             raise SceneError("scheduler", given, words) from None
-        with found:
-            if not found.nthreads():
+        with client:
+            if not client.nthreads():
                 raise SceneError("scheduler", given, "it has no workers; start some")
-            yield found
-    elif isinstance(given, int):
-        import dask
-
-        quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
-        with (
-            dask.config.set(quiet),
-            distributed.LocalCluster(
-                n_workers=given,
-                threads_per_worker=1,
-                dashboard_address=f"{HERE}:0",
-                silence_logs=50,
-                host=HERE,
-            ) as cluster,
-            distributed.Client(cluster, set_as_default=False) as made,
-        ):
-            yield made
+            yield client
 
 
 def _check_client(given: object) -> None:
@@ -266,51 +257,12 @@ def _check_client(given: object) -> None:
 # --- what there is already -----------------------------------------------------------------------
 
 
-def _asked(work: Work) -> dict[str, str]:
-    """What is asked, of which versions, and how it is cut."""
-    layout = work.layout
-    return dict(work.asked) | {"size": f"{layout.size} along {layout.along} by {layout.block}"}
-
-
 def _made_of(target: Path) -> str | None:
     """What a complete store was made of, in a word; None where there is no store."""
-    from earthspin.engine.drafts import put_back
-
-    put_back(target)
+    drafts.put_back(target)
     if not target.exists():
         return None
     try:
         return str(zarr_of().open_group(target, mode="r", zarr_format=2).attrs.get(MADE_OF, ""))
     except Exception:  # whatever zarr says of a folder that is damaged: it is another store
         return ""
-
-
-def _clear_up(target: Path, work: Work) -> None:
-    """Take away what is left beside a store that is complete."""
-    import shutil
-
-    with held(target, _asked(work), work.layout) as left:
-        if left is not None:
-            shutil.rmtree(left.folder)
-
-
-def _remedy(target: Path) -> str:
-    there = target.with_name(target.name + PARTIAL)
-    return f"what is done stays in {there.name}: make room and run it again"
-
-
-@contextmanager
-def _interrupts_told(unfinished: Unfinished) -> Iterator[None]:
-    """Add to whatever ends the loop from outside how to go on."""
-    try:
-        yield
-    except Exception:
-        raise
-    except BaseException as ended:
-        layout = unfinished.layout
-        done = sum(map(layout.length, unfinished.done))
-        ended.add_note(
-            f"{done} of {layout.size} are kept in {unfinished.folder.name}; "
-            "the same command goes on from there"
-        )
-        raise

@@ -56,9 +56,8 @@ class Distribution:
     def read(cls, given: Mapping[str, Any], where: Where) -> Distribution:
         """Read a table like ``{ normal = [0.00327, 2e-9] }``."""
         if len(given) != 1 or next(iter(given)) not in _SHAPES:
-            raise where.error(
-                dict(given), f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
-            )
+            problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
+            raise where.error(dict(given), problem)
         ((shape, numbers),) = given.items()
         numbers = numbers.tolist() if isinstance(numbers, np.ndarray) else numbers
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
@@ -310,13 +309,11 @@ def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
         except (TypeError, ValueError):
             first = second = size = None
         if not (isinstance(first, str) and isinstance(second, str) and first != second):
-            raise where.at("correlations").error(
-                one, 'give two names and a number: ["a", "b", 0.5]'
-            )
+            problem = 'give two names and a number: ["a", "b", 0.5]'
+            raise where.at("correlations").error(one, problem)
         if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
-            raise where.at("correlations").error(
-                one, "a correlation lies between -1 and 1, both excluded"
-            )
+            problem = "a correlation lies between -1 and 1, both excluded"
+            raise where.at("correlations").error(one, problem)
         yield first, second, float(size)
 
 
@@ -406,6 +403,5 @@ def _root(members: Members, names: list[str], where: Where) -> FloatArray:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError:
         told = [list(one) for one in members.correlations]
-        raise where.at("correlations").error(
-            told, "no numbers are correlated so; the matrix is not positive"
-        ) from None
+        problem = "no numbers are correlated so; the matrix is not positive"
+        raise where.at("correlations").error(told, problem) from None

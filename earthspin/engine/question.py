@@ -114,6 +114,10 @@ class Question:
         Name of the public function.
     table : str
         Name of its own table of settings in a scene; empty if it has none.
+    views : str
+        Module of `views` that makes its tables and figures.
+    page : str
+        Page of the documentation that explains its method; empty if there is none.
     positional : tuple of str
         Arguments of the call that need no name.
     exclusive : tuple of tuple of str
@@ -123,6 +127,8 @@ class Question:
     word: ClassVar[str]
     call: ClassVar[str]
     table: ClassVar[str]
+    views: ClassVar[str] = "plain"
+    page: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     graph: ClassVar[Graph]

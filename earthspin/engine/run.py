@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -22,20 +22,39 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Ran:
-    """A plan that has run, and what its parts gave by name."""
+class Run:
+    """A plan that has run, with the results of its parts and the keys of its question by name."""
 
     plan: Plan
-    given: dict[str, Any]
+    results: dict[str, Any]
 
     @property
     def provenance(self) -> dict[str, str]:
-        """What its parts say of where their numbers come from."""
-        return _provenance(self.given)
+        """Sources of its numbers: versions, and checksums of files."""
+        sources: dict[str, str] = {}
+        for value in self.results.values():
+            sources |= getattr(value, "provenance", {})
+        return sources
+
+    def numbers(self) -> xr.Dataset:
+        """Lay out the answer, without the attributes of the whole."""
+        names = self.plan.question.graph.answer
+        return _together([self.results[name] for name in names if name in self.results])
 
     def answer(self) -> xr.Dataset:
         """Lay out the answer, with all that it carries."""
-        return _answer(self)
+        import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
+
+        result = self.numbers()
+        result.attrs = _attributes(self)
+        remember_seconds(result.attrs[SCENE], self.plan.seconds)
+        return result
+
+    def section(self, name: str, effects: Sequence[str] = ()) -> xr.Dataset:
+        """Lay out a section; the labels along `effect` are those of the answer, if it has any."""
+        names = self.plan.question.graph.sections[name]
+        parts = [self.results[part] for part in names if part in self.results]
+        return _together([p.dataset(effects) if isinstance(p, Neglected) else p for p in parts])
 
 
 def run(question: Question) -> xr.Dataset:
@@ -47,16 +66,15 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
     """The answer at the root, a node for each section, and the node ``plan``."""
     import xarray as xr
 
-    ran = _run_parts(plan(question, sections))
-    answer = ran.answer()
-    nodes = {"/": answer}
-    for name in ran.plan.sections:
-        nodes[name] = _section(ran, name, answer)
-    return xr.DataTree.from_dict(nodes | {"plan": plan_data(ran.plan)})
+    done = _run_parts(plan(question, sections))
+    answer = done.answer()
+    effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
+    nodes = {name: done.section(name, effects) for name in done.plan.sections}
+    return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(done.plan)})
 
 
-class Again:
-    """A question that is asked again and again with something changed: the rest runs once.
+class Rerun:
+    """A question that is run repeatedly with something changed: the other parts run once.
 
     Parameters
     ----------
@@ -66,33 +84,24 @@ class Again:
     """
 
     def __init__(self, question: Question, changing: Iterable[str]) -> None:
-        planned, moving = plan(question), {*changing}
-        for one in planned.parts:
-            if moving & {*one.needs, *one.uses}:
-                moving.add(one.name)
-        still = tuple(one for one in planned.parts if one.name not in moving)
-        self.planned, self.moving = planned, moving
-        self.still = _run_parts(replace(planned, parts=still)).given
+        self.planned, self.changing = plan(question), {*changing}
+        for part in self.planned.parts:
+            if self.changing & {*part.needs, *part.uses}:
+                self.changing.add(part.name)
+        fixed = tuple(part for part in self.planned.parts if part.name not in self.changing)
+        self.fixed = _run_parts(replace(self.planned, parts=fixed))
 
     @property
     def provenance(self) -> dict[str, str]:
-        """What the parts that run once say of where their numbers come from."""
-        return _provenance(self.still)
+        """Sources of the numbers of the parts that run once."""
+        return self.fixed.provenance
 
-    def __call__(self, question: Question | None = None, **given: object) -> Ran:
+    def __call__(self, question: Question | None = None, **given: object) -> Run:
         """Run the rest, of the question as it is or with keys changed."""
         planned = self.planned if question is None else plan(question)
-        kept = {part.name for part in planned.parts} - self.moving
-        before = {name: value for name, value in self.still.items() if name in kept}
+        names = {part.name for part in planned.parts} - self.changing
+        before = {name: value for name, value in self.fixed.results.items() if name in names}
         return _run_parts(planned, before | given)
-
-    def answer(self, question: Question | None = None, **given: object) -> xr.Dataset:
-        """Answer it, with all that an answer carries."""
-        return self(question, **given).answer()
-
-    def numbers(self, question: Question | None = None, **given: object) -> xr.Dataset:
-        """Answer it, without the attributes of the whole."""
-        return _numbers(self(question, **given))
 
 
 def run_choosing(question: Question) -> list[Any]:
@@ -103,33 +112,33 @@ def run_choosing(question: Question) -> list[Any]:
     question : Question
     """
     planned = plan(question)
-    needed = {one.name for one in planned.parts if one.chooses}
-    for one in reversed(planned.parts):
-        if one.name in needed:
-            needed |= {*one.needs, *one.uses}
-    few = replace(planned, parts=tuple(one for one in planned.parts if one.name in needed))
-    given = _run_parts(few).given
-    return [given[one.name] for one in few.parts if one.chooses]
+    needed = {part.name for part in planned.parts if part.chooses}
+    for part in reversed(planned.parts):
+        if part.name in needed:
+            needed |= {*part.needs, *part.uses}
+    few = tuple(part for part in planned.parts if part.name in needed)
+    results = _run_parts(replace(planned, parts=few)).results
+    return [results[part.name] for part in few if part.chooses]
 
 
-def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Ran:
+def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Run:
     """Run what has not been given yet."""
     values = planned.question.keys() | dict(given or {})
     seconds: dict[str, float] = {}
     with import_clock() as imports:
         before = imports.seconds
-        for one in planned.parts:
-            if one.name in values:
+        for part in planned.parts:
+            if part.name in values:
                 continue
-            inputs = {name: values[name] for name in one.needs}
-            inputs |= {name: values[name] for name in one.uses if name in values}
+            inputs = {name: values[name] for name in part.needs}
+            inputs |= {name: values[name] for name in part.uses if name in values}
             begun = time.perf_counter() - imports.seconds
-            with in_range(one.name):
-                value = one(**inputs)
-                values[one.name] = value.dataset() if isinstance(value, Variables) else value
-            seconds[one.name] = time.perf_counter() - imports.seconds - begun
+            with in_range(part.name):
+                value = part(**inputs)
+                values[part.name] = value.dataset() if isinstance(value, Variables) else value
+            seconds[part.name] = time.perf_counter() - imports.seconds - begun
         seconds[IMPORTS] = imports.seconds - before
-    return Ran(replace(planned, seconds=seconds), values)
+    return Run(replace(planned, seconds=seconds), values)
 
 
 @contextmanager
@@ -158,36 +167,6 @@ def in_range(what: str) -> Iterator[None]:
 
 
 # --- laying out ----------------------------------------------------------------------------------
-
-
-def _answer(ran: Ran) -> xr.Dataset:
-    """The parts of the answer as one Dataset, with its attributes."""
-    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
-
-    result = _numbers(ran)
-    result.attrs = _attributes(ran)
-    remember_seconds(result.attrs[SCENE], ran.plan.seconds)
-    return result
-
-
-def _numbers(ran: Ran) -> xr.Dataset:
-    """The parts of the answer as one Dataset."""
-    graph = ran.plan.question.graph
-    return _together([ran.given[name] for name in graph.answer if name in ran.given])
-
-
-def _provenance(given: Mapping[str, Any]) -> dict[str, str]:
-    told: dict[str, str] = {}
-    for value in given.values():
-        told |= getattr(value, "provenance", {})
-    return told
-
-
-def _section(ran: Ran, name: str, answer: xr.Dataset) -> xr.Dataset:
-    """The parts of a section as one Dataset; effects that the answer names keep their labels."""
-    parts = [ran.given[one] for one in ran.plan.question.graph.sections[name] if one in ran.given]
-    labels = answer["effect"].values.tolist() if "effect" in answer.coords else ()
-    return _together([p.dataset(labels) if isinstance(p, Neglected) else p for p in parts])
 
 
 def _together(pieces: list[xr.Dataset]) -> xr.Dataset:
@@ -219,9 +198,9 @@ def plan_data(planned: Plan) -> xr.Dataset:
     )
 
 
-def _attributes(ran: Ran) -> dict[str, str]:
+def _attributes(done: Run) -> dict[str, str]:
     """Global attributes: text alone, the same from run to run."""
-    question = ran.plan.question
+    question = done.plan.question
     attributes = {
         "Conventions": CONVENTIONS,
         "title": question.title,
@@ -248,8 +227,8 @@ def _attributes(ran: Ran) -> dict[str, str]:
         elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    attributes |= ran.provenance
-    attributes[NEGLECTED] = ran.given[NEGLECTED].largest
+    attributes |= done.provenance
+    attributes[NEGLECTED] = done.results[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from earthspin._version import __version__, version
 from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.question import Question
-from earthspin.engine.run import Again, scene_text
+from earthspin.engine.run import Rerun, scene_text
 from earthspin.engine.unfinished import Layout
 
 if TYPE_CHECKING:
@@ -44,16 +44,16 @@ class Series:
         return Layout("time", self.size, self.length)
 
     @cached_property
-    def _again(self) -> Again:
-        return Again(self.question, {BLOCK})
+    def _rerun(self) -> Rerun:
+        return Rerun(self.question, {BLOCK})
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: of for name, of in vars(self).items() if name != "_again"}
+        return {name: of for name, of in vars(self).items() if name != "_rerun"}
 
     @cached_property
     def asked(self) -> Mapping[str, str]:
         """The question, the versions and the kernel."""
-        return asked_of(self.question, self._again.provenance)
+        return asked_of(self.question, self._rerun.provenance)
 
     def first(self) -> xr.Dataset:
         """Answer the first stretch; its attributes are those of the whole."""
@@ -61,7 +61,7 @@ class Series:
 
     def make(self, number: int) -> xr.Dataset:
         """Answer one stretch."""
-        return self._again.answer(block=Block(*self.layout.bounds(number)))
+        return self._rerun(block=Block(*self.layout.bounds(number))).answer()
 
 
 def asked_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:

@@ -1,10 +1,10 @@
 """Results on disk: netCDF, or Zarr by region, whole or not at all, and guarded.
 
 A result is written beside its place and moved there when it is complete (`earthspin.engine.drafts`
-says what that promises). Its numbers carry the checksums of the format, the whole of it a checksum
-of our own (`earthspin.engine.checksums`): netCDF is held to both whenever it is opened, Zarr to the
-first as it is used, and to the second by `verify`. A third, of the bytes of a netCDF file
-(`earthspin.engine.last_line`), is looked at before the library that reads netCDF opens it.
+says what that promises). It carries checksums (`earthspin.engine.checksums`): the bytes of a netCDF
+file are held to its last line before it is opened, and what it says to an attribute if another
+program has taken that line away. The files of a Zarr store are held to its ledger as they are read,
+and all of them by `verify`.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from earthspin.engine import last_line
-from earthspin.engine.drafts import as_path, put_back, replacing
+from earthspin.engine import checksums
+from earthspin.engine.drafts import as_path, check_identity, identity, put_back, replacing
 from earthspin.engine.labels import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 #: One thread at a time in the netCDF library, which is not made for more.
 _NETCDF = threading.RLock()
 
-#: Bytes that are written at once to learn why a file cannot be written.
-_PIECE = 1 << 20
 #: Bytes of a group of a netCDF file beside its numbers, at most about.
 _FRAME = 1 << 16
 
@@ -101,21 +99,18 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         If the file cannot be written, with the reason of the system.
     """
     _refuse_other_endings(path)
-    groups = _guarded(_groups(result))
+    groups = _groups(result)
+    root = groups["/"].assign_attrs({checksums.CONTENT: checksums.of_content(groups)})
     with _NETCDF:
         try:
-            for number, (group, node) in enumerate(groups.items()):
-                node.to_netcdf(
-                    path,
-                    mode="a" if number else "w",
-                    group=group,
-                    engine="netcdf4",
-                    encoding=_netcdf_encoding(node),
-                )
+            for group, node in (groups | {"/": root}).items():
+                mode: Any = "w" if group == "/" else "a"
+                encoding = _netcdf_encoding(node)
+                node.to_netcdf(path, mode=mode, group=group, engine="netcdf4", encoding=encoding)
         except (RuntimeError, OSError) as error:  # "HDF error", whatever the system said
             _raise_reason_of_system(path, sum(node.nbytes + _FRAME for node in groups.values()))
             raise OSError(f"the netCDF library says: {one_line(error)}") from None
-        last_line.append(path)
+        checksums.append_line(path)
 
 
 #: Types of numbers that netCDF holds.
@@ -154,8 +149,7 @@ def _raise_reason_of_system(path: Path, size: int) -> None:
     """
     try:
         with path.open("wb") as file:
-            for first in range(0, size, _PIECE):
-                file.write(bytes(min(_PIECE, size - first)))
+            file.write(bytes(size))
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
@@ -169,23 +163,18 @@ def _raise_reason_of_system(path: Path, size: int) -> None:
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
     """The answer, with the date in its history, and its sections, by the path of each in a file."""
-    groups: dict[str, xr.Dataset] = {"/": _answer_of(result)}
-    for path, node in getattr(result, "subtree_with_keys", ()):
-        if path != ".":
-            groups[f"/{path}"] = node.to_dataset(inherit=False)
-    groups = {group: spelled(node) for group, node in groups.items()}
+    import xarray as xr
+
+    tree = xr.DataTree(result) if isinstance(result, xr.Dataset) else result
+    groups = {
+        "/" if path == "." else f"/{path}": spelled(node.to_dataset(inherit=False))
+        for path, node in tree.subtree_with_keys
+    }
     history = groups["/"].attrs.get("history")
     if history is not None:
         stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
         groups["/"] = groups["/"].assign_attrs(history=f"{stamp} {history}")
     return groups
-
-
-def _guarded(groups: dict[str, xr.Dataset]) -> dict[str, xr.Dataset]:
-    """The same with the checksums of all of it among the attributes of the root."""
-    from earthspin.engine.checksums import checksums
-
-    return groups | {"/": groups["/"].assign_attrs(checksums(groups))}
 
 
 #: Attributes of a variable in a file: the units, and how people read them.
@@ -210,24 +199,14 @@ def _as_shown(node: xr.Dataset) -> xr.Dataset:
     return node
 
 
-def _answer_of(result: xr.Dataset | xr.DataTree) -> xr.Dataset:
-    import xarray as xr
-
-    return result.to_dataset() if isinstance(result, xr.DataTree) else result
-
-
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> Path:
     """Write an answer with its sections to Zarr, a group for each node."""
     zarr = zarr_of()
     with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
-        for group, node in _guarded(_groups(result)).items():
-            node.to_zarr(
-                draft,
-                mode="w" if group == "/" else "a",
-                group=group,
-                encoding=zarr_encoding(node),
-                **ZARR,
-            )
+        for group, node in _groups(result).items():
+            mode: Any = "w" if group == "/" else "a"
+            node.to_zarr(draft, mode=mode, group=group, encoding=zarr_encoding(node), **ZARR)
+        checksums.write_ledger(draft, checksums.of_files(draft, checksums.files_in(draft)))
     return path
 
 
@@ -291,13 +270,12 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
     place = as_path(path)
-    nodes = _read(place)
-    _hold_to_checksums(nodes, place, data=place.suffix != ".zarr")
-    nodes = {name: _as_shown(node) for name, node in nodes.items()}
-    root = nodes["/"].drop_attrs(deep=False).assign_attrs(_without_checksums(nodes["/"]))
-    if "history" in root.attrs:  # the date belongs to the file
-        root = root.assign_attrs(history=_STAMP.sub("", root.attrs["history"]))
-    nodes["/"] = root
+    nodes = {name: _as_shown(node) for name, node in _read(place).items()}
+    root = nodes["/"]
+    attrs = {name: value for name, value in root.attrs.items() if name not in _OWN}
+    if "history" in attrs:  # the date belongs to the file
+        attrs["history"] = _STAMP.sub("", attrs["history"])
+    root = nodes["/"] = root.drop_attrs(deep=False).assign_attrs(attrs)
     return root if len(nodes) == 1 else xr.DataTree.from_dict(nodes)
 
 
@@ -329,17 +307,46 @@ def verify(path: str | Path) -> Path:
     precession.nc
     """
     place = as_path(path)
-    if not _hold_to_checksums(_read(place), place, data=True):
+    attrs = _read(place)["/"].attrs
+    if place.suffix == ".zarr":
+        guarded = _verify_files(place)
+    else:
+        guarded = checksums.CONTENT in attrs or checksums.line_holds(place) is not None
+    if not guarded and any(name in attrs for name in checksums.EARLIER):
+        what = "it carries checksums of an earlier version alone, which are not checked"
+        raise OutputError(place, what, "open it and write it again")
+    if not guarded:
         raise OutputError(place, "it carries no checksum", "earthspin.write gives it one")
     return place
 
 
+def _verify_files(store: Path) -> bool:
+    """Hold every file of a Zarr store to its ledger; False if it has none.
+
+    Raises
+    ------
+    OutputError
+    """
+    ledger = checksums.ledger_of(store)
+    if ledger is None:
+        return False
+    written = checksums.read_entries(ledger)
+    found = checksums.of_files(store, [*written, *checksums.files_in(store)])
+    for name, digest in found.items():
+        checksums.check_file(store, name, digest, written)
+    return True
+
+
 def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Nodes of a file by their paths, units as the file has them."""
+    """Nodes of a file by their paths, units as the file has them.
+
+    NetCDF is held to its checksums, to that of its content only where no line guards its bytes.
+    """
     import xarray as xr
 
     coder = xr.coders.CFDatetimeCoder(time_unit="us")
     put_back(path)
+    opened = identity(path)
     try:
         if path.suffix == ".zarr":
             zarr_of()
@@ -350,13 +357,19 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
         with _NETCDF:
             if path.is_fifo():
                 raise OutputError(path, "it is a pipe", "give a file")
-            if last_line.is_broken(path):
-                raise OutputError(path, f"its bytes {CHANGED[0]}", CHANGED[1])
+            line_holds = checksums.line_holds(path)
+            if line_holds is False:
+                raise checksums.changed(path, "its bytes")
             nodes = xr.open_groups(path, decode_times=coder, engine="netcdf4")
-            return {name: _loaded(node) for name, node in nodes.items()}
+            nodes = {name: _loaded(node) for name, node in nodes.items()}
+        content = None if line_holds else nodes["/"].attrs.get(checksums.CONTENT)
+        if content and content != checksums.of_content(nodes):
+            raise checksums.changed(path, "its names, numbers, words or attributes")
+        return nodes
     except EarthspinError:
         raise
     except Exception as error:  # whatever the libraries say of a file that is damaged
+        check_identity(path, opened)
         raise _unreadable(path, error) from None
 
 
@@ -371,50 +384,16 @@ def _unreadable(path: Path, error: Exception) -> OutputError:
     return OutputError(path, f"it cannot be read: {words}")
 
 
-def _hold_to_checksums(nodes: dict[str, xr.Dataset], path: Path, *, data: bool) -> bool:
-    """Whether a file carries checksums; one that does not match them is refused.
-
-    Raises
-    ------
-    OutputError
-    """
-    from earthspin.engine.checksums import DATA, HEADER, checksums
-
-    told = {name: nodes["/"].attrs.get(name) for name in (HEADER, DATA)}
-    if not any(told.values()):
-        return False
-    try:
-        found = checksums(nodes, data=data)
-    except EarthspinError:
-        raise
-    except Exception as error:  # of a codec, whose own checksum failed
-        raise _unreadable(path, error) from None
-    for name, what in ((HEADER, "its names, sizes or attributes"), (DATA, "its numbers or words")):
-        if (data or name == HEADER) and told[name] != found[name]:
-            raise OutputError(path, f"{what} {CHANGED[0]}", CHANGED[1])
-    return True
-
-
-def _without_checksums(root: xr.Dataset) -> dict[Any, Any]:
-    from earthspin.engine.checksums import BLOCKS, DATA, HEADER
-
-    own = (HEADER, DATA, BLOCKS, MADE_OF)
-    return {name: value for name, value in root.attrs.items() if name not in own}
-
-
 def _loaded(node: xr.Dataset) -> xr.Dataset:
     """Read a node whole and close its file."""
     with node:
         return node.load()
 
 
-#: What is said of a file that does not match a checksum.
-CHANGED = (
-    "are not what was written",
-    "if they were changed on purpose, read it with xarray.open_dataset",
-)
 #: Attribute of a store that was made in blocks: one word for what was asked, and of which versions.
 MADE_OF = "made_of_sha256"
+#: Attributes that belong to the file, not to the answer.
+_OWN = (checksums.CONTENT, *checksums.EARLIER, MADE_OF)
 #: Date that a file's history begins with.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 
@@ -423,26 +402,23 @@ read = open
 
 
 def _netcdf_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
-    """How variables are laid down in netCDF, each with a checksum of its bytes.
+    """How variables are laid down in netCDF.
 
     A coordinate variable is a number to the CF conventions; words along a dimension stand as rows
     of characters, which xarray reads as the labels that they were.
     """
-    encoding: dict[str, dict[str, Any]] = {}
+    encoding = _time_encoding(node)
     for name, variable in node.variables.items():
-        entry = _kind_encoding(variable)
+        entry = encoding[str(name)]
         if variable.dims == (name,) and variable.dtype.kind in "UO":
             entry["dtype"] = "S1"
         if variable.dtype.kind == "f" or variable.dims == (name,):
             entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
-        if variable.size and variable.ndim and variable.dtype.kind in "fiubM":
-            entry["fletcher32"] = True
-        encoding[str(name)] = entry
     return encoding
 
 
 def zarr_encoding(node: xr.Dataset, *, chunked: str = "") -> dict[str, dict[str, Any]]:
-    """How variables are laid down in Zarr: a checksum for each chunk, and no number for none.
+    """How variables are laid down in Zarr; a chunk that is missing reads as no number.
 
     Parameters
     ----------
@@ -450,21 +426,17 @@ def zarr_encoding(node: xr.Dataset, *, chunked: str = "") -> dict[str, dict[str,
     chunked : str
         A dimension along which the node is one chunk of a longer one.
     """
-    from numcodecs import CRC32, Shuffle
-
-    encoding: dict[str, dict[str, Any]] = {}
+    encoding = _time_encoding(node)
     for name, variable in node.variables.items():
-        entry = _kind_encoding(variable)
         if chunked in variable.dims:
-            entry["chunks"] = variable.shape
+            encoding[str(name)]["chunks"] = variable.shape
         if variable.dtype.kind == "f":
-            entry["_FillValue"] = np.nan
-        if variable.dtype.kind in "fiubM":
-            # Bytes of equal weight side by side pack well; behind CRC-32 are no numbers to see.
-            entry["filters"] = [Shuffle(variable.dtype.itemsize), CRC32()]
-        encoding[str(name)] = entry
+            encoding[str(name)]["_FillValue"] = np.nan
     return encoding
 
 
-def _kind_encoding(variable: xr.Variable) -> dict[str, Any]:
-    return dict(TIME_ENCODING) if variable.dtype.kind == "M" else {}
+def _time_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
+    return {
+        str(name): dict(TIME_ENCODING) if variable.dtype.kind == "M" else {}
+        for name, variable in node.variables.items()
+    }

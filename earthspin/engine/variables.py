@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
 
 from earthspin.engine.labels import SchemaError, Variable, build
+from earthspin.numerics.estimate import Estimate
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,28 +21,8 @@ Value = Any
 Labels = Any
 
 
-class Estimated(Protocol):
-    """A number with the shares of its half-width, such as `torque.rates.Estimate`."""
-
-    @property
-    def value(self) -> Any:
-        """The number."""
-
-    @property
-    def method(self) -> Any:
-        """Half-width from the method."""
-
-    @property
-    def given(self) -> Any:
-        """Half-width from the given numbers."""
-
-    @property
-    def error(self) -> Any:
-        """Half-width from both."""
-
-
 #: A number with its half-width.
-Pair = Estimated | tuple[Any, Any]
+Pair = Estimate | tuple[Any, Any]
 
 #: Ends of the names and of the meanings of what a field holds, in the order of its values.
 _ALONE = {"": "{}"}
@@ -65,27 +46,25 @@ class Field:
     along : tuple of str or None
         Its dimensions; those of the class if None.
     endings : mapping of str to str
-        Ends of the names of its variables, with their meanings.
+        Ends of the names of its variables, with their meanings; empty for labels.
     default : object
         Used where no value is given; a field whose value is None is left out of the answer.
-    is_label : bool
-        Whether it labels the dimension of its name.
     """
 
     variable: Variable
     along: tuple[str, ...] | None
     endings: Mapping[str, str]
-    default: Any = MISSING
-    is_label: bool = False
+    default: Any
 
     def variables(self, name: str, along: tuple[str, ...]) -> dict[str, Variable]:
         """Its variables by name."""
-        dims, words = along if self.along is None else self.along, self.variable.long_name
-        first = replace(self.variable, dims=dims)
+        first = replace(self.variable, dims=along if self.along is None else self.along)
+        error = Variable(first.dims, first.units, "")
         return {
-            name + ending: replace(first, long_name=meaning.format(words))
-            if not ending.startswith("_error")
-            else Variable(dims, first.units, meaning.format(words))
+            name + ending: replace(
+                error if ending.startswith("_error") else first,
+                long_name=meaning.format(first.long_name),
+            )
             for ending, meaning in self.endings.items()
         }
 
@@ -93,7 +72,7 @@ class Field:
         """The values of its variables by name."""
         if len(self.endings) == 1:
             return {name: value}
-        if not isinstance(value, tuple):
+        if isinstance(value, Estimate):
             shares = (value.value, value.error, value.method, value.given)
             value = shares[: len(self.endings)]
         return dict(zip((name + ending for ending in self.endings), value, strict=True))
@@ -101,21 +80,6 @@ class Field:
 
 def _field(
     endings: Mapping[str, str],
-    units: str,
-    long_name: str,
-    along: tuple[str, ...] | None,
-    default: Any,
-    attrs: Mapping[str, str],
-    *,
-    error: str = "",
-    no_error: str = "",
-    short: str = "",
-) -> Any:
-    variable = Variable((), units, long_name, tuple(attrs.items()), error, no_error, short)
-    return Field(variable, along, endings, default)
-
-
-def number(
     units: str,
     long_name: str,
     *,
@@ -126,6 +90,11 @@ def number(
     default: Any = MISSING,
     **attrs: str,
 ) -> Any:
+    variable = Variable((), units, long_name, tuple(attrs.items()), error, no_error, short)
+    return Field(variable, along, endings, default)
+
+
+def number(units: str, long_name: str, **options: Any) -> Any:
     """Declare a number.
 
     Parameters
@@ -144,66 +113,38 @@ def number(
         Label of tables and axes.
     default : object
         ``None`` if it may be left out of an answer.
-    **attrs
+    **options
         Further attributes, such as cell_methods.
     """
-    words = {"error": error, "no_error": no_error, "short": short}
-    return _field(_ALONE, units, long_name, along, default, attrs, **words)
+    return _field(_ALONE, units, long_name, **options)
 
 
-def measured(
-    units: str,
-    long_name: str,
-    *,
-    along: tuple[str, ...] | None = None,
-    split: bool = False,
-    short: str = "",
-    default: Any = MISSING,
-    **attrs: str,
-) -> Any:
+def measured(units: str, long_name: str, *, split: bool = False, **options: Any) -> Any:
     """Declare a number together with its 95 % half-width, ``<name>_error``.
 
     Its value is a pair, or an estimate that knows its shares.
 
     Parameters
     ----------
-    units, long_name, along, short, default, **attrs
+    units, long_name, **options
         As of `number`.
     split : bool
         Also declare the shares of the method and of the inputs.
     """
-    endings = _WITH_SHARES if split else _WITH_ERROR
-    return _field(endings, units, long_name, along, default, attrs, short=short)
+    return _field(_WITH_SHARES if split else _WITH_ERROR, units, long_name, **options)
 
 
-def amplitude(
-    units: str,
-    long_name: str,
-    *,
-    along: tuple[str, ...] | None = None,
-    error: str = "",
-    no_error: str = "",
-    short: str = "",
-    **attrs: str,
-) -> Any:
+def amplitude(units: str, long_name: str, **options: Any) -> Any:
     """Declare an amplitude as the IERS tabulates it: in phase and out of phase, given as a pair."""
-    words = {"error": error, "no_error": no_error, "short": short}
-    return _field(_PHASES, units, long_name, along, MISSING, attrs, **words)
+    return _field(_PHASES, units, long_name, **options)
 
 
-def words(
-    long_name: str,
-    *,
-    along: tuple[str, ...] | None = None,
-    short: str = "",
-    default: Any = MISSING,
-    **attrs: str,
-) -> Any:
+def words(long_name: str, **options: Any) -> Any:
     """Declare words or dates, which have no unit."""
-    return _field(_ALONE, "", long_name, along, default, attrs, short=short)
+    return _field(_ALONE, "", long_name, **options)
 
 
-def labels(long_name: str = "", units: str = "", *, default: Any = MISSING, **attrs: str) -> Any:
+def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
     """Declare the labels of the dimension that the field is called after.
 
     Parameters
@@ -212,13 +153,11 @@ def labels(long_name: str = "", units: str = "", *, default: Any = MISSING, **at
     units : str
         Of the labels, which are given in these.
     default : object
-        The labels, where they are always the same; ``None`` where labelled arrays bring them.
-    **attrs
+        The labels, where they are always the same.
+    **options
         Further attributes.
     """
-    own = {"units": units, "long_name": long_name, **attrs}
-    variable = Variable((), units, long_name, tuple((n, text) for n, text in own.items() if text))
-    return Field(variable, None, _ALONE, default, is_label=True)
+    return _field({}, units, long_name, **options)
 
 
 @dataclass_transform(
@@ -248,8 +187,7 @@ class Variables:
         cls.fields = {**cls.fields, **own}
         schema = dict(cls.schema)
         for name, field in own.items():
-            if not field.is_label:
-                schema |= field.variables(name, cls.dims)
+            schema |= field.variables(name, cls.dims)
         bare = {
             name
             for name, variable in schema.items()
@@ -304,19 +242,16 @@ class Variables:
             value = self._values[name]
             if value is None:
                 continue
-            if field.is_label:
-                coords[name] = _labels(name, field, value)
-            else:
+            if field.endings:
                 values |= field.values(name, value)
+            elif hasattr(value, "dims"):  # labelled arrays keep their own attributes
+                coords[name] = value
+            else:
+                attrs = {"units": field.variable.units, "long_name": field.variable.long_name}
+                attrs = {n: text for n, text in attrs.items() if text}
+                coords[name] = (name, value, attrs | dict(field.variable.attrs))
         schema = {name: variable for name, variable in self.schema.items() if name in values}
         result = build(schema, values, coords, no_error=self._no_error)
         for name, attributes in self._attributes.items():
             result[name].attrs.update(attributes)
         return result
-
-
-def _labels(name: str, field: Field, value: Any) -> Any:
-    """Labels along the dimension of their name; labelled ones keep their own attributes."""
-    if hasattr(value, "dims"):
-        return value
-    return (name, value, dict(field.variable.attrs))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.engine.question import Question
-from earthspin.engine.run import Again
+from earthspin.engine.run import Rerun
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +24,7 @@ KEPT = 16
 
 
 @dataclass(frozen=True)
-class Told:
+class Description:
     """What the answer to one of the questions says beside its numbers.
 
     Attributes
@@ -56,8 +56,8 @@ class Variants:
 
     def __init__(self, question: Question, keys: tuple[str, ...], moving: Iterable[str]) -> None:
         self._question, self._keys, self._moving = question, keys, {*moving}
-        self._kept: OrderedDict[Words, Again] = OrderedDict()
-        self._told: dict[Words, Told] = {}
+        self._kept: OrderedDict[Words, Rerun] = OrderedDict()
+        self._descriptions: dict[Words, Description] = {}
 
     def question(self, words: Words) -> Question:
         """The question with these words.
@@ -71,10 +71,10 @@ class Variants:
             return self._question
         return self._question.replace(**dict(zip(self._keys, words, strict=True)))
 
-    def __getitem__(self, words: Words) -> Again:
+    def __getitem__(self, words: Words) -> Rerun:
         """The question with these words, its parts that no number touches having run."""
         if words not in self._kept:
-            self._kept[words] = Again(self.question(words), self._moving)
+            self._kept[words] = Rerun(self.question(words), self._moving)
             if len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
         self._kept.move_to_end(words)
@@ -82,16 +82,16 @@ class Variants:
 
     def nominal(self, words: Words) -> xr.Dataset:
         """Its answer, without members."""
-        ran = self[words]()
-        answer = ran.answer()
-        of_variables = {str(name): of.attrs for name, of in answer.variables.items()}
-        self._told[words] = Told(ran.provenance, answer.attrs, of_variables)
+        done = self[words]()
+        answer = done.answer()
+        of_variables = {str(name): array.attrs for name, array in answer.variables.items()}
+        self._descriptions[words] = Description(done.provenance, answer.attrs, of_variables)
         return answer
 
-    def _tells(self, words: Words) -> Told:
-        if words not in self._told:
+    def _description(self, words: Words) -> Description:
+        if words not in self._descriptions:
             self.nominal(words)
-        return self._told[words]
+        return self._descriptions[words]
 
     # --- what all of them say ---------------------------------------------------------------------
 
@@ -100,16 +100,16 @@ class Variants:
         return {
             f"{name} of {', '.join(words)}" if words else name: of
             for words in every
-            for name, of in self._tells(words).provenance.items()
+            for name, of in self._description(words).provenance.items()
         }
 
     def attributes(self, every: Iterable[Words]) -> dict[str, Any]:
         """Attributes of the whole; where they differ, each with its words."""
-        return _joined({words: self._tells(words).attributes for words in every})
+        return _joined({words: self._description(words).attributes for words in every})
 
     def describe(self, answer: xr.Dataset, every: Iterable[Words]) -> xr.Dataset:
         """Give variables the attributes of all; where they differ, each with its words."""
-        told = {words: self._tells(words).of_variables for words in every}
+        told = {words: self._description(words).of_variables for words in every}
         described = answer.copy()
         for name in described.variables:
             own = {words: of[str(name)] for words, of in told.items() if str(name) in of}

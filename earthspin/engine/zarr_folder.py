@@ -1,21 +1,19 @@
-"""A Zarr store in a folder that says when something is missing, or is no longer what was opened.
+"""A Zarr store in a folder, each file of which is held to the ledger when it is read.
 
-Zarr reads a chunk that is not there as its fill value, zeros or the year 2000, and a folder that
-is replaced while it is read as half of the one and half of the other.
+Zarr reads a chunk that is not there as its fill value, and a folder that is replaced while it is
+read as half of the one and half of the other.
 """
 
 from __future__ import annotations
 
-import re
+import hashlib
 from pathlib import Path
 from typing import Any
 
 from zarr.storage import LocalStore
 
-from earthspin.errors import OutputError
-
-#: Name of a chunk of format 2: ``torque/0.1.0``.
-_CHUNK = re.compile(r"(.*/)?\d+(\.\d+)*")
+from earthspin.engine import checksums
+from earthspin.engine.drafts import check_identity, identity
 
 
 class ZarrFolder(LocalStore):
@@ -30,14 +28,9 @@ class ZarrFolder(LocalStore):
 
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
         super().__init__(root, read_only=read_only)
-        self._opened = self._identity()
-
-    def _identity(self) -> tuple[int, int, int] | None:
-        try:
-            found = Path(self.root).stat()
-        except OSError:
-            return None
-        return found.st_dev, found.st_ino, found.st_mtime_ns
+        self._opened = identity(Path(root))
+        ledger = checksums.ledger_of(root)
+        self._ledger = None if ledger is None else checksums.read_entries(ledger)
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
         """Read a file of the store.
@@ -45,11 +38,11 @@ class ZarrFolder(LocalStore):
         Raises
         ------
         OutputError
-            If it is a chunk that is not there, or the store has been replaced.
+            If it is not what was written, or the store has been replaced.
         """
-        found = await super().get(key, prototype, byte_range)
-        if self._identity() != self._opened:
-            raise OutputError(self.root, "it was replaced while it was read", "open it again")
-        if found is None and _CHUNK.fullmatch(key):
-            raise OutputError(self.root, f"the chunk '{key}' is missing", "write it again")
-        return found
+        content = await super().get(key, prototype, byte_range)
+        check_identity(Path(self.root), self._opened)
+        if self._ledger is not None and byte_range is None:
+            digest = "" if content is None else hashlib.sha256(content.to_bytes()).hexdigest()
+            checksums.check_file(Path(self.root), key, digest, self._ledger)
+        return content

@@ -64,8 +64,8 @@ class State:
 
 
 @dataclass(frozen=True)
-class Found:
-    """A rotation at some times.
+class RotationSeries:
+    """Rotation at some times, with its error.
 
     Attributes
     ----------
@@ -191,7 +191,7 @@ class Motion:
             if reached >= self._end:
                 return
 
-    def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> Found:
+    def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> RotationSeries:
         """The rotation at some times, with its error.
 
         Parameters
@@ -203,12 +203,12 @@ class Motion:
 
         Returns
         -------
-        Found
+        RotationSeries
         """
         if times[0] < self._asked:
             self._restart()
         self._asked = float(times[-1])
-        found, errors, done = [], [], 0
+        states, errors, done = [], [], 0
         while done < times.size:
             if self._now is None or times[done] > self._now[1].edges[-1]:
                 if self._now is not None:
@@ -218,11 +218,11 @@ class Motion:
                     tell(float(self._now[1].edges[-1]))
             upto = int(np.searchsorted(times, self._now[1].edges[-1], side="right"))
             part = times[done:upto]
-            found.append(self._now[1].at(part)[:, 0])
+            states.append(self._now[1].at(part)[:, 0])
             errors.append(self._errors_at(part))
             done = upto
-        state = np.concatenate(found, axis=1)
-        return Found(
+        state = np.concatenate(states, axis=1)
+        return RotationSeries(
             momentum=state[:3].T,
             attitude=state[3:].T,
             omega=self._body.first().spin(state).T,
@@ -244,20 +244,24 @@ class Motion:
         """Errors at times in the present windows, shape (lanes, kinds, t)."""
         assert self._now is not None
         rough, exact = self._now
-        of = exact.at(times)
+        states = exact.at(times)
         other = rough.along_sky(times)
-        method = TWICE * apart(self._body.first(), of[:, 0], other)
+        method = TWICE * apart(self._body.first(), states[:, 0], other)
         method += np.array([self._rounding + _EPS] + [0.0] * 2)[:, np.newaxis]
-        shares = [apart(self._body, of[:, 0], of[:, lane]) for lane in range(1, of.shape[1])]
+        shares = [
+            apart(self._body, states[:, 0], states[:, lane]) for lane in range(1, states.shape[1])
+        ]
         return np.stack([method, *shares])
 
 
-def shares_of(found: Found, changed: Sequence[str], doubt: float) -> dict[str, FloatArray]:
+def shares_of(
+    series: RotationSeries, changed: Sequence[str], doubt: float
+) -> dict[str, FloatArray]:
     """Errors of a rotation by where they come from, each of shape (3, t).
 
     Parameters
     ----------
-    found : Found
+    series : RotationSeries
     changed : sequence of str
         What each further lane has changed.
     doubt : float
@@ -269,15 +273,15 @@ def shares_of(found: Found, changed: Sequence[str], doubt: float) -> dict[str, F
         ``method``, ``input`` and ``kernel``, and all of them together under an empty name; an angle
         is at most half a turn.
     """
-    nothing = np.zeros_like(found.error[0])
-    by_name = dict(zip(changed, found.error[1:], strict=True))
+    nothing = np.zeros_like(series.error[0])
+    by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(nothing, np.nan) if np.isnan(doubt) else by_name.get(PULL, nothing)
     given = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
-    method = found.error[0] + by_name.get(ROUNDING, nothing)
+    method = series.error[0] + by_name.get(ROUNDING, nothing)
     shares = {"method": method, "input": given, "kernel": kernel}
     shares[""] = np.sqrt(shares["method"] ** 2 + given**2 + kernel**2)
-    for one in shares.values():
-        one[0] = np.minimum(one[0], np.pi)
+    for share in shares.values():
+        share[0] = np.minimum(share[0], np.pi)
     return shares
 
 

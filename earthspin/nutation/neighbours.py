@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, MAS
-from earthspin.nutation.nutation import ComplexArray, FloatArray
+from earthspin.nutation.nutation import ComplexArray, FloatArray, term_names
 
 SOURCE = "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3a and 5.3b"
 
@@ -87,7 +87,7 @@ def neighbours_of(
             own = sign * np.array(term.multiples)
             nearest = int(np.argmin(np.abs(frequency - own @ rates)))
             turned = np.exp(1j * ((own - multiples[nearest]) @ arguments))
-            names[nearest] = " ".join(f"{m:+d}" for m in own)
+            (names[nearest],) = term_names(own[np.newaxis])
             amplitude[nearest] += size * turned
     return Neighbours(names, amplitude)
 

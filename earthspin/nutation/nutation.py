@@ -85,6 +85,11 @@ class Circles:
         return total
 
 
+def term_names(multiples: NDArray[np.int64]) -> list[str]:
+    """Multiples of the Delaunay arguments as text, shape (k, 5)."""
+    return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
+
+
 def responses(
     circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
 ) -> dict[str, ComplexArray]:

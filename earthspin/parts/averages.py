@@ -15,16 +15,22 @@ from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
+from earthspin.mass.inertia import moment_difference
 from earthspin.parts.elements import exact_means, no_exact_means, ways
 from earthspin.parts.sky import Sky, Stretch
+from earthspin.sky.elements import Elements
+from earthspin.sky.equator import angle, rotate
+from earthspin.torque import average, locking, mean_orbit, rates
+from earthspin.torque.average import best_window, precessing_torque, window_mean_and_error
+from earthspin.torque.gravity import torque_from_declination
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from earthspin.choosing.averages import Averaging
     from earthspin.choosing.choice import Choice
+    from earthspin.numerics.estimate import Estimate
     from earthspin.torque.average import Window
-    from earthspin.torque.rates import Estimate
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).
@@ -81,10 +87,6 @@ def torque_samples(
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
     """Torque of each perturber, from its declination, through the window that converges fastest."""
-    from earthspin.sky.equator import angle, rotate
-    from earthspin.torque.average import best_window, precessing_torque
-    from earthspin.torque.gravity import torque_from_declination
-
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
@@ -132,8 +134,6 @@ def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]) -> None:
     """Refuse a spin that is locked to the orbit about a perturber: its average is another."""
-    from earthspin.torque import locking
-
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
         if abs(spin_period) < locking.SLOW:
@@ -216,8 +216,6 @@ def window_means(
     chosen_average: Choice[Averaging] | None = None,
 ) -> MeanTorques:
     """Weighted means over the window, with what its neighbours say of them."""
-    from earthspin.torque.average import window_mean_and_error
-
     samples = torque_samples
     window, times = samples.window, samples.times
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
@@ -259,10 +257,6 @@ def window_means(
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Exact means over each ellipse, and over its node if that turns, with the axis of J2000.0."""
-    from earthspin.sky.elements import Elements
-    from earthspin.sky.equator import angle
-    from earthspin.torque import average, locking, mean_orbit
-
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -369,9 +363,6 @@ def of_one(by_perturber: Numeric, place: int) -> Numeric:
 @part
 def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
     """Averages over orbits: rate, period, mean torque, with errors."""
-    from earthspin.mass.inertia import moment_difference
-    from earthspin.torque import rates
-
     means = mean_torques
     along = _labelled(means) if body.labelled or means.cases else np.asarray
     u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]

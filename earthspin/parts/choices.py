@@ -6,12 +6,20 @@ import math
 from typing import TYPE_CHECKING
 
 from earthspin.bodies import BODIES, PLANETS, Body
+from earthspin.choosing.averages import Pull, Turned, average_choices
+from earthspin.choosing.choice import cheapest
+from earthspin.choosing.nutation import nutation_choices
 from earthspin.choosing.promises import MARGIN
+from earthspin.choosing.windows import window_choices
 from earthspin.constants import DAY
 from earthspin.engine.part import part
+from earthspin.motion.effects import GEODESIC, MEASURED_WITH
 from earthspin.parts.pulls import forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.sky.equator import angle
 from earthspin.sky.sources import OF_DATE, SourceName
+from earthspin.torque.average import best_window
+from earthspin.torque.rates import left_for_method
 
 if TYPE_CHECKING:
     from earthspin.choosing.averages import Averaging
@@ -31,9 +39,6 @@ def windows_on_offer(
     epochs: TimeGrid | TimeList,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where sky or effects were not measured."""
-    from earthspin.choosing.windows import window_choices
-    from earthspin.motion.effects import GEODESIC, MEASURED_WITH
-
     if not set(effects) <= set(MEASURED_WITH):
         return []
 
@@ -69,8 +74,6 @@ def chosen_windows(
 
     Empty where the sky was not measured.
     """
-    from earthspin.choosing.choice import cheapest
-
     menu = windows_on_offer(body, perturbers, effects, pulls, epochs)
     exact = body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
     # what H takes of the request is known when the path is; half and half until then
@@ -84,10 +87,6 @@ def averages_on_offer(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
-    from earthspin.choosing.averages import Pull, Turned, average_choices
-    from earthspin.sky.equator import angle
-    from earthspin.torque.average import best_window
-
     if not all(one.naif for one in (body, *perturbers)):
         return []
     cycle = max(p.cycle for p in perturbers)
@@ -113,9 +112,6 @@ def chosen_average(
 
     None where the sky was not measured.
     """
-    from earthspin.choosing.choice import cheapest
-    from earthspin.torque.rates import left_for_method
-
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     # the strongest pull may be all of the rate: its GM stands for all
     u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in perturbers)
@@ -142,9 +138,6 @@ def chosen_nutation(
     sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
     """The cheapest nutation that meets the accuracy asked for, with what the kernel is off by."""
-    from earthspin.choosing.choice import cheapest
-    from earthspin.choosing.nutation import nutation_choices
-
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     left = (accuracy or math.inf) - kernel
     first, last = epochs.span()

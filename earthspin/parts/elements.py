@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from earthspin.bodies import Body
 from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
+from earthspin.sky.elements import Ellipse, Plane
 
 if TYPE_CHECKING:
     from earthspin.sky.elements import Ellipse
@@ -113,8 +114,6 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
     """Elements in SI, with the plane that they are counted from."""
-    from earthspin.sky.elements import Ellipse, Plane
-
     given = one.orbit
     assert given is not None
     a, motion = size_and_motion(one, centre)

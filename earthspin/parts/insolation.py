@@ -15,6 +15,7 @@ from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.labels import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
+from earthspin.secular.sample import Quantiles, draws
 from earthspin.units import quantity
 
 FloatArray = NDArray[np.float64]
@@ -126,8 +127,6 @@ def daily_insolation(
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
     """95 % quantile of how far draws of a longitude, which may go round, move a value."""
-    from earthspin.secular.sample import Quantiles, draws
-
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})

@@ -15,6 +15,9 @@ from earthspin.interior.named import INTERIORS, Interior, with_layers
 #: Layers stand for bodies whose mass and mean radius are within this of their own.
 FIT = 0.01
 
+#: Why numbers that follow from layers carry no error.
+FROM_LAYERS = "they follow from the layers, whose own errors are not known"
+
 #: A layered body, however given.
 LayeredInterior = Annotated[LayeredBody, Layers()]
 

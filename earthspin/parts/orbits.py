@@ -10,6 +10,7 @@ from typing import Any
 from earthspin.bodies import Body
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError, Where
+from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.units import Plain, pack, unpack
 
@@ -71,8 +72,6 @@ def _table_of(given: Mapping[str, Any], where: Where) -> OrbitTable:
 @part
 def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
     """Orbit of the body over millions of years."""
-    from earthspin.sky.orbit_files import read_orbit
-
     if not isinstance(orbit, str):
         return orbit
     if orbit != OWN:

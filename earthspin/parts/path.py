@@ -11,14 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR
+from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
+from earthspin.motion import axes
+from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import GEODESIC, NONRIGID
+from earthspin.motion.figure import fastest_sweep
+from earthspin.nutation.angles import followed, on_fixed_ecliptic
+from earthspin.nutation.budget import published_effects
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers
 from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.times import refuse_what_does_not_fit
 from earthspin.progress import progress
+from earthspin.sky.kernel_differences import DRIFT_FROM, growth
 from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
@@ -123,8 +130,6 @@ def errors_of(
     shift : Shift or None
         Response of the interior, if it is switched on.
     """
-    from earthspin.motion.axes import error_of_input
-
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return Errors(
         method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
@@ -205,15 +210,11 @@ class Turns:
 
     def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
         """Longitudes at given times, shapes (t, k) and (t,), with their whole turns."""
-        from earthspin.nutation.angles import followed
-
         return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
 
 
 def turns_of(path: AxisPath, first: float, ecliptic: FloatArray) -> Turns:
     """Follow the longitude through all windows; it is a principal value at the first time, s."""
-    from earthspin.nutation.angles import on_fixed_ecliptic
-
     psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
     there = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
@@ -225,10 +226,6 @@ def _error_of_sky(
     path: AxisPath, figure: FloatArray, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
 ) -> FloatArray:
     """95 % half-width of a direction from where the bodies may be off, rad, shape (t,)."""
-    from earthspin.motion import axes
-    from earthspin.motion.figure import fastest_sweep
-    from earthspin.sky.kernel_differences import DRIFT_FROM, growth
-
     _, epoch = start_of(body, pulls)
     found = pulls.sky.positions(np.array([epoch / DAY]))
     distance = {name: float(np.linalg.norm(place)) for name, place in found.items()}
@@ -328,6 +325,43 @@ def path_over(
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
     return axis_path(forces, start, epoch, (days[0] * DAY, days[-1] * DAY), limits=pulls.limits)
+
+
+def iau_nutation(
+    pulls: Pulls, epochs: TimeGrid | TimeList
+) -> tuple[FloatArray, FloatArray, NDArray[np.complex128]]:
+    """Nutation of the IAU at the days of a series.
+
+    Returns
+    -------
+    days : ndarray, shape (t,)
+        From J2000.0.
+    ends : ndarray, shape (2,)
+        Days that bound the series and J2000.0.
+    eta : ndarray, shape (t,), complex
+        dpsi sin(eps0) + i deps, rad.
+
+    Raises
+    ------
+    EarthspinError
+        If the series does not fit into memory, or lies outside the source of positions.
+    """
+    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.sky import iau
+
+    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
+    days = epochs.days(0, epochs.size)
+    first, last = epochs.span()
+    ends = np.array([min(first, 0.0), max(last, 0.0)])
+    pulls.sky.check_times(ends, pulls.targets)
+    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
+    return days, ends, complex_nutation(angles)
+
+
+def residual_error(analysed: Analysed, body: Body, eta: NDArray[np.complex128]) -> float:
+    """95 % half-width of either angle of a residual, from the integration and H in nutation."""
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
 
 
 def rigid(effects: Sequence[str]) -> list[str]:
@@ -511,7 +545,6 @@ class Shift:
 
 def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Sequence[str]) -> Shift:
     """Shift by circles of given amplitudes, and what it leaves of the distance from the IAU."""
-    from earthspin.nutation.budget import published_effects
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)

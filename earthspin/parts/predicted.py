@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +11,12 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
 from earthspin.interior.diurnal_ocean import FES2004_SOURCE
-from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.published import CORE_NUTATION, K_CMB
+from earthspin.nutation import ladder
 from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
-
-if TYPE_CHECKING:
-    from earthspin.interior.named import Interior
-    from earthspin.nutation.ladder import Rung
+from earthspin.wobble.ladder import Spin
 
 #: The rung that stands for the prediction where one response is asked for.
 CHOSEN = "core-ellipticity"
@@ -45,7 +42,7 @@ class Prediction:
         One standard deviation over value, of the interior's numbers.
     """
 
-    rungs: dict[str, Rung]
+    rungs: dict[str, ladder.Rung]
     e: float
     spin_rate: float
     uncertainty: Mapping[str, float]
@@ -53,9 +50,7 @@ class Prediction:
     @property
     def ladder(self) -> list[str]:
         """Names of the rungs, those beside the ladder left out."""
-        from earthspin.nutation.ladder import BESIDE
-
-        return [name for name in self.rungs if name not in BESIDE]
+        return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """T of a rung at frequencies in space, rad/s."""
@@ -88,9 +83,6 @@ def no_layers(body: Body) -> str | None:
 
 def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction:
     """Climb the ladder of a body with layers."""
-    from earthspin.nutation import ladder
-    from earthspin.wobble.ladder import Spin
-
     interior = layered(body)
     assert interior is not None
     assert interior.layers is not None

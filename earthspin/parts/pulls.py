@@ -16,7 +16,9 @@ from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import Where
+from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
+from earthspin.motion.forces import Figure, Forces
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
@@ -126,8 +128,6 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Forces with some effects switched on and no other evaluated."""
-    from earthspin.motion.forces import Forces
-
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
         gm={name: pulls.gm[name] for name in pulls.near},
@@ -143,9 +143,6 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
     """The numbers of a body that its motion depends on, effects aside."""
-    from earthspin.mass.inertia import inverse_polar_moment
-    from earthspin.motion.forces import Figure
-
     h = body.number("dynamical_flattening")
     return Figure(
         h=h,

@@ -60,3 +60,9 @@ class SideBySide:
             many = np.shape(next(iter(self.numbers.values())))
             values = np.broadcast_to(values, (*many, *values.shape))
         return xr.DataArray(values, self.labels, (*self.dims, *dims))
+
+    def lay_pair(
+        self, value: NDArray[Any], error: NDArray[Any], *dims: str
+    ) -> tuple[xr.DataArray, xr.DataArray]:
+        """Label a number and its half-width in the same way."""
+        return self.lay(value, *dims), self.lay(error, *dims)

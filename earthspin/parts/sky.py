@@ -21,6 +21,8 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.elements import Way, all_by_elements, ways
+from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
+from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -178,8 +180,6 @@ class Address(NamedTuple):
 
     def by_elements(self, centre: int) -> Place:
         """Where ellipses put it, from a NAIF code on."""
-        from earthspin.sky.elements import ByElements
-
         return ByElements(self.ellipses, centre)
 
 
@@ -335,8 +335,6 @@ class Sky:
         nutation : Nutation, optional
             Interpolated nutation, for the fast reader.
         """
-        from earthspin.sky.equator import rotate, spherical
-
         pole: Pole = body.needed("pole")
 
         def equator(days: FloatArray) -> FloatArray:
@@ -420,8 +418,6 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:
-        from earthspin.sky.elements import CENTRE, Elements
-
         ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
@@ -436,8 +432,6 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
     """The span asked for, if the source covers it, or all that the source covers."""
-    from earthspin.sky.elements import USUAL_REACH, Elements
-
     if span is not None:
         sky.check_times(span.days)
         return Stretch(*span.days)

@@ -23,7 +23,6 @@ Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
 #: Attributes of the coordinates of time.
 DATES = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
-FROM_START = {"units": "s", "long_name": "time from the start"}
 
 
 class Series(Pulled):
@@ -40,6 +39,13 @@ class Dated(Variables, along=("time",)):
     """Variables at the dates of a series."""
 
     time: Labels = labels("time (TDB)", standard_name="time", axis="T")
+
+
+class FromStart(Variables, along=("time",)):
+    """Variables at times from the start of a motion, along the axes of a body."""
+
+    time: Labels = labels("time from the start", "s")
+    component: Labels = labels(default=["x", "y", "z"])
 
 
 @part

@@ -1,29 +1,28 @@
-"""Cassini states: where an axis keeps in step with an orbit that precesses."""
+"""Cassini states: spin axes that keep in step with an orbit that precesses."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
 from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
 from earthspin.bodies.limits import refuse_break_up, refuse_fast_axis
+from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.bodies.orbit import Orbit, OrbitTable
 from earthspin.constants import NORMAL_95
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.parts.elements import refuse_overlap, size_and_motion
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from earthspin.torque.cassini import Precessing
+from earthspin.torque.cassini import Precessing, is_locked, strengths
+from earthspin.torque.cassini import cassini_states as states_of
+from earthspin.units import FloatArray
 
 
 class CassiniStates(
@@ -53,6 +52,8 @@ class CassiniStates(
     [  6.73 175.68] deg
     """
 
+    views, page = "cassini_states", "frames"
+
     body: Body = key(MOON, doc="body whose axis it is")
     orbit: Annotated[Orbit | None, OrbitTable()] = key(
         None,
@@ -61,7 +62,7 @@ class CassiniStates(
     )
 
     def check(self) -> None:
-        """One body with a figure and a spin, and an orbit."""
+        """Require one body with a figure and a spin, and an orbit."""
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
@@ -77,7 +78,7 @@ class CassiniStates(
 
 @dataclass(frozen=True)
 class Locking:
-    """How a spin goes with its orbit.
+    """Spin of a body compared with its motion on its orbit.
 
     Attributes
     ----------
@@ -96,25 +97,20 @@ class Locking:
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
     """The orbit that is given, the body's, or the mean one that is known."""
-    from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
-
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
     """The orbit that is given, the body's, or the mean one that is known."""
-    found = orbit_of(body, orbit)
-    assert found is not None  # `check` has seen to it
-    return found
+    usual = orbit_of(body, orbit)
+    assert usual is not None  # `check` has seen to it
+    return usual
 
 
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
     """Mean motion, and turns of the body in each orbit."""
-    from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
-    from earthspin.torque.cassini import is_locked
-
     about = own_orbit.about or SUN.name
     if about not in BODIES or about == body.name:
         others = [name for name in BODIES if name != body.name]
@@ -129,9 +125,7 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
-    """What the kernel needs of a body and its orbit."""
-    from earthspin.torque.cassini import Precessing, strengths
-
+    """Strengths of the torques on a body, and the precession of its orbit."""
     axial, locked = strengths(
         locking.motion,
         body.spin_rate,
@@ -144,75 +138,60 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
-NUMBERED = {"units": "1", "long_name": "number of the state after Peale (1969)"}
-STATES = {
-    **with_error(
-        "obliquity", Variable(("state",), "deg", "angle from the normal of the orbit to the axis")
-    ),
-    **with_error(
-        "tilt", Variable(("state",), "deg", "angle from the pole of the orbit's plane to the axis")
-    ),
-    **without_error(
-        "it is so or not",
-        {
-            "towards_pole": Variable(
-                ("state",), "1", "whether the axis leans from the normal towards that pole"
-            ),
-            "stable": Variable(("state",), "1", "whether an axis beside it stays"),
-        },
-    ),
-}
+class States(Variables, along=("state",), no_error="it is so or not"):
+    """Cassini states."""
+
+    obliquity: Pair = measured("deg", "angle from the normal of the orbit to the axis")
+    tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")
+    towards_pole: Value = number("1", "whether the axis leans from the normal towards that pole")
+    stable: Value = number("1", "whether an axis beside it stays")
+    state: Labels = labels("number of the state after Peale (1969)", "1")
 
 
-@part(gives=STATES)
-def states(body: Body, own_orbit: Orbit, locking: Locking) -> xr.Dataset:
+@part
+def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
     """Every state, its error, and whether it is stable."""
-    from earthspin.torque.cassini import cassini_states as solve
-
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
     rate = max(own, abs(axis.node_rate))
     refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
-    found = solve(axis)
-    squares = np.zeros_like(found.obliquity)
+    solution = states_of(axis)
+    obliquity = np.abs(solution.obliquity)
+    error = _error(body, own_orbit, locking, solution.obliquity)
+    tilt = np.abs(solution.obliquity - own_orbit.i)
+    reference = {"references": own_orbit.reference} if own_orbit.reference else {}
+    locked = "locked" if locking.locked else "free"
+    return States(
+        obliquity=(obliquity, error),
+        tilt=(np.minimum(tilt, 2 * np.pi - tilt), error),
+        towards_pole=solution.obliquity > 0,
+        stable=solution.stable,
+        state=solution.number,
+    ).with_attributes(
+        tilt={"inclination": math.degrees(own_orbit.i), **reference},
+        obliquity={"spin": f"{locked}, {locking.turns:.6g} turns in each orbit"},
+    )
+
+
+def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) -> FloatArray:
+    """Half-width of the obliquity from the uncertain numbers of the body, rad."""
+    squares = np.zeros_like(obliquity)
     for name, share in body.relative_uncertainty.items():
         if name not in ("j2", "dynamical_flattening", "triaxiality"):
             continue
-        # as it is, not made to fit: `Body.replace` would move H with J2
-        more = {name: body.number(name) * (1 + NORMAL_95 * share)}
-        if name == "j2":
-            more["dynamical_flattening"] = body.number("dynamical_flattening")
-        moved = solve(precessing(body.replace(**more), own_orbit, locking))
-        if moved.number.size == found.number.size:
-            squares += (moved.obliquity - found.obliquity) ** 2
-    error = np.degrees(np.sqrt(squares))
-    tilt = np.abs(found.obliquity - own_orbit.i)
-    result = build(
-        STATES,
-        {
-            "obliquity": np.abs(found.obliquity),
-            "obliquity_error": np.radians(error),
-            "tilt": np.minimum(tilt, 2 * np.pi - tilt),
-            "tilt_error": np.radians(error),
-            "towards_pole": found.obliquity > 0,
-            "stable": found.stable,
-        },
-        coords={"state": ("state", found.number, dict(NUMBERED))},
-    )
-    result["tilt"].attrs["inclination"] = math.degrees(own_orbit.i)
-    if own_orbit.reference:
-        result["tilt"].attrs["references"] = own_orbit.reference
-    locked = "locked" if locking.locked else "free"
-    result["obliquity"].attrs["spin"] = f"{locked}, {locking.turns:.6g} turns in each orbit"
-    return result
+        # `Body.replace` moves H with J2 unless H is given, too
+        changed = {"dynamical_flattening": body.number("dynamical_flattening")}
+        changed[name] = body.number(name) * (1 + NORMAL_95 * share)
+        neighbour = states_of(precessing(body.replace(**changed), orbit, locking))
+        if neighbour.number.size == obliquity.size:
+            squares += (neighbour.obliquity - obliquity) ** 2
+    return np.radians(np.degrees(np.sqrt(squares)))  # the rounding that earlier results have
 
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     """Sizes of what averages over spin, orbit and pericentre leave out, where they are known."""
-    from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
-
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

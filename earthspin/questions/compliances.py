@@ -1,22 +1,20 @@
-"""How the parts of a layered body answer to one another, and its figure of equilibrium."""
+"""Compliances of the parts of a layered body, and its figure of hydrostatic equilibrium."""
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
 
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
-from earthspin.parts.layered import LayeredInterior, layers, not_prem, require_layers
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from earthspin.interior.layers import LayeredBody
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
+from earthspin.interior.layers import LayeredBody
+from earthspin.interior.love import elastic
+from earthspin.interior.published import PREM_PUBLISHED
+from earthspin.interior.rotation import free_modes, mode_period, numbers_of, parts_of
+from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, not_prem, require_layers
 
 
 class Compliances(Question, word="compliances", call="compliances", positional=("interior",)):
@@ -45,6 +43,8 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
+    views, page = "compliances", "wobble"
+
     interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
     body: Body = key(EARTH, doc="body whose spin and dynamical flattening they have")
 
@@ -57,71 +57,61 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
         refuse_break_up(self.body)
 
 
-NUMBERS = without_error(
-    "they follow from the layers, whose own errors are not known",
-    {"number_value": Variable(("number",), "1", "number of the body, in units of its moments")},
-)
+class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
+    """Compliances, ellipticities and coupling numbers of a body."""
+
+    number_value: Value = number("1", "number of the body, in units of its moments")
+    number: Labels = labels()
 
 
-@part(gives=NUMBERS)
-def numbers(layers: LayeredBody, body: Body) -> xr.Dataset:
+@part
+def numbers(layers: LayeredBody, body: Body) -> Numbers:
     """Compliances of the elastic body, and its figure of hydrostatic equilibrium."""
-    from earthspin.interior.rotation import numbers_of
-
-    found = numbers_of(layers, abs(float(body.spin_rate)))
-    result = build(NUMBERS, {"number_value": list(found.values())}, coords={"number": list(found)})
-    result.number_value.attrs["references"] = layers.reference
-    return result
-
-
-PUBLISHED = {
-    "published_value": Variable(
-        ("published_number",), "1", "published number", no_error="the source gives none"
-    ),
-    "published_source": Variable(("published_number",), "", "where it is published"),
-}
-
-
-@part(gives=PUBLISHED, unless=not_prem)
-def published() -> xr.Dataset:
-    """The same numbers of PREM as published, each with its source."""
-    from earthspin.interior.published import PREM_PUBLISHED
-
-    return build(
-        PUBLISHED,
-        {
-            "published_value": [of.value for of in PREM_PUBLISHED.values()],
-            "published_source": [of.source for of in PREM_PUBLISHED.values()],
-        },
-        coords={"published_number": list(PREM_PUBLISHED)},
+    by_name = numbers_of(layers, abs(float(body.spin_rate)))
+    return Numbers(number_value=list(by_name.values()), number=list(by_name)).with_attributes(
+        number_value={"references": layers.reference}
     )
 
 
-MODES = without_error(
-    "they follow from the layers, whose own errors are not known",
-    {
-        "compliance_mode_period": Variable(
-            ("free_mode",),
-            "d",
-            "period of a free mode of the elastic body: of a nutation in space, negative if "
-            "retrograde; else in the body",
-        )
-    },
-)
+class Published(Variables, along=("published_number",), no_error="the source gives none"):
+    """Published numbers of PREM."""
+
+    published_value: Value = number("1", "published number")
+    published_source: Value = words("where it is published")
+    published_number: Labels = labels()
 
 
-@part(gives=MODES)
-def modes(layers: LayeredBody, body: Body) -> xr.Dataset:
+@part(unless=not_prem)
+def published() -> Published:
+    """The same numbers of PREM as published, each with its source."""
+    return Published(
+        published_value=[constant.value for constant in PREM_PUBLISHED.values()],
+        published_source=[constant.source for constant in PREM_PUBLISHED.values()],
+        published_number=list(PREM_PUBLISHED),
+    )
+
+
+class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
+    """Periods of the free modes."""
+
+    compliance_mode_period: Value = number(
+        "d",
+        "period of a free mode of the elastic body: of a nutation in space, negative if "
+        "retrograde; else in the body",
+    )
+    free_mode: Labels = labels()
+
+
+@part
+def modes(layers: LayeredBody, body: Body) -> Modes:
     """Free modes of the elastic body without an ocean, its H as observed; those that it has."""
-    from earthspin.interior.love import elastic
-    from earthspin.interior.rotation import free_modes, mode_period, parts_of
-    from earthspin.mass.inertia import ellipticity_from_h
-
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
-    found = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
-    periods = [mode_period(name, s, spin_rate) for name, s in found.items()]
-    return build(MODES, {"compliance_mode_period": periods}, coords={"free_mode": list(found)})
+    frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
+    return Modes(
+        compliance_mode_period=[mode_period(n, s, spin_rate) for n, s in frequencies.items()],
+        free_mode=list(frequencies),
+    )
 
 
 @part

@@ -10,13 +10,14 @@ import numpy as np
 
 from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
 from earthspin.parts.reasons import no_accuracy
-from earthspin.parts.times import FROM_START, Seconds, instants
+from earthspin.parts.times import FromStart, Seconds, instants
+from earthspin.rotor.moments import KEYS
 from earthspin.units import Duration, FloatArray, Numbers, Plain, Relative, Whole, quantity
 
 if TYPE_CHECKING:
@@ -45,8 +46,6 @@ class Moments:
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:
         """Read three moments, or one and two differences."""
-        from earthspin.rotor.moments import KEYS
-
         if isinstance(given, Moments):
             return given
         table = isinstance(given, Mapping)
@@ -60,29 +59,23 @@ class Moments:
         return cls((first, second, third), table)
 
     def write(self) -> Plain:
-        """Give what was read."""
-        from earthspin.rotor.moments import KEYS
-
+        """Return the numbers as text."""
         texts = [f"{number!r} kg m2" for number in self.numbers]
         return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
 
     @property
-    def given(self) -> list[float] | dict[str, float]:
-        """As the physics takes them."""
-        from earthspin.rotor.moments import KEYS
-
+    def values(self) -> list[float] | dict[str, float]:
+        """Numbers in the form that the physics takes."""
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Of many bodies, as the physics takes them, with axes of length 1 for their starts."""
-        from earthspin.rotor.moments import KEYS
-
+        """Arrays of many bodies for the physics, with axes of length 1 for their starts."""
         many = np.broadcast_arrays(*(np.asarray(number) for number in self.numbers))
-        laid = [one.reshape(one.shape + (1,) * starts) for one in many]
+        columns = [moment.reshape(moment.shape + (1,) * starts) for moment in many]
         if self.differences:
-            return dict(zip(KEYS, laid, strict=True))
-        return np.stack(laid, axis=-1)
+            return dict(zip(KEYS, columns, strict=True))
+        return np.stack(columns, axis=-1)
 
 
 class FreeRotor(
@@ -116,6 +109,8 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
+    views, page = "free_rotor", "rotors"
+
     exclusive = (("times",), ("duration", "points"))
 
     moments: Moments = setting(
@@ -131,58 +126,49 @@ class FreeRotor(
 
 
 _SERIES = ("time", "component")
-ROTATION = covered_by(
-    "relative_error",
-    {
-        "omega_body": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
-        "angular_momentum_body": Variable(
-            _SERIES, "kg m2 / s", "angular momentum along the principal axes"
-        ),
-        "omega_inertial": Variable(
-            _SERIES, "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
-        ),
-        "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
-        "energy": Variable(("time",), "J", "kinetic energy of rotation"),
-        "relative_error": Variable(
-            (),
-            "1",
-            "95 % half-width of each quantity relative to its largest value, for exact inputs",
-        ),
-    },
-)
 
 
-@part(gives=ROTATION)
-def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dataset:
+class Rotation(FromStart, along=_SERIES, error="relative_error"):
+    """Rotation of a free body in time."""
+
+    omega_body: Value = number("rad/s", "angular velocity along the principal axes")
+    angular_momentum_body: Value = number("kg m2 / s", "angular momentum along the principal axes")
+    omega_inertial: Value = number(
+        "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
+    )
+    attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
+    energy: Value = number("J", "kinetic energy of rotation", along=("time",))
+    relative_error: Value = number(
+        "1",
+        "95 % half-width of each quantity relative to its largest value, for exact inputs",
+        along=(),
+    )
+    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+
+
+@part
+def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
     """Angular velocity, attitude and energy of a free rotor, in closed form."""
     import xarray as xr
 
-    from earthspin.rotor.triaxial import CLOSED_FORM_ERROR
-    from earthspin.rotor.triaxial import free_rotation as rotate
+    from earthspin.rotor import triaxial
 
-    many = {dim for of in (omega, *moments.numbers) for dim in getattr(of, "dims", ())[:1]}
+    many = {dim for number in (omega, *moments.numbers) for dim in getattr(number, "dims", ())[:1]}
     starts = ("start",) * (np.ndim(omega) - 1 - hasattr(omega, "dims"))
-    given = moments.of_many(len(starts)) if many else moments.given
-    motion = rotate(given, np.asarray(omega), instants)
+    values = moments.of_many(len(starts)) if many else moments.values
+    motion = triaxial.free_rotation(values, np.asarray(omega), instants)
 
-    def laid(values: FloatArray, *dims: str) -> xr.DataArray:
+    def lay(values: FloatArray, *dims: str) -> xr.DataArray:
         return xr.DataArray(values, dims=(*many, *starts, "time", *dims))
 
-    return build(
-        ROTATION,
-        {
-            "omega_body": laid(motion.omega_body, "component"),
-            "angular_momentum_body": laid(motion.angular_momentum_body, "component"),
-            "omega_inertial": laid(motion.omega_inertial, "component"),
-            "attitude": laid(motion.attitude, "quaternion"),
-            "energy": laid(motion.energy),
-            "relative_error": CLOSED_FORM_ERROR,
-        },
-        coords={
-            "time": ("time", motion.times, FROM_START),
-            "component": ["x", "y", "z"],
-            "quaternion": ["w", "x", "y", "z"],
-        },
+    return Rotation(
+        omega_body=lay(motion.omega_body, "component"),
+        angular_momentum_body=lay(motion.angular_momentum_body, "component"),
+        omega_inertial=lay(motion.omega_inertial, "component"),
+        attitude=lay(motion.attitude, "quaternion"),
+        energy=lay(motion.energy),
+        relative_error=triaxial.CLOSED_FORM_ERROR,
+        time=motion.times,
     )
 
 
@@ -191,75 +177,66 @@ def several_starts(omega: FloatArray) -> str | None:
     return None if omega.ndim == 1 else "there are several starts"
 
 
-POINSOT = without_error(
-    "same closed form as the rotation, so its relative_error holds",
-    {
-        "inertia_ellipsoid": Variable(
-            ("component",), "rad/s", "semi-axes of the inertia ellipsoid"
-        ),
-        "momentum_ellipsoid": Variable(
-            ("component",), "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
-        ),
-        "polhode": Variable(
-            ("polhode_point", "component"), "rad/s", "path of the angular velocity in the body"
-        ),
-        "polhode_period": Variable((), "s", "period of the polhode"),
-        "invariable_plane_distance": Variable(
-            (), "rad/s", "distance of the invariable plane from the centre, 2T/L"
-        ),
-        "herpolhode": Variable(
-            ("time", "in_plane"), "rad/s", "path of the angular velocity in the invariable plane"
-        ),
-        "herpolhode_radius": Variable(
-            ("bound",), "rad/s", "radii between which the herpolhode runs"
-        ),
-        "growth_rate": Variable(
-            ("component",), "1/s", "growth rate of a small tilt away from each axis; 0 if stable"
-        ),
-    },
-)
-#: Given where the polhode has a period: not on the separatrix, nor where omega stands still.
-ADVANCE = {
-    "herpolhode_advance": Variable(
-        (),
-        "rad",
-        "advance of the herpolhode in one period of the polhode",
-        no_error="same closed form as the rotation, so its relative_error holds",
+class Poinsot(
+    FromStart,
+    along=("component",),
+    no_error="same closed form as the rotation, so its relative_error holds",
+):
+    """Poinsot's ellipsoids, polhode and herpolhode."""
+
+    inertia_ellipsoid: Value = number("rad/s", "semi-axes of the inertia ellipsoid")
+    momentum_ellipsoid: Value = number(
+        "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
     )
-}
+    polhode: Value = number(
+        "rad/s",
+        "path of the angular velocity in the body",
+        along=("polhode_point", "component"),
+    )
+    polhode_period: Value = number("s", "period of the polhode", along=())
+    invariable_plane_distance: Value = number(
+        "rad/s", "distance of the invariable plane from the centre, 2T/L", along=()
+    )
+    herpolhode: Value = number(
+        "rad/s",
+        "path of the angular velocity in the invariable plane",
+        along=("time", "in_plane"),
+    )
+    herpolhode_radius: Value = number(
+        "rad/s", "radii between which the herpolhode runs", along=("bound",)
+    )
+    growth_rate: Value = number(
+        "1/s", "growth rate of a small tilt away from each axis; 0 if stable"
+    )
+    #: Only where the polhode has a period: not on the separatrix, nor where omega stands still.
+    herpolhode_advance: Value | None = number(
+        "rad", "advance of the herpolhode in one period of the polhode", along=(), default=None
+    )
+    in_plane: Labels = labels(default=["x", "y"])
+    bound: Labels = labels(default=["inner", "outer"])
 
 
-@part(gives=POINSOT, unless=several_starts)
-def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> xr.Dataset:
+@part(unless=several_starts)
+def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinsot:
     """Ellipsoids, polhode and herpolhode of a free rotor."""
-    from earthspin.rotor import poinsot as p
+    from earthspin.rotor import poinsot as construction
     from earthspin.rotor.euler import axis_stability
 
-    given, start = moments.given, omega.tolist()
-    path = p.polhode(given, start)
-    stability = axis_stability(given, sum(w * w for w in start) ** 0.5)
-    returns = {}
-    if bool(np.isfinite(path.period)):
-        returns["herpolhode_advance"] = p.herpolhode_advance(given, start)
-    return build(
-        POINSOT | (ADVANCE if returns else {}),
-        {
-            "inertia_ellipsoid": p.inertia_ellipsoid(given, start),
-            "momentum_ellipsoid": p.momentum_ellipsoid(given, start),
-            "polhode": path.omega,
-            "polhode_period": path.period,
-            "invariable_plane_distance": p.invariable_plane_distance(given, start),
-            "herpolhode": p.herpolhode(given, start, instants),
-            "herpolhode_radius": p.herpolhode_radii(given, start),
-            **returns,
-            "growth_rate": stability.growth_rate,
-        },
-        coords={
-            "time": ("time", instants, FROM_START),
-            "component": ["x", "y", "z"],
-            "in_plane": ["x", "y"],
-            "bound": ["inner", "outer"],
-        },
+    motion = moments.values, omega.tolist()
+    path = construction.polhode(*motion)
+    is_periodic = bool(np.isfinite(path.period))
+    speed = sum(w * w for w in omega.tolist()) ** 0.5
+    return Poinsot(
+        inertia_ellipsoid=construction.inertia_ellipsoid(*motion),
+        momentum_ellipsoid=construction.momentum_ellipsoid(*motion),
+        polhode=path.omega,
+        polhode_period=path.period,
+        invariable_plane_distance=construction.invariable_plane_distance(*motion),
+        herpolhode=construction.herpolhode(*motion, instants),
+        herpolhode_radius=construction.herpolhode_radii(*motion),
+        growth_rate=axis_stability(moments.values, speed).growth_rate,
+        herpolhode_advance=construction.herpolhode_advance(*motion) if is_periodic else None,
+        time=instants,
     )
 
 

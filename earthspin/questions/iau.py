@@ -27,23 +27,29 @@ from earthspin.engine.variables import (
     number,
     words,
 )
+from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.nutation import flattening as flat
+from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
+from earthspin.nutation.budget import budget_of, published_effects
 from earthspin.parts.path import (
     Analysed,
     Apart,
     Shift,
     core_response,
+    iau_nutation,
     nonrigid_shift,
     path_over,
     pole_analysis,
     predicted_shift,
+    residual_error,
     response_apart,
     rigid,
 )
 from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
 from earthspin.parts.sky import places, sky, unmeasured
-from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
@@ -78,6 +84,8 @@ class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "s
     -3.5 mas per century
     """
 
+    views, page = "iau", "pole"
+
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
         doc="first and last date of the residuals, TDB",
@@ -105,7 +113,6 @@ def rates_by_effect(
     pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
     """Rates at J2000.0 effect by effect, each measured by switching it off."""
-    from earthspin.nutation.budget import budget_of
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
@@ -253,21 +260,11 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Computed pole minus the IAU's in time, for each model."""
-    from earthspin.motion.axes import error_of_input
     from earthspin.nutation.nutation import complex_nutation, without_line
     from earthspin.sky import iau
 
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
     done = pole_analysis
-    days = epochs.days(0, epochs.size)
-    first, last = epochs.span()
-    ends = np.array([min(first, 0.0), max(last, 0.0)])
-    pulls.sky.check_times(ends, pulls.targets)
-    iau_angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    iau_eta = complex_nutation(iau_angles)
-
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-
+    days, ends, iau_eta = iau_nutation(pulls, epochs)
     own_start, _ = start_of(body, pulls)
 
     def axes_of(on: list[str], start: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
@@ -290,7 +287,8 @@ def differences(
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
-    error = math.hypot(done.path.error, NORMAL_95 * u_h * float(np.max(np.abs(iau_eta))))
+    error = residual_error(done, body, iau_eta)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     precession = error_of_input(done.path, done.path.at(days * DAY)["figure"], u_h)
     return Differences(
         days=days,
@@ -425,7 +423,7 @@ class Nutation(Variables, along=("term",)):
 def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
     """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.nutation import phases, term_names
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
@@ -449,13 +447,8 @@ def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
         ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
         left=phases(real - transfer * rigid),
-        term=_labels(ours.multiples[order]),
+        term=term_names(ours.multiples[order]),
     )
-
-
-def _labels(multiples: NDArray[np.int64]) -> list[str]:
-    """Multiples of the Delaunay arguments as text."""
-    return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
 
 
 _LEFT = "part of a fit; its residuals measure it"
@@ -512,7 +505,7 @@ class Core(Variables):
 @part
 def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> Core:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
-    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.nutation import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -533,7 +526,7 @@ def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart
         added=phases(apart.left[rows]),
         added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
         added_published=phases(apart.added[rows]),
-        added_to=_labels(ours.multiples[rows]),
+        added_to=term_names(ours.multiples[rows]),
     )
 
 
@@ -558,7 +551,6 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: Analysed, body: Body) -> Angles:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
-    from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau
 
@@ -592,8 +584,6 @@ class Inferred(Variables, along=("origin",)):
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
-    from earthspin.nutation import flattening as flat
-
     h, j2 = body.number("dynamical_flattening"), body.number("j2")
     u = body.relative_uncertainty
     values = flat.compared_flattenings(
@@ -620,8 +610,6 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 @part
 def neglected(effects: tuple[str, ...]) -> Neglected:
     """Published size of each effect on the rate of psi_A that is off or has no model here."""
-    from earthspin.nutation.budget import published_effects
-
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
     off = {n: size for n, size in published_effects().items() if n not in rigid(effects)}
     return Neglected(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +12,10 @@ from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import Where
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
 from earthspin.parts.orbits import OrbitChoice, orbit_table
@@ -23,16 +23,19 @@ from earthspin.parts.pulls import start_error
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
+from earthspin.secular import budget as solutions
+from earthspin.secular import reading
+from earthspin.secular.angles import equator_and_equinox, leaning
+from earthspin.secular.orbit import moons_height
+from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
+from earthspin.torque import rates
+from earthspin.torque.quadrupole import dot
 from earthspin.units import AngleError, Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.secular.budget import Solved
-    from earthspin.secular.reading import Readings
-    from earthspin.secular.strength import Strength
 
 FloatArray = NDArray[np.float64]
 #: Relative half-width of the published contributions to the rate of the Earth: with them it lies so
@@ -74,6 +77,8 @@ class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", 
     >>> print(past.sizes["epoch"], past.obliquity.isel(epoch=-1).round(3).item())
     101 23.439
     """
+
+    views, page = "long_term", "long_term"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
@@ -132,15 +137,26 @@ def _unknown_start(body: Body) -> str:
     )
 
 
-def _without_errors(result: xr.Dataset, body: Body) -> xr.Dataset:
-    """Claim no error of what depends on the start if the pole of the body has no uncertainty."""
-    if body.pole_uncertainty is not None:
+class FromStart(Variables):
+    """Numbers of an axis that starts from the pole of a body at J2000.0."""
+
+    _unknown_start = ""
+
+    def started_from(self, body: Body) -> Self:
+        """Claim no error of what depends on the start if the pole of the body has none."""
+        if body.pole_uncertainty is None:
+            self._unknown_start = f"NaN, not given: {_unknown_start(body)}"
+        return self
+
+    def dataset(self) -> xr.Dataset:
+        """Lay the values out, errors that depend on an unknown start as NaN."""
+        result = super().dataset()
+        for name, error in result.data_vars.items():
+            of_orbit = str(name).startswith(("eccentricity_", "ecliptic_pole_"))
+            if self._unknown_start and "_error" in str(name) and not of_orbit:
+                error[...] = np.nan
+                error.attrs["no_error"] = self._unknown_start
         return result
-    for name, error in result.data_vars.items():
-        if "_error" in str(name) and not str(name).startswith(("eccentricity_", "ecliptic_pole_")):
-            error[...] = np.nan
-            error.attrs["no_error"] = f"NaN, not given: {_unknown_start(body)}"
-    return result
 
 
 @part
@@ -198,33 +214,29 @@ def strength(
     order, planets, J4 and the inside goes with the Moon's share. What the lag of the Moon's plane
     does at J2000.0, which those rates contain, is taken out of it.
     """
-    from earthspin.secular import strength as of
-    from earthspin.secular.orbit import moons_height
-    from earthspin.torque.quadrupole import dot
-
     cosine, now = math.cos(mean_torques.obliquity), orbit_table.at(np.zeros(1))
     # the rates are those on the body's own orbit, whichever is given
     own = shipped(body.name) or orbit_table
     eccentricity = float(np.linalg.norm(own.at(np.zeros(1))[1]))
     motion = 2 * math.pi / body.number("orbital_period")
-    geodesic = of.geodesic_precession(SUN.gm, motion, eccentricity)
+    geodesic = geodesic_precession(SUN.gm, motion, eccentricity)
     sun, spin_rate, tides, ellipticity, j2_rate = numbers.columns(
         "sun", "spin_rate", "tides", "ellipticity", "j2_rate"
     )
     sun = sun / cosine
     if "moon" not in numbers.numbers:
-        return of.Strength(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
+        return Strength(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
     moon, published = numbers.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
     pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
     by_lag = float((moons_height(now, pole, node_rate) / dot(now[0], pole)).item())
-    return of.Strength(
+    return Strength(
         sun,
         (moon + published) / (cosine * by_lag),
         eccentricity,
         geodesic,
         ellipticity,
-        tides=of.Tides.of_the_earth(tides, spin_rate, 2 * math.pi / MOON.number("orbital_period")),
+        tides=Tides.of_the_earth(tides, spin_rate, 2 * math.pi / MOON.number("orbital_period")),
         j2_rate=j2_rate,
         node_rate=node_rate,
     )
@@ -252,21 +264,19 @@ def solved(
     orbit_table: OrbitTable,
     wanted: FloatArray,
     body: Body,
-) -> Solved:
+) -> solutions.Solved:
     """Newton's method in time, and again with each cause changed and with windows twice as long."""
-    from earthspin.secular import budget
-
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
-    setting = budget.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
-    uncertainty = budget.Uncertainty(
+    setting = solutions.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
+    uncertainty = solutions.Uncertainty(
         constant=relative_error,
         start=_half_widths_of_start(body),
         orbit=orbit_table.error,
         earth=strength.node_rate < math.inf,
     )
-    return budget.solved(setting, span, uncertainty)
+    return solutions.solved(setting, span, uncertainty)
 
 
 def _half_widths_of_start(body: Body) -> tuple[float, ...]:
@@ -282,126 +292,135 @@ def _half_widths_of_start(body: Body) -> tuple[float, ...]:
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
     """Unit vectors of the axis at J2000.0, shape (3, ...)."""
-    from earthspin.secular.angles import leaning
-
     now = np.zeros(1)
     pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
-    more, turned = (np.asarray(numbers.numbers[f"{of}_shift"]) for of in ("obliquity", "longitude"))
-    leant = leaning(pole, orbit_table.at(now)[0][:, 0], more, turned)
-    as_it_is = np.multiply.outer(pole, np.ones(more.shape))
-    return np.where((more == 0) & (turned == 0), as_it_is, leant)
+    obliquity, longitude = (
+        np.asarray(numbers.numbers[name]) for name in ("obliquity_shift", "longitude_shift")
+    )
+    shifted = leaning(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
+    own = np.multiply.outer(pole, np.ones(obliquity.shape))
+    return np.where((obliquity == 0) & (longitude == 0), own, shifted)
 
 
 @part
-def readings(solved: Solved, wanted: FloatArray, body: Body) -> Readings:
+def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
     """What is read off the axis, and off it with each cause changed."""
-    from earthspin.secular import reading
-
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
 
 # --- the answer ----------------------------------------------------------------------------------
 
-_ANGLES = {
-    "obliquity": "angle from the orbit's normal to the spin axis",
-    "longitude_of_perihelion": "longitude of perihelion from the moving equinox, without jumps",
-    "general_precession": "p_A, precession of the equinox along the moving orbit",
-    "psi_A": "precession of the equator along the orbit of J2000.0",
-    "omega_A": "inclination of the equator to the orbit of J2000.0",
-}
-_NUMBERS = {
-    "eccentricity": "eccentricity of the orbit",
-    "climatic_precession": "eccentricity times the sine of the longitude of perihelion",
-    "coprecession": "eccentricity times the cosine of the longitude of perihelion",
-}
-_VECTOR, _BY = ("epoch", "component"), ("perturber", "epoch")
-LONG_TERM = {
-    **{
-        variable: of
-        for name, words in _ANGLES.items()
-        for variable, of in with_error(name, Variable(("epoch",), "deg", words)).items()
-    },
-    **{
-        variable: of
-        for name, words in _NUMBERS.items()
-        for variable, of in with_error(name, Variable(("epoch",), "1", words)).items()
-    },
-    "pole": Variable(_VECTOR, "1", "unit vector of the spin axis", error="pole_error"),
-    "pole_error": Variable(("epoch",), "arcsec", "95 % half-width of the direction of the pole"),
-    "ecliptic_pole": Variable(
-        _VECTOR, "1", "unit normal of the orbit", error="ecliptic_pole_error"
-    ),
-    "ecliptic_pole_error": Variable(
-        ("epoch",), "arcsec", "95 % half-width of the direction of the orbit's normal"
-    ),
-    **with_error(
-        "precession_rate",
-        Variable(_BY, "arcsec/yr", "rate of precession in longitude along the moving orbit"),
-    ),
-    **with_error("precession_period", Variable(_BY, "yr", "period of one full turn at that rate")),
-}
+
+class LongTermSeries(FromStart, along=("epoch",)):
+    """Angles, eccentricity, poles and rates at every epoch."""
+
+    obliquity: Pair = measured("deg", "angle from the orbit's normal to the spin axis")
+    longitude_of_perihelion: Pair = measured(
+        "deg", "longitude of perihelion from the moving equinox, without jumps"
+    )
+    general_precession: Pair = measured(
+        "deg", "p_A, precession of the equinox along the moving orbit"
+    )
+    psi_A: Pair = measured("deg", "precession of the equator along the orbit of J2000.0")
+    omega_A: Pair = measured("deg", "inclination of the equator to the orbit of J2000.0")
+    eccentricity: Pair = measured("1", "eccentricity of the orbit")
+    climatic_precession: Pair = measured(
+        "1", "eccentricity times the sine of the longitude of perihelion"
+    )
+    coprecession: Pair = measured(
+        "1", "eccentricity times the cosine of the longitude of perihelion"
+    )
+    pole: Value = number(
+        "1",
+        "unit vector of the spin axis",
+        along=("epoch", "component"),
+        error="pole_error",
+        frame="GCRS",
+    )
+    pole_error: Value = number("arcsec", "95 % half-width of the direction of the pole")
+    ecliptic_pole: Value = number(
+        "1",
+        "unit normal of the orbit",
+        along=("epoch", "component"),
+        error="ecliptic_pole_error",
+        frame="GCRS",
+    )
+    ecliptic_pole_error: Value = number(
+        "arcsec", "95 % half-width of the direction of the orbit's normal"
+    )
+    precession_rate: Pair = measured(
+        "arcsec/yr",
+        "rate of precession in longitude along the moving orbit",
+        along=("perturber", "epoch"),
+    )
+    precession_period: Pair = measured(
+        "yr", "period of one full turn at that rate", along=("perturber", "epoch")
+    )
+    epoch: Labels = labels("Julian years from J2000.0 (TDB)", "yr")
+    component: Labels = labels(default=["x", "y", "z"])
+    perturber: Labels = labels()
 
 
-@part(gives=LONG_TERM)
+#: Numbers that are read off the solution by their names.
+_READ = (
+    *("obliquity", "longitude_of_perihelion", "general_precession", "psi_A", "omega_A"),
+    *("eccentricity", "climatic_precession", "coprecession"),
+)
+
+
+@part
 def series(
-    readings: Readings,
+    readings: reading.Readings,
     numbers: SideBySide,
     wanted: FloatArray,
-    solved: Solved,
+    solved: solutions.Solved,
     orbit_table: OrbitTable,
     body: Body,
     accuracy: float | None,
-) -> xr.Dataset:
+) -> LongTermSeries:
     """Angles, eccentricity, poles and rates at every epoch, each with its error."""
-    from earthspin.torque import rates
-
-    mine = readings.mine
-    values: dict[str, Any] = {}
-    for name in (*_ANGLES, *_NUMBERS):
-        values[name] = mine.values[name]
-        values[f"{name}_error"] = readings.half_width(name)
-    values |= {
-        "pole": np.moveaxis(mine.pole, 0, -1),
-        "pole_error": readings.direction_half_width("pole"),
-        "ecliptic_pole": mine.normal.T,
-        "ecliptic_pole_error": readings.direction_half_width("normal"),
-    }
+    mine, lay = readings.mine, numbers.lay
+    pole_error = readings.direction_half_width("pole")
     refuse_unkept(
         accuracy,
-        float(values["pole_error"].max()),
+        float(pole_error.max()),
         "arcsec",
         "what is known of the body allows no more that far from J2000.0: stay nearer to it",
     )
     with_moon = solved.setting.strength.node_rate < math.inf
-    labels = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
-    rate = np.stack([mine.values[label] for label in labels], axis=-2)
-    error = np.stack([readings.half_width(label) for label in labels], axis=-2)
-    values |= {
-        "precession_rate": rate,
-        "precession_rate_error": error,
-        "precession_period": rates.period(rate),
-        "precession_period_error": rates.period_error(rate, error),
-    }
-    years = wanted / JULIAN_YEAR
-    told = {"units": "yr", "long_name": "Julian years from J2000.0 (TDB)"}
-    result = build(
-        LONG_TERM,
-        {name: numbers.lay(of, *LONG_TERM[name].dims) for name, of in values.items()},
-        coords={
-            "epoch": ("epoch", years, told),
-            "component": ["x", "y", "z"],
-            "perturber": labels,
-        },
-        frame="GCRS",
+    names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
+    rate = np.stack([mine.values[name] for name in names], axis=-2)
+    error = np.stack([readings.half_width(name) for name in names], axis=-2)
+    window = np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR
+
+    return (
+        LongTermSeries(
+            **{
+                name: numbers.lay_pair(mine.values[name], readings.half_width(name), "epoch")
+                for name in _READ
+            },
+            pole=lay(np.moveaxis(mine.pole, 0, -1), "epoch", "component"),
+            pole_error=lay(pole_error, "epoch"),
+            ecliptic_pole=lay(mine.normal.T, "epoch", "component"),
+            ecliptic_pole_error=lay(readings.direction_half_width("normal"), "epoch"),
+            precession_rate=numbers.lay_pair(rate, error, "perturber", "epoch"),
+            precession_period=numbers.lay_pair(
+                rates.period(rate), rates.period_error(rate, error), "perturber", "epoch"
+            ),
+            epoch=wanted / JULIAN_YEAR,
+            perturber=names,
+        )
+        .with_attributes(
+            obliquity={"orbit": orbit_table.source, "orbit_of": orbit_table.name},
+            pole_error={
+                "method": f"Newton's method in time, {solved.path.windows.order} nodes in each "
+                f"window of {window:.0f} yr",
+                "evaluations": solved.steps,
+            },
+        )
+        .started_from(body)
     )
-    result["obliquity"].attrs |= {"orbit": orbit_table.source, "orbit_of": orbit_table.name}
-    result["pole_error"].attrs |= {
-        "method": f"Newton's method in time, {solved.path.windows.order} nodes in each window of "
-        f"{np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR:.0f} yr",
-        "evaluations": solved.steps,
-    }
-    return _without_errors(result, body)
 
 
 class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
@@ -416,78 +435,70 @@ def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccura
 
 # --- sections ------------------------------------------------------------------------------------
 
-_SHARE = ("cause", "epoch")
 #: What shares mean where errors are quantiles over a sample.
 _ONE_AT_A_TIME = (
     "of solutions with one cause changed at a time; where the phase error exceeds 0.1 rad, errors "
     "are quantiles over solutions with all causes changed, and shares do not add up to them"
 )
-BUDGET = without_error(
-    "a share of an error",
-    {
-        "obliquity_share": Variable(_SHARE, "arcsec", "share of the error of the obliquity"),
-        "longitude_share": Variable(
-            _SHARE, "deg", "share of the error of the longitude of perihelion"
-        ),
-        "pole_share": Variable(_SHARE, "arcsec", "share of the error of the pole's direction"),
-    },
-)
 
 
-@part(gives=BUDGET)
-def budget(readings: Readings, numbers: SideBySide, series: xr.Dataset) -> xr.Dataset:
+class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
+    """Errors by cause."""
+
+    obliquity_share: Value = number("arcsec", "share of the error of the obliquity")
+    longitude_share: Value = number("deg", "share of the error of the longitude of perihelion")
+    pole_share: Value = number("arcsec", "share of the error of the pole's direction")
+    cause: Labels = labels()
+    epoch: Labels = labels()
+
+    def dataset(self) -> xr.Dataset:
+        """Lay the shares out, and say what they mean."""
+        return super().dataset().assign_attrs(comment=_ONE_AT_A_TIME)
+
+
+@part
+def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) -> Budget:
     """Error of obliquity, perihelion and pole by cause."""
-    shares = {
-        "obliquity_share": readings.apart("obliquity"),
-        "longitude_share": readings.apart("longitude_of_perihelion"),
-        "pole_share": readings.poles_apart("pole"),
-    }
-    found = build(
-        BUDGET,
-        {
-            name: numbers.lay(np.stack(np.broadcast_arrays(*by_cause.values()), axis=-2), *_SHARE)
-            for name, by_cause in shares.items()
-        },
-        coords={"cause": list(shares["pole_share"]), "epoch": series.epoch},
+
+    def lay(by_cause: dict[str, FloatArray]) -> xr.DataArray:
+        shares = np.broadcast_arrays(*by_cause.values())
+        return numbers.lay(np.stack(shares, axis=-2), "cause", "epoch")
+
+    by_pole = readings.poles_apart("pole")
+    return Budget(
+        obliquity_share=lay(readings.apart("obliquity")),
+        longitude_share=lay(readings.apart("longitude_of_perihelion")),
+        pole_share=lay(by_pole),
+        cause=list(by_pole),
+        epoch=series.epoch,
     )
-    return found.assign_attrs(comment=_ONE_AT_A_TIME)
 
 
-MATRICES = covered_by(
-    "matrix_error",
-    {
-        "matrix": Variable(
-            ("epoch", "axis", "component"),
-            "1",
-            "precession matrix from the GCRS to mean equator and equinox of date",
-        ),
-        "matrix_error": Variable(
-            ("epoch",), "arcsec", "95 % half-width of the direction of its third row, the pole"
-        ),
-    },
-)
+class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_error"):
+    """Precession matrices."""
+
+    matrix: Value = number(
+        "1", "precession matrix from the GCRS to mean equator and equinox of date"
+    )
+    matrix_error: Value = number(
+        "arcsec", "95 % half-width of the direction of its third row, the pole", along=("epoch",)
+    )
+    epoch: Labels = labels()
+    axis: Labels = labels(default=["equinox", "90 deg east", "pole"])
+    component: Labels = labels(default=["x", "y", "z"])
 
 
-@part(gives=MATRICES)
-def matrices(readings: Readings, numbers: SideBySide, series: xr.Dataset, body: Body) -> xr.Dataset:
+@part
+def matrices(
+    readings: reading.Readings, numbers: SideBySide, series: xr.Dataset, body: Body
+) -> Matrices:
     """Precession matrices to mean equator and equinox of date."""
-    from earthspin.secular.angles import equator_and_equinox
-
-    mine, lay = readings.mine, numbers.lay
-    matrix = equator_and_equinox(mine.pole, mine.normal)
-    result = build(
-        MATRICES,
-        {
-            "matrix": lay(matrix, *MATRICES["matrix"].dims),
-            "matrix_error": lay(readings.direction_half_width("pole"), "epoch"),
-        },
-        coords={
-            "epoch": series.epoch,
-            "axis": ["equinox", "90 deg east", "pole"],
-            "component": ["x", "y", "z"],
-        },
-    )
-    return _without_errors(result, body)
+    matrix = equator_and_equinox(readings.mine.pole, readings.mine.normal)
+    return Matrices(
+        matrix=numbers.lay(matrix, "epoch", "axis", "component"),
+        matrix_error=numbers.lay(readings.direction_half_width("pole"), "epoch"),
+        epoch=series.epoch,
+    ).started_from(body)
 
 
 @part

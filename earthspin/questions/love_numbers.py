@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,19 +10,17 @@ from numpy.typing import NDArray
 from earthspin.bodies import EARTH, Body
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
+from earthspin.interior.anelastic import anelastic_strain
+from earthspin.interior.layers import LayeredBody
+from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.parts.layered import LayeredInterior, layers, not_prem, require_layers
+from earthspin.interior.published import LOVE_PUBLISHED
+from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, not_prem, require_layers
 from earthspin.units import Number
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from earthspin.interior.layers import LayeredBody
-    from earthspin.interior.love import Yielding
 
 
 class LoveNumbers(
@@ -52,6 +50,8 @@ class LoveNumbers(
     0.18
     """
 
+    views, page = "love_numbers", "wobble"
+
     interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
     body: Body = key(EARTH, doc="body whose layers they are")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
@@ -64,7 +64,7 @@ class LoveNumbers(
     )
 
     def check(self) -> None:
-        """Layers that are known."""
+        """Require a layered interior."""
         require_layers(self, self.interior, self.body)
 
 
@@ -74,95 +74,76 @@ _FIELDS = {
 }  # fmt: skip
 
 
-def _numbers(found: Yielding) -> NDArray[np.complex128]:
+def _numbers(response: Yielding) -> NDArray[np.complex128]:
     """Love numbers along a first axis."""
-    return np.array([getattr(found, field) for field in _FIELDS.values()], dtype=complex)
+    return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 
 
-LOVE = without_error(
-    "they follow from the layers, whose own errors are not known",
-    {
-        "love_number": Variable(("love",), "1", "Love number of degree two"),
-        "love_number_imaginary": Variable(
-            ("love",), "1", "imaginary part of the Love number, negative where the body lags"
-        ),
-    },
-)
+class Love(Variables, along=("love",), no_error=FROM_LAYERS):
+    """Love numbers at one period."""
+
+    love_number: Value = number("1", "Love number of degree two")
+    love_number_imaginary: Value = number(
+        "1", "imaginary part of the Love number, negative where the body lags"
+    )
+    love: Labels = labels(default=list(_FIELDS))
 
 
-@part(gives=LOVE)
-def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> xr.Dataset:
+@part
+def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> Love:
     """Love numbers of tide and load, by integration from the centre to the surface."""
-    from earthspin.interior.anelastic import anelastic_strain
-    from earthspin.interior.love import yielding
-
     strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
     values = _numbers(yielding(layers, strain))
-    result = build(
-        LOVE,
-        {"love_number": values.real, "love_number_imaginary": values.imag},
-        coords={"love": ("love", list(_FIELDS))},
-    )
     sources = [layers.reference]
     if period is not None and anelastic_exponent == ANELASTIC_EXPONENT.value:
         sources.append(ANELASTIC_EXPONENT.source)
-    result.love_number.attrs["references"] = "; ".join(sources)
-    return result
+    return Love(love_number=values.real, love_number_imaginary=values.imag).with_attributes(
+        love_number={"references": "; ".join(sources)}
+    )
 
 
-PUBLISHED = {
-    "published_love_number": Variable(
-        ("published_love",), "1", "published Love number", no_error="the source gives none"
-    ),
-    "published_love_source": Variable(("published_love",), "", "where it is published"),
-}
+class Published(Variables, along=("published_love",), no_error="the source gives none"):
+    """Published Love numbers of the Earth."""
+
+    published_love_number: Value = number("1", "published Love number")
+    published_love_source: Value = words("where it is published")
+    published_love: Labels = labels()
 
 
-@part(gives=PUBLISHED, unless=not_prem)
-def published() -> xr.Dataset:
+@part(unless=not_prem)
+def published() -> Published:
     """Love numbers of the Earth as published, each with its source."""
-    from earthspin.interior.published import LOVE_PUBLISHED
-
-    return build(
-        PUBLISHED,
-        {
-            "published_love_number": [of.value for of in LOVE_PUBLISHED.values()],
-            "published_love_source": [of.source for of in LOVE_PUBLISHED.values()],
-        },
-        coords={"published_love": list(LOVE_PUBLISHED)},
+    return Published(
+        published_love_number=[constant.value for constant in LOVE_PUBLISHED.values()],
+        published_love_source=[constant.source for constant in LOVE_PUBLISHED.values()],
+        published_love=list(LOVE_PUBLISHED),
     )
 
 
 #: Periods from which the loss grows to thirty years, s.
 PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
-BY_PERIOD = without_error(
-    "they follow from the layers, whose own errors are not known",
-    {
-        "elastic_love_number": Variable(("love",), "1", "Love number of the elastic body"),
-        "love_number_by_period": Variable(("love", "love_period"), "1", "Love number"),
-        "love_number_by_period_imaginary": Variable(
-            ("love", "love_period"), "1", "imaginary part, negative where the body lags"
-        ),
-    },
-)
 
 
-@part(gives=BY_PERIOD)
-def by_period(layers: LayeredBody, anelastic_exponent: float) -> xr.Dataset:
+class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
+    """Love numbers by period."""
+
+    elastic_love_number: Value = number("1", "Love number of the elastic body", along=("love",))
+    love_number_by_period: Value = number("1", "Love number")
+    love_number_by_period_imaginary: Value = number(
+        "1", "imaginary part, negative where the body lags"
+    )
+    love: Labels = labels(default=list(_FIELDS))
+    love_period: Labels = labels("period of what deforms the body", "d", default=PERIODS / DAY)
+
+
+@part
+def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
     """How the Love numbers soften and lag from minutes to decades."""
-    from earthspin.interior.anelastic import anelastic_strain
-    from earthspin.interior.love import elastic, yielding
-
     values = _numbers(yielding(layers, anelastic_strain(PERIODS, anelastic_exponent)))
-    days = {"units": "d", "long_name": "period of what deforms the body"}
-    return build(
-        BY_PERIOD,
-        {
-            "elastic_love_number": _numbers(elastic(layers)).real,
-            "love_number_by_period": values.real,
-            "love_number_by_period_imaginary": values.imag,
-        },
-        coords={"love": list(_FIELDS), "love_period": ("love_period", PERIODS / DAY, days)},
+    return ByPeriod(
+        elastic_love_number=_numbers(elastic(layers)).real,
+        love_number_by_period=values.real,
+        love_number_by_period_imaginary=values.imag,
     )
 
 

@@ -2,32 +2,47 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import DAYS_PER_CENTURY, NORMAL_95
+from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import key, made_of, setting
+from earthspin.engine.variables import (
+    Labels,
+    Pair,
+    Value,
+    Variables,
+    amplitude,
+    labels,
+    measured,
+    number,
+    words,
+)
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.parts.path import Analysed, path_over, pole_analysis, rigid
+from earthspin.interior.rotation import mode_period
+from earthspin.nutation import ladder
+from earthspin.parts.path import (
+    Analysed,
+    iau_nutation,
+    path_over,
+    pole_analysis,
+    residual_error,
+    rigid,
+)
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import Moved, Pulls, pulls
 from earthspin.parts.sky import places, sky
-from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
 from earthspin.units import Number
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Terms of the table: the largest circles.
 LARGEST = 12
@@ -66,6 +81,8 @@ class NutationLadder(
     >>> print(ladder.rms_deps.round(1).values)
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
+
+    views, page = "nutation", "nutation"
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -114,6 +131,10 @@ class Left:
     series: dict[str, NDArray[np.float64]]
     error: float
 
+    def rms(self, names: list[str]) -> NDArray[np.float64]:
+        """Root mean square of either angle by rung, rad, shape (2, rung)."""
+        return np.array([np.sqrt(np.mean(self.series[name] ** 2, axis=0)) for name in names]).T
+
 
 @part
 def left(
@@ -128,14 +149,10 @@ def left(
     from earthspin.nutation.nutation import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
-    done, days = pole_analysis, epochs.days(0, epochs.size)
-    first, last = epochs.span()
-    ends = np.array([min(first, 0.0), max(last, 0.0)])
-    pulls.sky.check_times(ends, pulls.targets)
+    done = pole_analysis
+    days, ends, theirs = iau_nutation(pulls, epochs)
     path = path_over(body, pulls, rigid(effects), done.start, ends)
     own = complex_nutation(iau.nutation_of(done.pole(path, days), days))
-    theirs = complex_nutation(iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
@@ -150,151 +167,131 @@ def left(
             angles = np.stack([eta.real, eta.imag], axis=1)
             series[name] = without_line(days / DAYS_PER_CENTURY, angles)
             advance(1)
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    from_h = NORMAL_95 * u_h * float(np.max(np.abs(theirs)))
-    return Left(days, series, math.hypot(done.path.error, from_h))
+    return Left(days, series, residual_error(done, body, theirs))
 
 
-REFERENCES = (("references", SOURCES),)
+_RMS = "root mean square of computed minus IAU 2000A in"
+_LONGITUDE = "longitude times sin(eps), straight line removed"
+_OBLIQUITY = "obliquity, straight line removed"
+_RMS_ERROR = "95 % half-width of a root mean square, from H and integration"
+_ADDS = "what the model adds, or what it is"
 
 
-def _sizes(dim: str, prefix: str = "") -> dict[str, Variable]:
-    words = "root mean square of computed minus IAU 2000A in"
-    return {
-        f"{prefix}rms_dpsi_sineps": Variable(
-            (dim,), "mas", f"{words} longitude times sin(eps), straight line removed",
-            attrs=REFERENCES, error=f"{prefix}rms_error",
-        ),
-        f"{prefix}rms_deps": Variable(
-            (dim,), "mas", f"{words} obliquity, straight line removed", error=f"{prefix}rms_error"
-        ),
-        f"{prefix}rms_error": Variable(
-            (), "mas", "95 % half-width of a root mean square, from H and integration"
-        ),
-        f"{prefix}adds": Variable((dim,), "", "what the model adds, or what it is"),
-    }  # fmt: skip
+class RungSizes(Variables, along=("rung",), error="rms_error"):
+    """Differences from IAU 2000A, rung by rung."""
+
+    rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
+    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    rms_error: Value = number("mas", _RMS_ERROR, along=())
+    adds: Value = words(_ADDS)
+    rung: Labels = labels()
 
 
-SIZES, BESIDE = _sizes("rung"), _sizes("model", "model_")
-
-
-def _measured(
-    left: Left, names: list[str], words: dict[str, str], prefix: str = ""
-) -> dict[str, object]:
-    sizes = np.array([np.sqrt(np.mean(left.series[name] ** 2, axis=0)) for name in names])
-    return {
-        f"{prefix}rms_dpsi_sineps": sizes[:, 0],
-        f"{prefix}rms_deps": sizes[:, 1],
-        f"{prefix}rms_error": left.error,
-        f"{prefix}adds": np.array([words[name] for name in names]),
-    }
-
-
-@part(gives=SIZES)
-def rung_sizes(left: Left, models: Prediction) -> xr.Dataset:
+@part
+def rung_sizes(left: Left, models: Prediction) -> RungSizes:
     """What is left against IAU 2000A, rung by rung."""
-    from earthspin.nutation import ladder
-
     names = models.ladder
-    return build(SIZES, _measured(left, names, ladder.RUNGS), coords={"rung": names})
+    longitude, obliquity = left.rms(names)
+    return RungSizes(
+        rms_dpsi_sineps=longitude,
+        rms_deps=obliquity,
+        rms_error=left.error,
+        adds=np.array([ladder.RUNGS[name] for name in names]),
+        rung=names,
+    )
 
 
-@part(gives=BESIDE)
-def beside(left: Left) -> xr.Dataset:
+class ModelSizes(Variables, along=("model",), error="model_rms_error"):
+    """Differences from IAU 2000A of the models beside the ladder."""
+
+    model_rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
+    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    model_rms_error: Value = number("mas", _RMS_ERROR, along=())
+    model_adds: Value = words(_ADDS)
+    model: Labels = labels()
+
+
+@part
+def beside(left: Left) -> ModelSizes:
     """The same of two models beside the ladder."""
-    from earthspin.nutation import ladder
-
-    names = list(ladder.BESIDE)
-    return build(BESIDE, _measured(left, names, ladder.BESIDE, "model_"), coords={"model": names})
+    longitude, obliquity = left.rms(list(ladder.BESIDE))
+    return ModelSizes(
+        model_rms_dpsi_sineps=longitude,
+        model_rms_deps=obliquity,
+        model_rms_error=left.error,
+        model_adds=np.array(list(ladder.BESIDE.values())),
+        model=list(ladder.BESIDE),
+    )
 
 
 # --- sections ------------------------------------------------------------------------------------
 
-_ADOPTED = "it follows from the adopted arguments of IERS 2003"
-_IN_TERM = ("rung", "term")
-TERMS = {
-    "period": Variable(
-        ("term",), "d", "period of the circle in space, negative if retrograde", no_error=_ADOPTED
-    ),
-    "predicted_in_phase": Variable(
-        _IN_TERM, "mas", "predicted amplitude, in phase", REFERENCES, "predicted_error"
-    ),
-    "predicted_out_of_phase": Variable(
-        _IN_TERM, "mas", "predicted amplitude, out of phase", error="predicted_error"
-    ),
-    "predicted_error": Variable(
-        _IN_TERM, "mas", "95 % half-width of a predicted amplitude, from the numbers of the inside"
-    ),
-    "iau_in_phase": Variable(
-        ("term",), "mas", "amplitude of IAU 2000A, in phase", error="amplitude_error"
-    ),
-    "iau_out_of_phase": Variable(
-        ("term",), "mas", "amplitude of IAU 2000A, out of phase", error="amplitude_error"
-    ),
-    "amplitude_error": Variable(
-        ("term",), "mas", "95 % half-width of an amplitude from its analysis"
-    ),
-}
+
+class Terms(Variables, along=("term",)):
+    """The largest circular terms, rung by rung."""
+
+    period: Value = number(
+        "d",
+        "period of the circle in space, negative if retrograde",
+        no_error="it follows from the adopted arguments of IERS 2003",
+    )
+    predicted: Pair = amplitude(
+        "mas", "predicted amplitude", along=("rung", "term"), error="predicted_error"
+    )
+    predicted_error: Value = number(
+        "mas",
+        "95 % half-width of a predicted amplitude, from the numbers of the inside",
+        along=("rung", "term"),
+    )
+    iau: Pair = amplitude("mas", "amplitude of IAU 2000A", error="amplitude_error")
+    amplitude_error: Value = number("mas", "95 % half-width of an amplitude from its analysis")
+    rung: Labels = labels()
+    term: Labels = labels()
 
 
-@part(gives=TERMS)
-def terms(pole_analysis: Analysed, models: Prediction) -> xr.Dataset:
+@part
+def terms(pole_analysis: Analysed, models: Prediction) -> Terms:
     """The largest circular terms of each rung, in phase and out of phase."""
     from earthspin.nutation.neighbours import amplitude_error
-    from earthspin.nutation.nutation import phases
+    from earthspin.nutation.nutation import phases, term_names
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
     frequency, own = ours.frequency[order], ours.amplitude[order]
     names = models.ladder
-    found = np.array([models.transfer(name, frequency) * own for name in names])
+    predicted = np.array([models.transfer(name, frequency) * own for name in names])
     spread = np.array([models.half_width(name, frequency) * np.abs(own) for name in names])
-    within, without = phases(found)
-    iau_within, iau_without = phases(theirs.amplitude[order])
     error = amplitude_error(frequency)
-    return build(
-        TERMS,
-        {
-            "period": 2 * np.pi / frequency,
-            "predicted_in_phase": within,
-            "predicted_out_of_phase": without,
-            "predicted_error": np.hypot(spread, error),
-            "iau_in_phase": iau_within,
-            "iau_out_of_phase": iau_without,
-            "amplitude_error": error,
-        },
-        coords={
-            "rung": names,
-            "term": [" ".join(f"{m:+d}" for m in multiple) for multiple in ours.multiples[order]],
-        },
+    return Terms(
+        period=2 * np.pi / frequency,
+        predicted=phases(predicted),
+        predicted_error=np.hypot(spread, error),
+        iau=phases(theirs.amplitude[order]),
+        amplitude_error=error,
+        rung=names,
+        term=term_names(ours.multiples[order]),
+    ).with_attributes(predicted_in_phase={"references": SOURCES})
+
+
+class Modes(Variables, along=("mode",)):
+    """Free modes of the rungs."""
+
+    mode_rung: Value = words("rung that has the mode")
+    mode_name: Value = words("name of the mode")
+    mode_period: Pair = measured(
+        "d", "period: of a nutation in space, negative if retrograde; else in the body"
     )
-
-
-_MODE = ("mode",)
-MODES = {
-    "mode_rung": Variable(_MODE, "", "rung that has the mode"),
-    "mode_name": Variable(_MODE, "", "name of the mode"),
-    **with_error(
-        "mode_period",
-        Variable(
-            _MODE, "d", "period: of a nutation in space, negative if retrograde; else in the body"
-        ),
-    ),
-    "mode_quality": Variable(
-        _MODE,
+    mode_quality: Value = number(
         "1",
         "quality factor of the mode; infinite where nothing is lost",
         no_error="it follows from published quality factors, which have none",
-    ),
-}
+    )
+    mode: Labels = labels()
 
 
-@part(gives=MODES)
-def modes(models: Prediction) -> xr.Dataset:
+@part
+def modes(models: Prediction) -> Modes:
     """Free modes of each rung; a mode that a rung does not have is not among them."""
-    from earthspin.interior.rotation import mode_period
-    from earthspin.nutation import ladder
-
     rows = []
     for name in models.ladder:
         rung = models.rungs[name]
@@ -304,102 +301,91 @@ def modes(models: Prediction) -> xr.Dataset:
             relative = widths[mode] / abs(1 + s.real if mode.endswith("nutation") else s.real)
             rows.append((name, mode, period, abs(period) * relative, ladder.quality(s)))
     rungs, names, periods, errors, qualities = zip(*rows, strict=True)
-    return build(
-        MODES,
-        {
-            "mode_rung": np.array(rungs),
-            "mode_name": np.array(names),
-            "mode_period": np.array(periods),
-            "mode_period_error": np.array(errors),
-            "mode_quality": np.array(qualities),
-        },
-        coords={"mode": [f"{rung} {name}" for rung, name in zip(rungs, names, strict=True)]},
+    return Modes(
+        mode_rung=np.array(rungs),
+        mode_name=np.array(names),
+        mode_period=(np.array(periods), np.array(errors)),
+        mode_quality=np.array(qualities),
+        mode=[f"{rung} {name}" for rung, name in zip(rungs, names, strict=True)],
     )
 
 
 #: Frequencies of the transfer function in the body, turns per turn: dense about -1.
 _IN_SPACE = np.concatenate([-np.geomspace(0.1, 2e-4, 240), np.geomspace(2e-4, 0.1, 240)])
-_SEEN = "the section terms gives errors at the frequencies of nutation"
-TRANSFER = {
-    "transfer_real": Variable(
-        ("rung", "frequency"), "1", "nutation over that of a rigid body, real part", no_error=_SEEN
-    ),
-    "transfer_imaginary": Variable(
-        ("rung", "frequency"), "1", "nutation over that of a rigid body, imaginary part",
-        no_error=_SEEN,
-    ),
-}  # fmt: skip
 
 
-@part(gives=TRANSFER)
-def transfer(models: Prediction) -> xr.Dataset:
+class Transfer(
+    Variables,
+    along=("rung", "frequency"),
+    no_error="the section terms gives errors at the frequencies of nutation",
+):
+    """The transfer function, rung by rung."""
+
+    transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
+    transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
+    rung: Labels = labels()
+    frequency: Labels = labels(
+        "frequency in space, turns per turn of the body", "1", default=_IN_SPACE
+    )
+
+
+@part
+def transfer(models: Prediction) -> Transfer:
     """The transfer function of each rung, through its resonances."""
     names = models.ladder
-    found = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
-    frequency = {"units": "1", "long_name": "frequency in space, turns per turn of the body"}
-    return build(
-        TRANSFER,
-        {"transfer_real": found.real, "transfer_imaginary": found.imag},
-        coords={"rung": names, "frequency": ("frequency", _IN_SPACE, frequency)},
+    response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
+    return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
+
+
+class Residuals(Dated, along=("time", "rung"), error="residual_error"):
+    """Predicted pole minus the IAU's in time."""
+
+    dpsi_sineps: Value = number("mas", f"predicted pole minus the IAU's in {_LONGITUDE}")
+    deps: Value = number("mas", f"predicted pole minus the IAU's in {_OBLIQUITY}")
+    residual_error: Value = number(
+        "mas", "95 % half-width of a residual, from H and integration", along=()
     )
+    rung: Labels = labels()
 
 
-RESIDUALS = {
-    "dpsi_sineps": Variable(
-        ("time", "rung"), "mas",
-        "predicted pole minus the IAU's in longitude times sin(eps), straight line removed",
-        error="residual_error",
-    ),
-    "deps": Variable(
-        ("time", "rung"), "mas",
-        "predicted pole minus the IAU's in obliquity, straight line removed",
-        error="residual_error",
-    ),
-    "residual_error": Variable(
-        (), "mas", "95 % half-width of a residual, from H and integration"
-    ),
-}  # fmt: skip
-
-
-@part(gives=RESIDUALS)
-def residuals(left: Left, models: Prediction) -> xr.Dataset:
+@part
+def residuals(left: Left, models: Prediction) -> Residuals:
     """Predicted pole minus the IAU's in time, rung by rung."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
-    return build(
-        RESIDUALS,
-        {
-            "dpsi_sineps": series[..., 0],
-            "deps": series[..., 1],
-            "residual_error": left.error,
-        },
-        coords={"time": ("time", datetime64(left.days), dict(DATES)), "rung": models.ladder},
+    return Residuals(
+        time=datetime64(left.days),
+        dpsi_sineps=series[..., 0],
+        deps=series[..., 1],
+        residual_error=left.error,
+        rung=models.ladder,
     )
 
 
-COMPLIANCES = without_error(
-    "they follow from the layers; the relative uncertainty of the interior is that of k2",
-    {"compliance": Variable(("compliance_name",), "1", "answer of a part to a wobble of size 1")},
-)
+class Compliances(
+    Variables,
+    along=("compliance_name",),
+    no_error="they follow from the layers; the relative uncertainty of the interior is that of k2",
+):
+    """Compliances of the elastic body."""
+
+    compliance: Value = number("1", "answer of a part to a wobble of size 1")
+    compliance_name: Labels = labels()
 
 
-@part(gives=COMPLIANCES)
-def compliances(models: Prediction) -> xr.Dataset:
+@part
+def compliances(models: Prediction) -> Compliances:
     """Compliances of the elastic body, in the notation of Mathews et al. (1991)."""
     parts = models.rungs["inner-core"].parts(np.array(-1.0))
-    found = {name: float(value) for name, value in parts.compliances.items()}
-    return build(
-        COMPLIANCES,
-        {"compliance": list(found.values())},
-        coords={"compliance_name": list(found)},
+    return Compliances(
+        compliance=[float(value) for value in parts.compliances.values()],
+        compliance_name=list(parts.compliances),
     )
 
 
 @part
 def neglected() -> Neglected:
     """What the last rung leaves out."""
-    from earthspin.nutation.ladder import LEFT_OUT
-
-    return Neglected.cited(LEFT_OUT, "change of the largest term that is concerned")
+    return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 
 made_of(

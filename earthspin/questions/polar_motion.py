@@ -15,13 +15,16 @@ from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, si, with_error, without_error
+from earthspin.engine.labels import si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
 from earthspin.engine.run import in_range
+from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
+from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
+from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.text import Text
 from earthspin.units import (
     Days,
@@ -33,18 +36,17 @@ from earthspin.units import (
     Word,
     kind_of,
 )
+from earthspin.wobble.envelope import envelope
+from earthspin.wobble.estimate import WobbleFit
+from earthspin.wobble.spectrum import spectrum as amplitude_spectrum
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.sky.eop import PoleSeries
-    from earthspin.wobble.estimate import WobbleFit
 
 ComplexArray = NDArray[np.complex128]
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood", "least-squares"]
-_SCALE = {"long_name": "time", "standard_name": "time", "comment": "0h UTC in daily tables"}
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
 #: Nearer to the conventional pole than this, in mas, the pole never stays.
@@ -102,6 +104,8 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     IERS c04
     """
 
+    views, page = "polar_motion", "wobble"
+
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
     file: Annotated[str, TableFile()] = setting(
@@ -118,16 +122,20 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     )
 
 
-_TIME = ("time",)
-OBSERVED = {
-    **with_error(
-        "x", Variable(_TIME, "arcsec", "coordinate of the pole towards the prime meridian")
-    ),
-    **with_error("y", Variable(_TIME, "arcsec", "coordinate of the pole towards 90 degrees west")),
-    "polar_radius": Variable(
-        (), "m", "polar radius of the body", no_error="a given number of the body"
-    ),
-}
+class Daily(Variables, along=("time",)):
+    """Variables at the days of a table."""
+
+    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
+
+
+class ObservedPole(Daily):
+    """Observed polar motion."""
+
+    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    polar_radius: Value = number(
+        "m", "polar radius of the body", along=(), no_error="a given number of the body"
+    )
 
 
 def not_observed(body: Body) -> str | None:
@@ -138,13 +146,11 @@ def not_observed(body: Body) -> str | None:
 @part(unless=not_observed)
 def pole_table(file: str, kind: str | None) -> PoleSeries:
     """A table of the IERS."""
-    from earthspin.sky.eop import read_polar_motion
-
     return read_polar_motion(file, kind)
 
 
-@part(gives=OBSERVED, unless=not_observed)
-def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> xr.Dataset:
+@part(unless=not_observed)
+def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
     """Observed polar motion from a table of the IERS."""
     from earthspin.mass.figure import polar_radius
 
@@ -152,74 +158,63 @@ def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> xr.D
     if span is not None:
         first, last = span.days
         series = series.between(first + _MJD, last + _MJD)
-    result = build(
-        OBSERVED,
-        {
-            "x": series.x,
-            "y": series.y,
-            "x_error": NORMAL_95 * series.x_error,
-            "y_error": NORMAL_95 * series.y_error,
-            "polar_radius": polar_radius(body.needed("radius"), body.needed("flattening")),
-        },
-        coords={"time": ("time", _stamps(series.mjd - _MJD), _SCALE)},
+    source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
+    return ObservedPole(
+        time=datetime64(series.mjd - _MJD),
+        x=(series.x, NORMAL_95 * series.x_error),
+        y=(series.y, NORMAL_95 * series.y_error),
+        polar_radius=polar_radius(body.needed("radius"), body.needed("flattening")),
+    ).with_attributes(x=source, y=source)
+
+
+_END = "an end of an interval of 95 %"
+
+
+class FreeWobble(
+    Variables, along=("middle",), no_error="a mean over one beat, whose scatter was not propagated"
+):
+    """The free wobble in a polar motion, and the annual wobble and mean pole beside it."""
+
+    chandler_period: Pair = measured("d", "period of the free wobble", along=())
+    chandler_amplitude: Pair = measured(
+        "mas",
+        "amplitude of the free wobble",
+        cell_methods="middle: mean (one beat of the wobbles)",
     )
-    for name in ("x", "y"):
-        result[name].attrs["references"] = f"IERS {series.name}"
-        result[name].attrs["repairs"] = series.repairs or "none"
-    return result
+    chandler_phase: Value = number(
+        "deg", "phase of the free wobble against a steady one of its period"
+    )
+    annual_amplitude: Value = number(
+        "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
+    )
+    annual_retrograde_amplitude: Value = number(
+        "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
+    )
+    mean_pole: Value = number("mas", "mean position of the pole", along=("middle", "axis"))
+    chandler_quality_factor: Value | None = number(
+        "1",
+        "quality factor of the free wobble",
+        along=(),
+        error="chandler_quality_factor_low chandler_quality_factor_high",
+        default=None,
+    )
+    chandler_quality_factor_low: Value | None = number(
+        "1", "lower end of its 95 % interval", along=(), no_error=_END, default=None
+    )
+    chandler_quality_factor_high: Value | None = number(
+        "1",
+        "upper end of its 95 % interval",
+        along=(),
+        no_error=_END,
+        default=None,
+        comment="infinite if open",
+    )
+    middle: Labels = labels("middle of a window")
+    axis: Labels = labels(default=["x", "y"])
 
 
-_MIDDLE = ("middle",)
-CHANDLER = without_error(
-    "a mean over one beat, whose scatter was not propagated",
-    {
-        **with_error("chandler_period", Variable((), "d", "period of the free wobble")),
-        **with_error(
-            "chandler_amplitude",
-            Variable(
-                _MIDDLE,
-                "mas",
-                "amplitude of the free wobble",
-                (("cell_methods", "middle: mean (one beat of the wobbles)"),),
-            ),
-        ),
-        "chandler_phase": Variable(
-            _MIDDLE, "deg", "phase of the free wobble against a steady one of its period"
-        ),
-        "annual_amplitude": Variable(
-            _MIDDLE,
-            "mas",
-            "amplitude of the annual wobble, prograde",
-            error="chandler_amplitude_error",
-        ),
-        "annual_retrograde_amplitude": Variable(
-            _MIDDLE,
-            "mas",
-            "amplitude of the annual wobble, retrograde",
-            error="chandler_amplitude_error",
-        ),
-        "mean_pole": Variable((*_MIDDLE, "axis"), "mas", "mean position of the pole"),
-    },
-)
-QUALITY = without_error(
-    "an end of an interval of 95 %",
-    {
-        "chandler_quality_factor": Variable(
-            (),
-            "1",
-            "quality factor of the free wobble",
-            error="chandler_quality_factor_low chandler_quality_factor_high",
-        ),
-        "chandler_quality_factor_low": Variable((), "1", "lower end of its 95 % interval"),
-        "chandler_quality_factor_high": Variable(
-            (), "1", "upper end of its 95 % interval", (("comment", "infinite if open"),)
-        ),
-    },
-)
-
-
-@part(gives=CHANDLER)
-def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr.Dataset:
+@part
+def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> FreeWobble:
     """Period, quality factor and amplitude of the free wobble in the observed pole."""
     from earthspin.wobble import observed
 
@@ -228,69 +223,50 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> xr
 
 
 def _free_wobble(
-    time: FloatArray, p: ComplexArray, found: WobbleFit, window: float | None
-) -> xr.Dataset:
-    """Label what was found, and the amplitudes of its period in sliding windows."""
-    from earthspin.wobble.envelope import envelope
+    time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
+) -> FreeWobble:
+    """Period and quality factor of a fit, and amplitudes of its period in sliding windows."""
     from earthspin.wobble.resonance import coordinates_of
 
-    seen = envelope(time, p, found.period, window)
-    values = {
-        "chandler_period": found.period * DAY,
-        "chandler_period_error": found.period_error * DAY,
-        "chandler_amplitude": abs(seen.chandler) * MAS,
-        "chandler_amplitude_error": seen.error * MAS,
-        "chandler_phase": np.unwrap(np.angle(seen.chandler)),
-        "annual_amplitude": abs(seen.annual) * MAS,
-        "annual_retrograde_amplitude": abs(seen.annual_retrograde) * MAS,
-        "mean_pole": np.column_stack(coordinates_of(seen.drift)) * MAS,
-    }
-    result = build(
-        CHANDLER | (QUALITY if found.gives_quality else {}),
-        values | (_quality(found) if found.gives_quality else {}),
-        coords={
-            "middle": ("middle", _stamps(seen.time), {"long_name": "middle of a window"}),
-            "axis": ("axis", ["x", "y"]),
-        },
+    wobbles = envelope(time, p, fit.period, window)
+    period, quality, low, high = {"method": fit.method}, None, None, None
+    if fit.gives_quality:
+        quality, (low, high) = fit.quality_factor, fit.quality_bounds
+    else:
+        period["quality_factor"] = "refused: a sinusoid cannot give it"
+    return FreeWobble(
+        chandler_period=(fit.period * DAY, fit.period_error * DAY),
+        chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
+        chandler_phase=np.unwrap(np.angle(wobbles.chandler)),
+        annual_amplitude=abs(wobbles.annual) * MAS,
+        annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
+        mean_pole=np.column_stack(coordinates_of(wobbles.drift)) * MAS,
+        chandler_quality_factor=quality,
+        chandler_quality_factor_low=low,
+        chandler_quality_factor_high=high,
+        middle=datetime64(wobbles.time),
+    ).with_attributes(chandler_period=period)
+
+
+class Spectrum(
+    Variables,
+    along=("frequency",),
+    no_error="the scatter of an amplitude at one frequency is as large as the amplitude",
+):
+    """Amplitude spectrum of a polar motion."""
+
+    spectral_amplitude: Value = number(
+        "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
     )
-    result.chandler_period.attrs["method"] = found.method
-    if not found.gives_quality:
-        result.chandler_period.attrs["quality_factor"] = "refused: a sinusoid cannot give it"
-    return result
+    frequency: Labels = labels("cycles per day, negative if retrograde", "1/d")
 
 
-def _quality(found: WobbleFit) -> dict[str, float]:
-    low, high = found.quality_bounds
-    return {
-        "chandler_quality_factor": found.quality_factor,
-        "chandler_quality_factor_low": low,
-        "chandler_quality_factor_high": high,
-    }
-
-
-SPECTRUM = without_error(
-    "the scatter of an amplitude at one frequency is as large as the amplitude",
-    {
-        "spectral_amplitude": Variable(
-            ("frequency",), "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
-        )
-    },
-)
-
-
-@part(gives=SPECTRUM)
-def spectrum(observed_pole: xr.Dataset) -> xr.Dataset:
+@part
+def spectrum(observed_pole: xr.Dataset) -> Spectrum:
     """Amplitude spectrum of the observed pole, prograde and retrograde, up to `FASTEST`."""
-    from earthspin.wobble.spectrum import spectrum
-
-    frequency, amplitude = spectrum(*complex_pole(observed_pole))
+    frequency, size = amplitude_spectrum(*complex_pole(observed_pole))
     slow = abs(frequency) <= FASTEST
-    cycles = {"units": "1/d", "long_name": "cycles per day, negative if retrograde"}
-    return build(
-        SPECTRUM,
-        {"spectral_amplitude": amplitude[slow] * MAS},
-        coords={"frequency": ("frequency", frequency[slow], cycles)},
-    )
+    return Spectrum(spectral_amplitude=size[slow] * MAS, frequency=frequency[slow])
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
@@ -366,10 +342,6 @@ def _need_series(given: Any, names: tuple[str, str], units: tuple[str, ...]) -> 
             raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
 
 
-def _stamps(days: FloatArray) -> NDArray[np.datetime64]:
-    return datetime64(days)
-
-
 @part
 def neglected() -> Neglected:
     """What tables of the pole leave out by convention."""
@@ -439,26 +411,23 @@ def fit_chandler(
     --------
     >>> import earthspin
     >>> seen = earthspin.polar_motion(span=("1990-01-01", "2005-01-01"))
-    >>> found = earthspin.fit_chandler(seen)
-    >>> print(f"{found.chandler_period:.0f} ± {found.chandler_period_error:.0f} d")
+    >>> wobble = earthspin.fit_chandler(seen)
+    >>> print(f"{wobble.chandler_period:.0f} ± {wobble.chandler_period_error:.0f} d")
     434 ± 6 d
     """
     length = None if window is None else _DAYS.read(window, Where("window"))
     if excitation is None:
         word = kind_of(Method).read("burg" if method is None else method, Where("method"))
-        return _with_source(chandler(ds, word, length).rename(middle="time"), ds)
-    if not (method is None or (isinstance(method, str) and method == "likelihood")):
-        raise SceneError("method", method, "with an excitation it is 'likelihood'")
-    from earthspin.wobble.observed import fit_with_excitation
+        wobble = chandler(ds, word, length)
+    else:
+        if not (method is None or (isinstance(method, str) and method == "likelihood")):
+            raise SceneError("method", method, "with an excitation it is 'likelihood'")
+        from earthspin.wobble.observed import fit_with_excitation
 
-    time, p, chi = _together(ds, excitation)
-    found = fit_with_excitation(time, p, chi)
-    return _with_source(_free_wobble(time, p, found, length).rename(middle="time"), ds)
-
-
-def _with_source(found: xr.Dataset, pole: xr.Dataset) -> xr.Dataset:
-    """Say what drove the pole, where that is known."""
-    return found.assign_attrs({"source": pole.attrs["source"]} if "source" in pole.attrs else {})
+        time, p, chi = _together(ds, excitation)
+        wobble = _free_wobble(time, p, fit_with_excitation(time, p, chi), length)
+    source = {"source": ds.attrs["source"]} if "source" in ds.attrs else {}
+    return wobble.dataset().rename(middle="time").assign_attrs(source)
 
 
 def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
@@ -497,20 +466,18 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, excitation_of(si(chi.chi1).values, si(chi.chi2).values) / MAS
 
 
-CHI = without_error(
-    "the table from which it is read gives none",
-    {
-        "chi1": Variable(_TIME, "mas", "excitation, towards the prime meridian"),
-        "chi2": Variable(_TIME, "mas", "excitation, towards 90 degrees east"),
-    },
-)
-POLE = without_error(
-    "excitation and free wobble are given without errors",
-    {
-        "x": Variable(_TIME, "arcsec", "pole, towards the prime meridian"),
-        "y": Variable(_TIME, "arcsec", "pole, towards 90 degrees west"),
-    },
-)
+class Excitation(Daily, no_error="the table from which it is read gives none"):
+    """Excitation of polar motion."""
+
+    chi1: Value = number("mas", "excitation, towards the prime meridian")
+    chi2: Value = number("mas", "excitation, towards 90 degrees east")
+
+
+class DrivenPole(Daily, no_error="excitation and free wobble are given without errors"):
+    """Polar motion that an excitation drives."""
+
+    x: Value = number("arcsec", "pole, towards the prime meridian")
+    y: Value = number("arcsec", "pole, towards 90 degrees west")
 
 
 @in_range("excitation")
@@ -550,22 +517,21 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
     start_x, start_y = ex.coordinates_of(p[0])
-    result = build(
-        CHI,
-        {"chi1": chi.real * MAS, "chi2": chi.imag * MAS},
-        coords={"time": ("time", _stamps(ex.middles_of_steps(time)), _SCALE)},
+    result = Excitation(
+        time=datetime64(ex.middles_of_steps(time)), chi1=chi.real * MAS, chi2=chi.imag * MAS
     )
-    result.attrs |= {
-        "chandler_period": days,
-        "chandler_quality_factor": q,
-        "start_x": float(start_x),
-        "start_y": float(start_y),
-        "start_day": float(time[0]),
-        "step": step,
-        "comment": "means over the step (d) around each time; start of the pole in mas and in days "
-        "from J2000.0",
-    }
-    return result
+    return result.dataset().assign_attrs(
+        {
+            "chandler_period": days,
+            "chandler_quality_factor": q,
+            "start_x": float(start_x),
+            "start_y": float(start_y),
+            "start_day": float(time[0]),
+            "step": step,
+            "comment": "means over the step (d) around each time; start of the pole in mas and in "
+            "days from J2000.0",
+        }
+    )
 
 
 _Q = Where("quality_factor")
@@ -630,16 +596,10 @@ def polar_motion_from(
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
         ends, driving, begin = _fitted_start(fitted_to, chi, s)
     else:
-        x, y = _given_start(chi, start, ends[0])
-        begin = complex(ex.pole_of(x, y))
-    p = ex.polar_motion_from(driving, step, s, begin)
-    result = build(
-        POLE,
-        dict(zip(("x", "y"), (v * MAS for v in ex.coordinates_of(p)), strict=True)),
-        coords={"time": ("time", _stamps(ends), _SCALE)},
-    )
-    result.attrs["source"] = f"driven by {known.get('source', 'a given excitation')}"
-    return result
+        begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))
+    x, y = ex.coordinates_of(ex.polar_motion_from(driving, step, s, begin))
+    result = DrivenPole(time=datetime64(ends), x=x * MAS, y=y * MAS).dataset()
+    return result.assign_attrs(source=f"driven by {known.get('source', 'a given excitation')}")
 
 
 def _fitted_start(
@@ -709,23 +669,17 @@ def read_excitation(
     >>> print(chi.chi1.round(2).values)
     [22.69 22.69 22.69]
     """
-    from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
-
     terms = Several(Word(tuple(TERMS))).read(terms, Where("terms"))
     if components is not None:
         components = Several(Text()).read(components, Where("components"))
     if not terms:
         raise SceneError("terms", terms, nearest("", TERMS))
     paths = Several(FilePath()).read(path, Where("path"))
-    read = read_angular_momentum(paths, components, daily=daily)
-    chi = sum(getattr(read, word) for word in set(terms))
-    result = build(
-        CHI,
-        {"chi1": chi.real, "chi2": chi.imag},
-        coords={"time": ("time", _stamps(read.mjd - _MJD), _SCALE)},
-    )
-    result.attrs["source"] = f"{' + '.join(components or ('all components',))} ({', '.join(terms)})"
-    return result
+    table = read_angular_momentum(paths, components, daily=daily)
+    chi = sum(getattr(table, term) for term in set(terms))
+    result = Excitation(time=datetime64(table.mjd - _MJD), chi1=chi.real, chi2=chi.imag).dataset()
+    names = " + ".join(components or ("all components",))
+    return result.assign_attrs(source=f"{names} ({', '.join(terms)})")
 
 
 def _even_step(time: FloatArray) -> float:

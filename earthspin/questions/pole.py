@@ -11,11 +11,13 @@ from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import Labels, Value, labels, number
+from earthspin.motion.axes import AXES
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
+from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     Largest,
@@ -34,7 +36,7 @@ from earthspin.parts.predicted import SOURCES, no_layers, prediction
 from earthspin.parts.pulls import Moved, Pulls, pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
-from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
 from earthspin.units import AngleError, FloatArray
 
 if TYPE_CHECKING:
@@ -73,6 +75,8 @@ class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")
     >>> print(path.sizes["time"], path.axis.values)
     13 ['angular_momentum' 'rotation' 'figure']
     """
+
+    views, page = "pole", "pole"
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -142,30 +146,30 @@ def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = 
     return shift
 
 
-_AXES = ("time", "axis")
-DIRECTIONS = covered_by(
-    "direction_error",
-    {
-        "X": Variable(_AXES, "1", "first component of the unit vector of the axis"),
-        "Y": Variable(_AXES, "1", "second component of the unit vector of the axis"),
-        "Z": Variable(_AXES, "1", "third component of the unit vector of the axis"),
-        "direction_error": Variable(
-            ("time",), "uas", "95 % half-width of the directions, from all shares"
-        ),
-        "direction_error_method": Variable(
-            ("time",), "uas", "share of direction_error from the integration"
-        ),
-        "direction_error_input": Variable(
-            ("time",), "uas", "share of direction_error from the uncertainty of H"
-        ),
-        "direction_error_kernel": Variable(
-            ("time",), "uas", "share of direction_error from the positions of the bodies"
-        ),
-    },
-)
+class Directions(Dated, error="direction_error"):
+    """Directions of the axes."""
+
+    X: Value = number(
+        "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
+    )
+    Y: Value = number(
+        "1", "second component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
+    )
+    Z: Value = number(
+        "1", "third component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
+    )
+    direction_error: Value = number("uas", "95 % half-width of the directions, from all shares")
+    direction_error_method: Value = number("uas", "share of direction_error from the integration")
+    direction_error_input: Value = number(
+        "uas", "share of direction_error from the uncertainty of H"
+    )
+    direction_error_kernel: Value = number(
+        "uas", "share of direction_error from the positions of the bodies"
+    )
+    axis: Labels = labels()
 
 
-@part(gives=DIRECTIONS)
+@part
 def axes(
     axis_path: AxisPath,
     epochs: TimeGrid | TimeList,
@@ -175,69 +179,61 @@ def axes(
     largest_error: Largest | None = None,
     interior_shift: Shift | None = None,
     block: Block | None = None,
-) -> xr.Dataset:
+) -> Directions:
     """Directions of angular-momentum, rotation and figure axis at every time."""
-    from earthspin.motion.axes import AXES
-
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = _days(epochs, block)
-    found = axis_path.at(now * DAY)
-    errors = errors_of(axis_path, now, found["figure"], epochs, body, pulls, interior_shift)
+    directions = axis_path.at(now * DAY)
+    errors = errors_of(axis_path, now, directions["figure"], epochs, body, pulls, interior_shift)
     if interior_shift is not None:
-        interior_shift.apply(found, now)
-    vectors = np.stack([found[axis] for axis in AXES], axis=1)
-    result = build(
-        DIRECTIONS,
-        {
-            "X": vectors[..., 0],
-            "Y": vectors[..., 1],
-            "Z": vectors[..., 2],
-            "direction_error": errors.total,
-            "direction_error_method": errors.method,
-            "direction_error_input": errors.given,
-            "direction_error_kernel": errors.kernel,
-        },
-        coords={"time": ("time", datetime64(now), dict(DATES)), "axis": list(AXES)},
-        no_error=pulls.sky.no_error,
-    )
-    for name in ("X", "Y", "Z"):
-        result[name].attrs["frame"] = "GCRS"
+        interior_shift.apply(directions, now)
+    vectors = np.stack([directions[axis] for axis in AXES], axis=1)
     window = np.median(np.diff(axis_path.windows.edges)) / DAY
-    result["direction_error"].attrs |= {
-        "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
-        "evaluations": axis_path.evaluations,
-    } | start_note(body)
-    return result
+    return Directions(
+        time=datetime64(now),
+        axis=list(AXES),
+        X=vectors[..., 0],
+        Y=vectors[..., 1],
+        Z=vectors[..., 2],
+        direction_error=errors.total,
+        direction_error_method=errors.method,
+        direction_error_input=errors.given,
+        direction_error_kernel=errors.kernel,
+    ).with_attributes(
+        no_error=pulls.sky.no_error,
+        direction_error={
+            "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
+            "evaluations": axis_path.evaluations,
+            **start_note(body),
+        },
+    )
 
 
-RESPONSE = covered_by(
-    "direction_error",
-    {
-        "direction_error_response": Variable(
-            ("time",),
-            "uas",
-            "share of direction_error from the response of the interior: its residual, and the "
-            "closure of the rates, against IAU 2006/2000A",
-        ),
-    },
-)
+class ResponseError(Dated):
+    """Share of the interior in the error of the directions."""
+
+    direction_error_response: Value = number(
+        "uas",
+        "share of direction_error from the response of the interior: its residual, and the "
+        "closure of the rates, against IAU 2006/2000A",
+    )
 
 
-@part(gives=RESPONSE, unless=not_nonrigid)
+@part(unless=not_nonrigid)
 def response_error(
     axes: xr.Dataset,
     interior_shift: Shift,
     epochs: TimeGrid | TimeList,
     response: str,
     block: Block | None = None,
-) -> xr.Dataset:
+) -> ResponseError:
     """Share of the direction's error that the response of the interior leaves."""
     half_width = interior_shift.half_width(_days(epochs, block))
-    result = build(RESPONSE, {"direction_error_response": half_width}, coords={"time": axes.time})
+    share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
-        result["direction_error_response"].attrs["references"] = SOURCES
-    return result
+        share.with_attributes(direction_error_response={"references": SOURCES})
+    return share
 
 
 def _days(epochs: TimeGrid | TimeList, block: Block | None) -> FloatArray:
@@ -260,15 +256,12 @@ def no_longitude(body: Body) -> str | None:
     return None
 
 
-ANGLES = covered_by(
-    "direction_error",
-    {
-        "psi": Variable(
-            _AXES, "arcsec", "precession and nutation in longitude along the orbit of J2000.0"
-        ),
-        "eps": Variable(_AXES, "arcsec", "angle of the axis from the normal of that orbit"),
-    },
-)
+class Angles(Dated, along=("time", "axis"), error="direction_error"):
+    """Angles of the axes on the fixed orbit of J2000.0."""
+
+    psi: Value = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
+    eps: Value = number("arcsec", "angle of the axis from the normal of that orbit")
+    axis: Labels = labels()
 
 
 @part(unless=no_longitude)
@@ -278,26 +271,20 @@ def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns
     return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
 
-@part(gives=ANGLES, unless=no_longitude)
+@part(unless=no_longitude)
 def pole_angles(
     axes: xr.Dataset,
     turns: Turns,
     epochs: TimeGrid | TimeList,
     body: Body,
     block: Block | None = None,
-) -> xr.Dataset:
+) -> Angles:
     """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
-    from earthspin.nutation.angles import on_fixed_ecliptic
-
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
     psi = turns.unwrapped(angles[..., 0], _days(epochs, block) * DAY)
-    return build(
-        ANGLES,
-        {"psi": psi, "eps": angles[..., 1]},
-        coords={"time": axes.time, "axis": axes.axis},
-    )
+    return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1])
 
 
 class DirectionAccuracy(Report, units="uas", error_of="in direction"):

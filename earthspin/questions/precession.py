@@ -27,6 +27,9 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.errors import UndefinedError
+from earthspin.mass import inertia
+from earthspin.nutation import seasons as calendar
+from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.elements import no_exact_means
@@ -39,11 +42,14 @@ from earthspin.parts.reasons import (
     not_the_iaus_earth,
 )
 from earthspin.parts.sky import SOURCE_DOC, Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
+from earthspin.torque import rates
+from earthspin.torque.average import convergence_curve
 from earthspin.units import Relative
 
 if TYPE_CHECKING:
-    from earthspin.torque.rates import Estimate
+    from earthspin.numerics.estimate import Estimate
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
@@ -74,6 +80,8 @@ class Precession(Pulled, word="precession", call="precession"):
     >>> print(result.precession_period.round().values)
     [81259. 37614. 25712.]
     """
+
+    views, page = "precession", "theory"
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
@@ -155,8 +163,6 @@ class Rates(Variables, along=("perturber",)):
 @part
 def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Rates:
     """Rates, periods and torques by perturber, each with its error."""
-    from earthspin.torque import rates
-
     rate = mean_rates.rate
     return Rates(
         precession_rate=rate,
@@ -225,9 +231,6 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
     """Averaged rate against the length of the window, plain mean and tapers."""
     import xarray as xr
 
-    from earthspin.torque import rates
-    from earthspin.torque.average import convergence_curve
-
     window = torque_samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
     total = torque_samples.precessing.sum(axis=1)
@@ -273,10 +276,6 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
 
-    from earthspin.mass import inertia
-    from earthspin.rotor.axisymmetric import free_wobble_period
-    from earthspin.torque import rates
-
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
     precessing = mean_torques.precessing[-1]
     h = xr.concat(
@@ -319,15 +318,12 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 @part(unless=is_sphere)
 def free_wobble(body: Body) -> FreeWobble:
     """Period of the free wobble of the rigid body."""
-    from earthspin.mass.inertia import ellipticity_from_h
-    from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
-
     h = body.needed("dynamical_flattening")
-    period = free_wobble_period(ellipticity_from_h(h), body.needed("spin_period"))
+    period = free_wobble_period(inertia.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return FreeWobble(
         free_wobble_period=(period, free_wobble_error(period, h, u)),
-        free_wobble_period_sidereal=free_wobble_period(ellipticity_from_h(h), 1.0),
+        free_wobble_period_sidereal=free_wobble_period(inertia.ellipticity_from_h(h), 1.0),
     )
 
 
@@ -362,26 +358,25 @@ def seasons(
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
-    from earthspin.nutation import seasons as s
-    from earthspin.nutation.budget import published_effects
     from earthspin.sky.iau import precession_rates
-    from earthspin.torque import rates
 
     rate, error = mean_rates.total()
     another = not_the_iaus_earth(body, perturbers)
     published = 0.0 if another else sum(published_effects().values())
     chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
-    general = s.general_precession(rate + published, chi_rate, mean_torques.obliquity)
-    year = s.tropical_year(general, body.needed("orbital_period"))
+    general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
+    year = calendar.tropical_year(general, body.needed("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
     return Seasons(
         general_precession=(general, error),
         general_precession_period=period,
-        time_per_degree=s.time_per_degree(general),
+        time_per_degree=calendar.time_per_degree(general),
         tropical_year=year,
-        time_per_day_of_drift=s.time_per_day_of_drift(year),
-        time_per_dropped_leap_day=s.DROPPED_LEAP_DAY * JULIAN_YEAR,
-        time_per_day_of_gregorian_drift=s.time_per_day_of_drift(year, s.GREGORIAN_YEAR),
+        time_per_day_of_drift=calendar.time_per_day_of_drift(year),
+        time_per_dropped_leap_day=calendar.DROPPED_LEAP_DAY * JULIAN_YEAR,
+        time_per_day_of_gregorian_drift=calendar.time_per_day_of_drift(
+            year, calendar.GREGORIAN_YEAR
+        ),
     ).with_attributes(
         no_error=mean_rates.no_error,
         general_precession={
@@ -409,7 +404,6 @@ class BesideIAU(Variables):
 @part(unless=not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
     """IAU 2006 precession compared with the computed one, published effects included."""
-    from earthspin.nutation.budget import closure
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -465,7 +459,6 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
             "bound on the contribution to the rate that the model leaves out",
             unknown=f"all other effects, because {unknown}",
         )
-    from earthspin.nutation.budget import published_effects
 
     return Neglected(
         published_effects(),

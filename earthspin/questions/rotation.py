@@ -1,25 +1,39 @@
-"""The whole attitude of a body: how it turns, at any spin, under anything."""
+"""Attitude of a rigid body in time, at any spin and under any torque."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
 from earthspin.bodies import Body
+from earthspin.bodies.beyond_rigid import BEYOND_RIGID
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
+from earthspin.mass.inertia import polar_moment
 from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
+from earthspin.motion.forces import Forces
+from earthspin.motion.march import FINEST, Above
+from earthspin.motion.rotation import (
+    KINDS,
+    Motion,
+    RotationSeries,
+    State,
+    shares_of,
+    start_of,
+    tolerance_for,
+)
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
@@ -33,20 +47,17 @@ from earthspin.parts.pulls import (
 )
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
-from earthspin.parts.times import DATES, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
 from earthspin.progress import progress
+from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import AngleError, FloatArray, Numbers
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from earthspin.motion.divergence import Divergence
-    from earthspin.motion.equations import Rigid
-    from earthspin.motion.forces import Forces
-    from earthspin.motion.march import Above
-    from earthspin.motion.rotation import Found, Motion, State
 
-#: What a quaternion's length may be off by.
+#: Largest difference from 1 of the length of a unit quaternion.
 _LENGTH = 1e-6
 #: Time to follow a body through one turn, s (measured: 2.6e-3 to 5e-3), and most turns that are
 #: followed at once: about an hour.
@@ -81,6 +92,8 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
     >>> print(turned.omega.sel(component="z").round(10).values)
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
+
+    views, page = "rotation", "rotation"
 
     span: Span = key(
         ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
@@ -118,7 +131,7 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
             refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     def check(self) -> None:
-        """A rigid body whose three moments follow, and a start that is one."""
+        """Require a rigid body whose three moments follow, and a unit quaternion."""
         super().check()
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
@@ -126,17 +139,14 @@ class Rotation(Moved, word="rotation", call="rotation", positional=("start", "st
             raise self.error(
                 "body", self.body.name, "C does not follow from H = 0; give it some flattening"
             )
-        if self.start_attitude is not None:
-            length = _length(self.start_attitude)
-            if abs(length - 1) > _LENGTH:
-                raise self.error(
-                    "start_attitude", self.start_attitude.tolist(), "a unit quaternion has length 1"
-                )
+        start = self.start_attitude
+        if start is not None and abs(_length(start) - 1) > _LENGTH:
+            raise self.error("start_attitude", start.tolist(), "a unit quaternion has length 1")
 
 
 @dataclass(frozen=True)
 class Pulling:
-    """Forces of a sky, and how well they are known.
+    """Forces of all that pulls, with their uncertainty.
 
     Attributes
     ----------
@@ -150,9 +160,9 @@ class Pulling:
     """
 
     forces: Forces
-    doubt: float
-    rounding: float
-    no_error: str
+    doubt: float = 0.0
+    rounding: float = 0.0
+    no_error: str = ""
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
@@ -167,7 +177,7 @@ def _length(vector: FloatArray) -> float:
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """A body whose spin is that of the start, where it has none of its own."""
+    """Take the spin from the initial angular velocity if the body has none."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -184,7 +194,6 @@ def pulling(
 ) -> Pulling:
     """Forces of all that pulls, effects switched on."""
     from earthspin.motion.neighbours import doubt_of_pull
-    from earthspin.sky.elements import ByElements, Elements
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
@@ -192,14 +201,14 @@ def pulling(
     if isinstance(pulls.sky.source, Elements):
         places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
-        return Pulling(forces, 0.0, rounding, "")
-    seen = pulls.sky.positions(np.array(days[:1]))
+        return Pulling(forces, rounding=rounding)
+    positions = pulls.sky.positions(np.array(days[:1]))
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
-        doubts.append(doubt_of_pull(float(np.linalg.norm(seen[name])), far, angle))
+        doubts.append(doubt_of_pull(float(np.linalg.norm(positions[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
-    return Pulling(forces, doubt, 0.0, pulls.sky.no_error)
+    return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
 
 @dataclass(frozen=True)
@@ -218,9 +227,7 @@ class Rotor:
         Days from J2000.0 TDB.
     polar_moment : float
         C, kg m2.
-    doubt : float
-        As of `Pulling`.
-    no_error : str
+    pulling : Pulling
     """
 
     body: Rigid
@@ -230,19 +237,19 @@ class Rotor:
     begin: float
     end: float
     polar_moment: float
-    doubt: float
-    no_error: str
+    pulling: Pulling
+
+    @property
+    def duration(self) -> float:
+        """Time from the start to the end, s."""
+        return float(self.since(self.end))
 
     def motion(self, tolerance: float) -> Motion:
-        """Its motion, by windows of so much error."""
-        from earthspin.motion.rotation import Motion
-
-        return Motion(
-            self.body, self.above, self.start, float(self.since(self.end)), tolerance=tolerance
-        )
+        """Motion of the body with a tolerance per window."""
+        return Motion(self.body, self.above, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
-        """How often it turns in so long a time, at the speed of the start."""
+        """Turns of the body in a time, s, at the speed of the start."""
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
 
     def refuse_many_turns(self, begin: float, end: float) -> None:
@@ -279,32 +286,26 @@ def rotor(
     pulling: Pulling | None = None,
 ) -> Rotor:
     """The body at the start, what pulls on it, and neighbours with uncertain numbers changed."""
-    from earthspin.mass.inertia import polar_moment
     from earthspin.motion import neighbours
-    from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY
-    from earthspin.motion.forces import Forces
-    from earthspin.motion.rotation import start_of
 
     begin, end = epochs.span()
     epoch = begin * DAY
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
     figure = figure_of(body, spin_rate)
-    forces = (
-        switched_on(Forces(figure=figure, gm={}, positions=lambda times: {}), body, effects)
-        if pulling is None
-        else pulling.forces
-    )
+    if pulling is None:
+        alone = Forces(figure=figure, gm={}, positions=lambda times: {})
+        pulling = Pulling(switched_on(alone, body, effects))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
-        PULL: 0.0 if pulling is None else pulling.doubt,
-        ROUNDING: 0.0 if pulling is None else pulling.rounding,
+        PULL: pulling.doubt,
+        ROUNDING: pulling.rounding,
     }
     rigid, changed = neighbours.rigid_bodies(
-        forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
+        pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
     attitude = (
         neighbours.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
@@ -315,71 +316,85 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.above(forces, epoch),
+        neighbours.above(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,
         moment,
-        doubts[PULL],
-        "" if pulling is None else pulling.no_error,
+        pulling,
     )
 
 
 @part
 def motion(rotor: Rotor, accuracy: float | None) -> Motion:
     """The motion, by windows as fine as the accuracy needs; not yet followed."""
-    from earthspin.motion.rotation import tolerance_for
-
     return rotor.motion(tolerance_for(accuracy))
 
 
-_TIME = ("time",)
-_SERIES = ("time", "component")
-_SHARES = (
-    ("method", "the two ways of following it"),
-    ("input", "given numbers"),
-    ("kernel", "the positions of the bodies"),
-)
-
-
-def _errors(name: str, unit: str, of: str) -> dict[str, Variable]:
-    """The error of a quantity, and its shares."""
-    told = {f"{name}_error": Variable(_TIME, unit, f"95 % half-width of {of}, largest so far")}
-    for share, words in _SHARES:
-        told[f"{name}_error_{share}"] = Variable(_TIME, unit, f"share of {name}_error from {words}")
-    return told
-
-
-ROTATION = {
-    "attitude": Variable(
-        ("time", "quaternion"),
-        "1",
-        "unit quaternion, body to ICRF",
-        error="attitude_error",
-    ),
-    **_errors("attitude", "deg", "the angle of the attitude"),
-    "omega": Variable(_SERIES, "rad/s", "angular velocity along the principal axes"),
-    **_errors("omega", "rad/s", "the angular velocity"),
-    "angular_momentum": Variable(_SERIES, "kg m2 / s", "angular momentum along the ICRF"),
-    **_errors("angular_momentum", "kg m2 / s", "the angular momentum, C as given"),
+#: Shares of the errors.
+_CAUSES = {
+    "method": "the two ways of following it",
+    "input": "given numbers",
+    "kernel": "the positions of the bodies",
 }
 
 
-def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> Found:
+def _error(units: str, quantity: str) -> Any:
+    """Declare the error of a quantity."""
+    return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
+
+
+def _share(units: str, name: str, cause: str) -> Any:
+    """Declare the share of one cause in the error of a variable."""
+    return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
+
+
+class Attitudes(Dated, along=("time", "component")):
+    """Attitude, spin and angular momentum, each with its error and the shares of it."""
+
+    attitude: Value = number(
+        "1",
+        "unit quaternion, body to ICRF",
+        along=("time", "quaternion"),
+        error="attitude_error",
+    )
+    attitude_error: Value = _error("deg", "the angle of the attitude")
+    attitude_error_method: Value = _share("deg", "attitude", "method")
+    attitude_error_input: Value = _share("deg", "attitude", "input")
+    attitude_error_kernel: Value = _share("deg", "attitude", "kernel")
+    omega: Value = number(
+        "rad/s",
+        "angular velocity along the principal axes",
+        frame="principal axes of the body, C last",
+    )
+    omega_error: Value = _error("rad/s", "the angular velocity")
+    omega_error_method: Value = _share("rad/s", "omega", "method")
+    omega_error_input: Value = _share("rad/s", "omega", "input")
+    omega_error_kernel: Value = _share("rad/s", "omega", "kernel")
+    angular_momentum: Value = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
+    angular_momentum_error: Value = _error("kg m2 / s", "the angular momentum, C as given")
+    angular_momentum_error_method: Value = _share("kg m2 / s", "angular_momentum", "method")
+    angular_momentum_error_input: Value = _share("kg m2 / s", "angular_momentum", "input")
+    angular_momentum_error_kernel: Value = _share("kg m2 / s", "angular_momentum", "kernel")
+    component: Labels = labels(default=["x", "y", "z"])
+    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+
+
+def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
     """The motion at some times; a bar shows how many turns are left, if it takes long."""
-    total, told = round(rotor.turns(float(seconds[-1]) - begin)), 0
+    total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
 
-        def tell(reached: float) -> None:
-            nonlocal told
-            now = min(max(round(rotor.turns(reached - begin)), told), total)
-            advance(now - told)
-            told = now
+        def report(reached: float) -> None:
+            nonlocal shown
+            now = min(max(round(rotor.turns(reached - begin)), shown), total)
+            advance(now - shown)
+            shown = now
 
-        return motion.at(seconds, tell)
+        return motion.at(seconds, report)
 
 
-@part(gives=ROTATION)
+@part
 def turning(
     motion: Motion,
     rotor: Rotor,
@@ -389,11 +404,8 @@ def turning(
     accuracy: float | None,
     neglected: Neglected,
     block: Block | None = None,
-) -> xr.Dataset:
+) -> Attitudes:
     """Attitude, spin and angular momentum at every time, with what they may be off by."""
-    from earthspin.motion.march import FINEST
-    from earthspin.motion.rotation import KINDS, shares_of
-
     if block is None:
         refuse_what_does_not_fit(
             epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
@@ -404,43 +416,38 @@ def turning(
     seconds = rotor.since(now[order])
     begin = 0.0 if block.first == 0 else float(seconds[0])
     rotor.refuse_many_turns(begin, float(seconds[-1]))
-    found = _followed(motion, rotor, seconds, begin)
-    if accuracy is not None and float(found.error[0, 0].max()) > accuracy:
+    series = _followed(motion, rotor, seconds, begin)
+    if accuracy is not None and float(series.error[0, 0].max()) > accuracy:
         motion = rotor.motion(FINEST)
-        found = _followed(motion, rotor, seconds, begin)
+        series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    values: dict[str, FloatArray] = {
-        "attitude": found.attitude[back],
-        "omega": found.omega[back],
-        "angular_momentum": (size if rotor.body.unit > 0 else -size) * found.momentum[back],
+    shares = shares_of(series, rotor.changed, rotor.pulling.doubt)
+    errors = {
+        f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
+        for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
+        for share, error in shares.items()
     }
-    shares = shares_of(found, rotor.changed, rotor.doubt)
-    for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True)):
-        for share, error in shares.items():
-            values[f"{name}_error{share and f'_{share}'}"] = factor * error[kind][back]
-    worst = float(np.max(shares[""][0])) if not rotor.no_error else float("nan")
+    worst = float(np.max(shares[""][0])) if not rotor.pulling.no_error else float("nan")
     refuse_unkept(accuracy, worst, "mas", "the motion is known no better that long; ask for less")
-    result = build(
-        ROTATION,
-        values,
-        coords={
-            "time": ("time", datetime64(now), dict(DATES)),
-            "component": ["x", "y", "z"],
-            "quaternion": ["w", "x", "y", "z"],
+    comment = {"comment": f"error of the rigid model; not included: {neglected.largest}"}
+    return Attitudes(
+        time=datetime64(now),
+        attitude=series.attitude[back],
+        omega=series.omega[back],
+        angular_momentum=(size if rotor.body.unit > 0 else -size) * series.momentum[back],
+        **errors,
+    ).with_attributes(
+        no_error=rotor.pulling.no_error,
+        attitude_error={
+            **comment,
+            "method": f"Gauss windows of {motion.order} nodes, in two forms",
+            "evaluations": motion.evaluations,
+            **({} if start_attitude is not None else start_note(body)),
         },
-        no_error=rotor.no_error,
+        omega_error=comment,
+        angular_momentum_error=comment,
     )
-    for name in KINDS:
-        comment = f"error of the rigid model; not included: {neglected.largest}"
-        result[f"{name}_error"].attrs["comment"] = comment
-    result["angular_momentum"].attrs["frame"] = "ICRF"
-    result["omega"].attrs["frame"] = "principal axes of the body, C last"
-    result["attitude_error"].attrs |= {
-        "method": f"Gauss windows of {motion.order} nodes, in two forms",
-        "evaluations": motion.evaluations,
-    } | ({} if start_attitude is not None else start_note(body))
-    return result
 
 
 class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
@@ -453,26 +460,32 @@ def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAc
     return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
-DIVERGENCE = {
-    "growth": Variable(
-        _TIME,
+class Growth(Dated):
+    """Growth of the distance of neighbouring rotations."""
+
+    growth: Value = number(
         "1",
         "natural logarithm of how far neighbouring rotations have parted",
         no_error="its scatter is growth_rate_error",
-    ),
-    "growth_rate": Variable((), "1/s", "mean rate of growth; Lyapunov's exponent if chaotic"),
-    "growth_rate_error": Variable(
-        (), "1/s", "95 % half-width of the rate, from its scatter between stretches of the span"
-    ),
-    "course": Variable(
-        (), "", "chaotic, if neighbours part faster than by powers of time; regular"
-    ),
-}
-#: Given where the motion is chaotic.
-LYAPUNOV = {
-    "lyapunov_time": Variable((), "d", "time in which neighbours part e times as far"),
-    "lyapunov_time_error": Variable((), "d", "95 % half-width of that time"),
-}
+    )
+    growth_rate: Value = number(
+        "1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=()
+    )
+    growth_rate_error: Value = number(
+        "1/s",
+        "95 % half-width of the rate, from its scatter between stretches of the span",
+        along=(),
+    )
+    course: Value = words(
+        "chaotic, if neighbours part faster than by powers of time; regular", along=()
+    )
+    #: Only where the motion is chaotic.
+    lyapunov_time: Value | None = number(
+        "d", "time in which neighbours part e times as far", along=(), default=None
+    )
+    lyapunov_time_error: Value | None = number(
+        "d", "95 % half-width of that time", along=(), default=None
+    )
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
@@ -486,29 +499,25 @@ def parting(rotor: Rotor) -> Divergence:
     """The growth of the distance of a neighbour, brought back again and again."""
     from earthspin.motion.divergence import divergence
 
-    rotor.refuse_many_turns(0.0, float(rotor.since(rotor.end)))
-    return divergence(rotor.body, rotor.above, rotor.start, float(rotor.since(rotor.end)))
+    rotor.refuse_many_turns(0.0, rotor.duration)
+    return divergence(rotor.body, rotor.above, rotor.start, rotor.duration)
 
 
-@part(gives=DIVERGENCE, unless=one_date)
-def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> xr.Dataset:
+@part(unless=one_date)
+def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> Growth:
     """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
     now = epochs.days(0, epochs.size)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
-    values = {
-        "growth": parting.at(rotor.since(now)),
-        "growth_rate": rate,
-        "growth_rate_error": spread,
-        "course": "chaotic" if chaotic else "regular",
-    }
-    if chaotic:
-        values |= {"lyapunov_time": 1 / rate, "lyapunov_time_error": spread / rate**2}
-    return build(
-        DIVERGENCE | (LYAPUNOV if chaotic else {}),
-        values,
-        coords={"time": ("time", datetime64(now), dict(DATES))},
+    return Growth(
+        time=datetime64(now),
+        growth=parting.at(rotor.since(now)),
+        growth_rate=rate,
+        growth_rate_error=spread,
+        course="chaotic" if chaotic else "regular",
+        lyapunov_time=1 / rate if chaotic else None,
+        lyapunov_time_error=spread / rate**2 if chaotic else None,
     )
 
 
@@ -526,18 +535,17 @@ def neglected(
     epochs: TimeGrid | TimeList,
 ) -> Neglected:
     """Sizes at the last date of what the model leaves out; what has none is named."""
-    from earthspin.bodies.beyond_rigid import BEYOND_RIGID
-
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
-    usual = {one.name for one in pulled_by(body)}
-    if known is None or not usual <= {one.name for one in perturbers}:
+    usual = {perturber.name for perturber in pulled_by(body)}
+    if known is None or not usual <= {perturber.name for perturber in perturbers}:
         return Neglected(unknown=", ".join([_BEYOND, *off]))
     begin, end = epochs.span()
     sizes = known.after(end - begin)
     if no_iau_model(body) is None:  # the Earth, whose effects were measured from J2000.0
         sizes |= {
-            one: EFFECTS[one].size_at(abs(begin)) + EFFECTS[one].size_at(abs(end)) for one in off
+            name: EFFECTS[name].size_at(abs(begin)) + EFFECTS[name].size_at(abs(end))
+            for name in off
         }
         off = []
     return Neglected(
@@ -556,7 +564,7 @@ def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, 
         "j3": body.j3 != 0,
         "j4": body.j4 != 0,
         "triaxiality": body.triaxiality != 0,
-        "geodesic": "sun" in {one.name for one in perturbers},
+        "geodesic": "sun" in {perturber.name for perturber in perturbers},
         "j2-rate": body.j2_rate != 0,
     }
     return [name for name, would in moves.items() if would and name not in effects and perturbers]

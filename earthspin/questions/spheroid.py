@@ -9,10 +9,10 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.units import FloatArray, Number, Numbers, Relative
@@ -47,6 +47,8 @@ class Spheroid(
     [-8.148] m/s2
     """
 
+    views, page = "spheroid", "rotors"
+
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
         doc="coordinates from the centre, z along the axis"
@@ -64,45 +66,43 @@ class Spheroid(
 
 
 _VECTOR = ("point", "component")
-FIELD = covered_by(
-    "relative_error",
-    {
-        "position": Variable(
-            _VECTOR, "m", "coordinates of the point from the centre", no_error="as it was given"
-        ),
-        "potential": Variable(("point",), "J/kg", "gravitational potential"),
-        "attraction": Variable(_VECTOR, "m/s2", "acceleration of gravity"),
-        "torque": Variable(_VECTOR, "N m", "torque of the point mass on the spheroid"),
-        "relative_error": Variable(
-            ("point",),
-            "1",
-            "95 % half-width of potential, attraction and torque relative to their sizes",
-        ),
-    },
-)
+_FRAME = "principal axes of the spheroid, z along its axis"
 
 
-@part(gives=FIELD)
-def field(body: Body, position: FloatArray, point_mass: float) -> xr.Dataset:
+class Field(Variables, along=_VECTOR, error="relative_error"):
+    """Field of a spheroid at points, and its relative error."""
+
+    position: Value = number(
+        "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME
+    )
+    potential: Value = number("J/kg", "gravitational potential", along=("point",))
+    attraction: Value = number("m/s2", "acceleration of gravity", frame=_FRAME)
+    torque: Value = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
+    relative_error: Value = number(
+        "1",
+        "95 % half-width of potential, attraction and torque relative to their sizes",
+        along=("point",),
+    )
+    component: Labels = labels(default=["x", "y", "z"])
+
+
+@part
+def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     """Potential, attraction and torque of a homogeneous spheroid, exact."""
     from earthspin.mass import spheroid
 
-    of = SideBySide.of(gm=body.gm, radius=body.radius, flattening=body.flattening, mass=point_mass)
-    gm, radius, flattening, mass = of.columns("gm", "radius", "flattening", "mass")
+    numbers = SideBySide.of(
+        gm=body.gm, radius=body.radius, flattening=body.flattening, mass=point_mass
+    )
+    gm, radius, flattening, mass = numbers.columns("gm", "radius", "flattening", "mass")
     figure = gm, radius, flattening
-    scaled = position / radius[..., np.newaxis]
-    vectors = ("point", "component")
-    return build(
-        FIELD,
-        {
-            "position": position,
-            "potential": of.lay(spheroid.spheroid_potential(*figure, position), "point"),
-            "attraction": of.lay(spheroid.spheroid_attraction(*figure, position), *vectors),
-            "torque": of.lay(spheroid.spheroid_torque(*figure, mass, position), *vectors),
-            "relative_error": of.lay(spheroid.error_bound(flattening, scaled), "point"),
-        },
-        coords={"component": ["x", "y", "z"]},
-        frame="principal axes of the spheroid, z along its axis",
+    error = spheroid.error_bound(flattening, position / radius[..., np.newaxis])
+    return Field(
+        position=position,
+        potential=numbers.lay(spheroid.spheroid_potential(*figure, position), "point"),
+        attraction=numbers.lay(spheroid.spheroid_attraction(*figure, position), *_VECTOR),
+        torque=numbers.lay(spheroid.spheroid_torque(*figure, mass, position), *_VECTOR),
+        relative_error=numbers.lay(error, "point"),
     )
 
 

@@ -8,20 +8,18 @@ import numpy as np
 
 from earthspin.choosing.promises import Report
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, covered_by
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.times import FROM_START, Seconds, instants
+from earthspin.parts.times import FromStart, Seconds, instants
+from earthspin.top.start import HeavyTop
 from earthspin.units import Duration, FloatArray, Number, Relative, Whole
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.top.motion import HeavyTopMotion
-    from earthspin.top.start import HeavyTop
 
 #: Points of the effective potential, ends included.
 POTENTIAL_POINTS = 361
@@ -67,6 +65,8 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
+    views, page = "top", "rotors"
+
     exclusive = (("times",), ("duration", "points"))
 
     times: Seconds | None = setting(None, doc="times from the start")
@@ -88,9 +88,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
     def check(self) -> None:
-        """Such a top can be, and can start so."""
-        from earthspin.top.start import HeavyTop
-
+        """Refuse a top that cannot exist, or cannot start so."""
         HeavyTop(**{name: getattr(self, name) for name in _OF_THE_TOP})
 
 
@@ -123,8 +121,6 @@ def numbers(
 @part
 def heavy_top_start(numbers: SideBySide) -> HeavyTop:
     """The same, checked."""
-    from earthspin.top.start import HeavyTop
-
     return HeavyTop(**numbers.numbers)
 
 
@@ -136,100 +132,97 @@ def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
     return heavy_top_motion(heavy_top_start, instants)
 
 
-#: Instants at which the error is found where no accuracy is asked for.
-TOLD_BY = 64
-
-_TIME = ("time",)
-MOTION = covered_by(
-    "relative_error",
-    {
-        "theta": Variable(_TIME, "rad", "angle from the vertical to the axis"),
-        "phi": Variable(_TIME, "rad", "azimuth of the axis about the vertical"),
-        "psi": Variable(_TIME, "rad", "rotation angle of the body about its axis"),
-        "attitude": Variable(("time", "quaternion"), "1", "unit quaternion, body to inertial"),
-        "omega_body": Variable(
-            ("time", "component"), "rad/s", "angular velocity along the principal axes"
-        ),
-        "pattern": Variable((), "", "wave, cusp, loop, steady or sleeping"),
-        "nutation_period": Variable((), "s", "period of the nutation, the oscillation of theta"),
-        "mean_precession_rate": Variable((), "rad/s", "mean rate of phi"),
-        "relative_error": Variable(
-            (),
-            "1",
-            "95 % half-width of theta relative to itself, of the others relative to their largest "
-            "values, from rounding of the initial values and of the closed form",
-        ),
-    },
-)
+#: Instants at which the error is computed where no accuracy is asked for.
+ERROR_POINTS = 64
 
 
-@part(gives=MOTION)
+class Motion(FromStart, error="relative_error"):
+    """Motion of a top in time."""
+
+    theta: Value = number("rad", "angle from the vertical to the axis")
+    phi: Value = number("rad", "azimuth of the axis about the vertical")
+    psi: Value = number("rad", "rotation angle of the body about its axis")
+    attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
+    omega_body: Value = number(
+        "rad/s", "angular velocity along the principal axes", along=("time", "component")
+    )
+    pattern: Value = words("wave, cusp, loop, steady or sleeping", along=())
+    nutation_period: Value = number(
+        "s", "period of the nutation, the oscillation of theta", along=()
+    )
+    mean_precession_rate: Value = number("rad/s", "mean rate of phi", along=())
+    relative_error: Value = number(
+        "1",
+        "95 % half-width of theta relative to itself, of the others relative to their largest "
+        "values, from rounding of the initial values and of the closed form",
+        along=(),
+    )
+    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+
+
+@part
 def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
-) -> xr.Dataset:
+) -> Motion:
     """The motion of the top in time."""
     from earthspin.top.rounding import error_bound
 
     lay = numbers.lay
-    # the error grows with time: the last instants and some before tell it
-    told = instants[np.unique(np.linspace(0, instants.size - 1, TOLD_BY).astype(int))]
-    return build(
-        MOTION,
-        {
-            "theta": lay(motion.theta, "time"),
-            "phi": lay(motion.phi, "time"),
-            "psi": lay(motion.psi, "time"),
-            "attitude": lay(motion.attitude, "time", "quaternion"),
-            "omega_body": lay(motion.omega_body, "time", "component"),
-            "pattern": lay(motion.pattern),
-            "nutation_period": lay(motion.nutation_period),
-            "mean_precession_rate": lay(motion.precession_rate),
-            "relative_error": lay(error_bound(heavy_top_start, told)),
-        },
-        coords={
-            "time": ("time", instants, FROM_START),
-            "component": ["x", "y", "z"],
-            "quaternion": ["w", "x", "y", "z"],
-        },
+    # the error grows with time: the last instants and some before show it
+    some = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
+    return Motion(
+        theta=lay(motion.theta, "time"),
+        phi=lay(motion.phi, "time"),
+        psi=lay(motion.psi, "time"),
+        attitude=lay(motion.attitude, "time", "quaternion"),
+        omega_body=lay(motion.omega_body, "time", "component"),
+        pattern=lay(motion.pattern),
+        nutation_period=lay(motion.nutation_period),
+        mean_precession_rate=lay(motion.precession_rate),
+        relative_error=lay(error_bound(heavy_top_start, some)),
+        time=instants,
     )
 
 
-_AS_THE_MOTION = "same closed form as the motion, so its relative_error holds"
-TURNING = {
-    "turning_angle": Variable(
-        ("turning",), "rad", "smallest and largest theta", no_error=_AS_THE_MOTION
-    )
-}
+class Turning(
+    Variables,
+    along=("turning",),
+    no_error="same closed form as the motion, so its relative_error holds",
+):
+    """Angles between which the nutation runs."""
+
+    turning_angle: Value = number("rad", "smallest and largest theta")
+    turning: Labels = labels(default=["upper", "lower"])
 
 
-@part(gives=TURNING)
-def turning(motion: HeavyTopMotion) -> xr.Dataset:
+@part
+def turning(motion: HeavyTopMotion) -> Turning:
     """The angles theta between which the nutation runs."""
-    values = {"turning_angle": motion.turning_angle}
-    return build(TURNING, values, coords={"turning": ["upper", "lower"]})
+    return Turning(turning_angle=motion.turning_angle)
 
 
-POTENTIAL = {
-    "effective_potential": Variable(
-        ("inclination",),
-        "rad2 / s2",
-        "effective potential V, where alpha = theta'^2 + V is constant",
-        no_error="two terms of one formula, with rounding errors only",
+class Potential(
+    Variables,
+    along=("inclination",),
+    no_error="two terms of one formula, with rounding errors only",
+):
+    """Effective potential by inclination."""
+
+    effective_potential: Value = number(
+        "rad2 / s2", "effective potential V, where alpha = theta'^2 + V is constant"
     )
-}
+    inclination: Labels = labels("angle from the vertical", "deg")
 
 
-@part(gives=POTENTIAL)
-def potential(heavy_top_start: HeavyTop) -> xr.Dataset:
+@part
+def potential(heavy_top_start: HeavyTop) -> Potential:
     """The effective potential of the inclination."""
     from earthspin.top.turning import effective_potential
 
     inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]
-    degrees = {"units": "deg", "long_name": "angle from the vertical"}
-    return build(
-        POTENTIAL,
-        {"effective_potential": effective_potential(heavy_top_start, inclination)},
-        coords={"inclination": ("inclination", np.degrees(inclination), degrees)},
+    return Potential(
+        effective_potential=effective_potential(heavy_top_start, inclination),
+        inclination=np.degrees(inclination),
     )
 
 

@@ -12,14 +12,17 @@ from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key, made_of
+from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
+from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import DATES, Series, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import Dated, Series, epochs, refuse_what_does_not_fit
+from earthspin.torque.gravity import torque_error, torque_from_declination
+from earthspin.torque.neglected import largest_torque_on_figure
 from earthspin.units import AngleError
 
 if TYPE_CHECKING:
@@ -52,6 +55,8 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     >>> print(year.declination.sel(perturber="sun").max().round(3).values)
     23.439
     """
+
+    views, page = "torque", "theory"
 
     span: Span = key(
         ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
@@ -94,26 +99,30 @@ def nutation(
     return Nutation(start, end, epochs.size, model=nodes.model, spacing=nodes.spacing)
 
 
-_SERIES = ("time", "perturber")
-TORQUES = {
-    "right_ascension": Variable(
-        _SERIES, "deg", "right ascension, geometric", error="direction_error"
-    ),
-    "declination": Variable(_SERIES, "deg", "declination, geometric", error="direction_error"),
-    "distance": Variable(_SERIES, "m", "distance between the centres"),
-    "torque": Variable(
-        (*_SERIES, "component"),
+class Torques(Dated, along=("time", "perturber")):
+    """Positions of the perturbers, and their torques."""
+
+    right_ascension: Value = number("deg", "right ascension, geometric", error="direction_error")
+    declination: Value = number("deg", "declination, geometric", error="direction_error")
+    distance: Value = number("m", "distance between the centres")
+    torque: Value = number(
         "N m",
         "torque on the equatorial bulge",
+        along=("time", "perturber", "component"),
         error="torque_magnitude_error",
-    ),
-    **with_error("torque_magnitude", Variable(_SERIES, "N m", "magnitude of the torque")),
-    "direction_error": Variable(("perturber",), "deg", "bound on right ascension and declination"),
-    "distance_error": Variable(("perturber",), "m", "bound on the distance from the kernel"),
-}
+    )
+    torque_magnitude: Pair = measured("N m", "magnitude of the torque")
+    direction_error: Value = number(
+        "deg", "bound on right ascension and declination", along=("perturber",)
+    )
+    distance_error: Value = number(
+        "m", "bound on the distance from the kernel", along=("perturber",)
+    )
+    perturber: Labels = labels()
+    component: Labels = labels(default=["x", "y", "z"])
 
 
-@part(gives=TORQUES)
+@part
 def torques(
     epochs: TimeGrid | TimeList,
     sky: Sky,
@@ -124,12 +133,9 @@ def torques(
     nutation: Nutation | None = None,
     chosen_nutation: Choice[NutationNodes | None] | None = None,
     block: Block | None = None,
-) -> xr.Dataset:
+) -> Torques:
     """Declination, distance and torque of each perturber at every time."""
     import xarray as xr
-
-    from earthspin.mass.inertia import moment_difference
-    from earthspin.torque.gravity import torque_error, torque_from_declination
 
     if block is None:
         refuse_what_does_not_fit(
@@ -150,11 +156,11 @@ def torques(
     def stack(
         values: list[NDArray[np.float64]], *dims: str, times: Numeric | None = None
     ) -> xr.DataArray:
-        found = xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
+        array = xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
         if times is None or hasattr(times, "dims"):
-            return found if times is None else found * times
-        found.values *= times  # in place: fresh memory costs more than the product
-        return found
+            return array if times is None else array * times
+        array.values *= times  # in place: fresh memory costs more than the product
+        return array
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
@@ -171,33 +177,25 @@ def torques(
         )
         for p in perturbers
     ]
-    result = build(
-        TORQUES,
-        {
-            "right_ascension": stack([seen[name][0] for name in names]),
-            "declination": stack([seen[name][1] for name in names]),
-            "distance": stack([seen[name][2] for name in names]),
-            "torque": stack(per_bulge, "component", times=bulge),
-            "torque_magnitude": stack(
-                [np.linalg.norm(t, axis=-1) for t in per_bulge], times=abs(bulge)
-            ),
-            "torque_magnitude_error": stack(error, times=abs(bulge)),
-            "direction_error": [kernel_error[name][0] for name in names],
-            "distance_error": [kernel_error[name][1] for name in names],
-        },
-        coords={
-            "time": ("time", datetime64(now), dict(DATES)),
-            "perturber": names,
-            "component": ["x", "y", "z"],
-        },
-        frame=f"{equator} equator and equinox of date",
+    magnitudes = [np.linalg.norm(t, axis=-1) for t in per_bulge]
+    return Torques(
+        time=datetime64(now),
+        perturber=names,
+        right_ascension=stack([seen[name][0] for name in names]),
+        declination=stack([seen[name][1] for name in names]),
+        distance=stack([seen[name][2] for name in names]),
+        torque=stack(per_bulge, "component", times=bulge),
+        torque_magnitude=(stack(magnitudes, times=abs(bulge)), stack(error, times=abs(bulge))),
+        direction_error=[kernel_error[name][0] for name in names],
+        distance_error=[kernel_error[name][1] for name in names],
+    ).with_attributes(
         no_error=sky.no_error,
+        torque={"frame": f"{equator} equator and equinox of date"},
+        direction_error={
+            "method": _equator_words(equator, nutation, chosen_nutation),
+            "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
+        },
     )
-    result["direction_error"].attrs |= {
-        "method": _equator_words(equator, nutation, chosen_nutation),
-        "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
-    }
-    return result
 
 
 def _equator_words(
@@ -224,8 +222,6 @@ def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAcc
 @part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
     """Largest torque of each part of the figure beyond the bulge, at the nearest distance."""
-    from earthspin.torque.neglected import largest_torque_on_figure
-
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")

@@ -5,7 +5,7 @@ A rung is a model that adds one effect to the model before.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -15,11 +15,25 @@ from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.asking import ask
-from earthspin.engine.labels import Variable, build, with_error, without_error
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, made_of, setting
-from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.engine.variables import (
+    Labels,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+    words,
+)
+from earthspin.interior.equilibrium import equilibrium
+from earthspin.interior.love import elastic
+from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
+from earthspin.interior.ocean import global_ocean
+from earthspin.interior.rotation import chandler_by_core
+from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.parts.layered import (
     interior_of,
     layers_of,
@@ -29,13 +43,12 @@ from earthspin.parts.layered import (
     refuse_unknown,
 )
 from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.units import FloatArray, Number
+from earthspin.rotor.axisymmetric import free_wobble_error
+from earthspin.units import Number
+from earthspin.wobble import ladder, propagation
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.interior.named import Interior
-    from earthspin.wobble.ladder import Inputs, Spin
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
@@ -66,6 +79,8 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     >>> print(earthspin.wobble_ladder().period_solar.round(1).values)
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
+
+    views, page = "wobble", "wobble"
 
     body: Body = key(EARTH, doc="body that wobbles")
     ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")
@@ -112,19 +127,28 @@ class Inside:
         One standard deviation over value, of the body's numbers and the interior's.
     """
 
-    inputs: Inputs
-    spin: Spin
+    inputs: ladder.Inputs
+    spin: ladder.Spin
     interior: Interior
     ocean: str
     dims: tuple[str, ...]
     uncertainty: Mapping[str, float]
 
-    def label(self, value: FloatArray) -> xr.DataArray:
+    @property
+    def setting(self) -> tuple[ladder.Spin, Interior, str]:
+        """Arguments of the rungs behind their inputs."""
+        return self.spin, self.interior, self.ocean
+
+    def label(self, value: Numeric) -> xr.DataArray:
         """Give back their names to arrays of the body's own dimensions."""
         import xarray as xr
 
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
+
+    def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
+        """Lay arrays of these dimensions side by side along a new one."""
+        return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 
 @part(unless=why_rigid)
@@ -132,59 +156,46 @@ def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
     """Inputs of the upper rungs, from the body, its interior and the ocean."""
     import xarray as xr
 
-    from earthspin.wobble import ladder
-
     interior = interior_of(body)
     assert interior is not None
-    numbers = [xr.DataArray(body.needed(name)) for name in (*_FIGURE, *_SPIN)]
-    numbers = list(xr.broadcast(*numbers))
-    dims = tuple(str(d) for d in numbers[0].dims)
-    values = dict(zip((*_FIGURE, *_SPIN), (n.values for n in numbers), strict=True))
+    names = (*_FIGURE, *_SPIN)
+    numbers = xr.broadcast(*(xr.DataArray(body.needed(name)) for name in names))
+    values = {name: number.values for name, number in zip(names, numbers, strict=True)}
     spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
     inputs = ladder.inputs_of(interior, spin, values, ocean, anelastic_exponent)
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
-    return Inside(inputs, spin, interior, ocean, dims, uncertainty)
+    return Inside(inputs, spin, interior, ocean, tuple(map(str, numbers[0].dims)), uncertainty)
 
 
 # --- the answer ------------------------------------------------------------------------------
 
-_RUNG = ("rung",)
-LADDER = without_error(
-    "its relative error is that of period_solar; the quality factor follows from published ones",
-    {
-        **with_error(
-            "period_solar",
-            Variable(_RUNG, "d", "period of the free wobble in days of 86400 s"),
-        ),
-        "period_sidereal": Variable(
-            _RUNG, "1", "period of the free wobble in turns of the body, its sidereal days"
-        ),
-        "factor": Variable(_RUNG, "1", "ratio of the period to that of the rung before"),
-        "quality_factor": Variable(
-            _RUNG,
-            "1",
-            "quality factor of the free wobble",
-            (
-                (
-                    "comment",
-                    "infinite without dissipation; the exponent of anelasticity is a free choice, "
-                    "so the anelastic rung is a check of consistency, not a prediction",
-                ),
-            ),
-        ),
-        "rung_formula": Variable(
-            _RUNG, "", "formula for the turns of the body per wobble, with its source"
-        ),
-    },
-)
+
+class Rungs(
+    Variables,
+    along=("rung",),
+    no_error="its relative error is that of period_solar; the quality factor follows from "
+    "published ones",
+):
+    """The free wobble, rung by rung."""
+
+    period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
+    period_sidereal: Value = number(
+        "1", "period of the free wobble in turns of the body, its sidereal days"
+    )
+    factor: Value = number("1", "ratio of the period to that of the rung before")
+    quality_factor: Value = number(
+        "1",
+        "quality factor of the free wobble",
+        comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
+        "so the anelastic rung is a check of consistency, not a prediction",
+    )
+    rung_formula: Value = words("formula for the turns of the body per wobble, with its source")
 
 
-@part(gives=LADDER)
-def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
+@part
+def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     """Free wobble, from the formula with the flattening to a deformable body."""
     import xarray as xr
-
-    from earthspin.wobble import ladder, propagation
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
     turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
@@ -192,66 +203,60 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> xr.Dataset:
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
     if inside is not None:
-        climbed = ladder.climb(inside.inputs, inside.spin, inside.interior, inside.ocean)
+        climbed = ladder.climb(inside.inputs, *inside.setting)
         left_out = climbed.left_out
-        label = inside.label
-        turns |= {name: label(value) for name, value in climbed.turns.items()}
-        quality |= {name: label(value) for name, value in climbed.quality_factor.items()}
         sampled = propagation.sampled_half_widths(
-            inside.inputs, inside.uncertainty, inside.spin, inside.interior, inside.ocean
+            inside.inputs, inside.uncertainty, *inside.setting
         )
-        spread |= {name: label(value) for name, value in sampled.items()}
-    period = _along(turns, "rung") * abs(body.needed("spin_period"))
+        for lower, upper in (
+            (turns, climbed.turns),
+            (quality, climbed.quality_factor),
+            (spread, sampled),
+        ):
+            lower |= {name: inside.label(value) for name, value in upper.items()}
+    sidereal, day = _along(turns, "rung"), abs(body.needed("spin_period"))
+    period = sidereal * day
     like = xr.zeros_like(period)
-    result = build(
-        LADDER,
-        {
-            "period_solar": period,
-            "period_solar_error": _along(spread, "rung") * abs(body.needed("spin_period")) + like,
-            "period_sidereal": _along(turns, "rung") + like,
-            "factor": period.copy(data=ladder.factors(_along(turns, "rung").values)),
-            "quality_factor": _along(quality, "rung") + like,
-            "rung_formula": np.array([ladder.FORMULAS[name] for name in turns]),
-        },
+    rungs = Rungs(
+        period_solar=(period, _along(spread, "rung") * day + like),
+        period_sidereal=sidereal + like,
+        factor=period.copy(data=ladder.factors(sidereal.values)),
+        quality_factor=_along(quality, "rung") + like,
+        rung_formula=np.array([ladder.FORMULAS[name] for name in turns]),
     )
-    if inside is not None:
-        result.period_solar_error.attrs["draws"] = propagation.DRAWS
-        result.rung.attrs["references"] = "; ".join(
-            (inside.interior.reference, ANELASTIC_EXPONENT.source)
-        )
-    result.rung.attrs["left_out"] = "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"
-    return result
+    rung = {"left_out": "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"}
+    if inside is None:
+        return rungs.with_attributes(rung=rung)
+    references = "; ".join((inside.interior.reference, ANELASTIC_EXPONENT.source))
+    return rungs.with_attributes(
+        period_solar_error={"draws": propagation.DRAWS}, rung={"references": references, **rung}
+    )
 
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
     """95 % half-widths of the rigid rungs: relative errors of f and of H."""
     import xarray as xr
 
-    from earthspin.rotor.axisymmetric import free_wobble_error
+    spread: dict[str, Numeric] = {}
+    for name, value in turns.items():
+        from_flattening = name == "flattening"
+        field = "flattening" if from_flattening else "dynamical_flattening"
+        uncertainty = body.relative_uncertainty.get(field, 0.0)
+        h = 0.0 if from_flattening else body.needed(field)
+        spread[name] = (
+            free_wobble_error(value, h, uncertainty)
+            if uncertainty
+            else xr.zeros_like(xr.DataArray(value))  # labels and all
+        )
+    return spread
 
-    u = body.relative_uncertainty
-    fields = {"flattening": "flattening"}
-    shares = {n: u.get(fields.get(n, "dynamical_flattening"), 0.0) for n in turns}
-    h = {n: 0.0 if n in fields else body.needed("dynamical_flattening") for n in turns}
-    return {
-        name: free_wobble_error(value, h[name], shares[name])
-        if shares[name]
-        else xr.zeros_like(xr.DataArray(value))  # labels and all
-        for name, value in turns.items()
-    }
 
-
-def _along(
-    values: Mapping[str, Numeric],
-    dim: str,
-    label: Callable[[FloatArray], xr.DataArray] | None = None,
-) -> xr.DataArray:
+def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
     """Arrays laid side by side along a new dimension, their names its labels."""
     import xarray as xr
 
-    parts = [(label or xr.DataArray)(value) for value in values.values()]
     return xr.concat(
-        xr.broadcast(*parts),
+        xr.broadcast(*map(xr.DataArray, values.values())),
         dim=xr.Variable(dim, list(values)),
         coords="minimal",
         compat="override",
@@ -260,135 +265,97 @@ def _along(
 
 # --- sections --------------------------------------------------------------------------------
 
-INTERIOR = without_error(
-    "the section sensitivity gives the effect of its uncertainty on the period",
-    {
-        "love_number": Variable(("love",), "1", "Love number of degree two, elastic, at 1 s"),
-        "moment_factor": Variable((), "1", "moment of inertia of the model, divided by M R2"),
-        "core_fraction": Variable(
-            (), "1", "ratio of the moment of inertia of the core to that of the body"
-        ),
-        "fluid_love_number": Variable((), "1", "k2 if the body were liquid throughout"),
-        "global_ocean_love_number": Variable(
-            (), "1", "increase of k2 by an ocean that covers the whole body, in closed form"
-        ),
-    },
-)
+
+class InteriorNumbers(
+    Variables, no_error="the section sensitivity gives the effect of its uncertainty on the period"
+):
+    """Love numbers and moments of the layered interior."""
+
+    love_number: Value = number("1", "Love number of degree two, elastic, at 1 s", along=("love",))
+    moment_factor: Value = number("1", "moment of inertia of the model, divided by M R2")
+    core_fraction: Value = number(
+        "1", "ratio of the moment of inertia of the core to that of the body"
+    )
+    fluid_love_number: Value = number("1", "k2 if the body were liquid throughout")
+    global_ocean_love_number: Value = number(
+        "1", "increase of k2 by an ocean that covers the whole body, in closed form"
+    )
+    love: Labels = labels(default=["k2", "h2", "l2", "k2_load", "h2_load"])
 
 
-@part(gives=INTERIOR, unless=not_layered)
-def interior_response(body: Body) -> xr.Dataset:
+@part(unless=not_layered)
+def interior_response(body: Body) -> InteriorNumbers:
     """Love numbers and moments of the layered interior, by integration."""
-    from earthspin.interior.equilibrium import equilibrium
-    from earthspin.interior.love import elastic
-    from earthspin.interior.ocean import global_ocean
-
     layers = layers_of(body)
     love = elastic(layers)
-    names = ("k", "h", "l", "k_load", "h_load")
-    result = build(
-        INTERIOR,
-        {
-            "love_number": np.array([float(getattr(love, name)) for name in names]),
-            "moment_factor": layers.moment_factor,
-            "core_fraction": layers.core_fraction,
-            "fluid_love_number": equilibrium(layers).k,
-            "global_ocean_love_number": global_ocean(layers),
-        },
-        coords={"love": ("love", ["k2", "h2", "l2", "k2_load", "h2_load"])},
+    numbers = (love.k, love.h, love.l, love.k_load, love.h_load)
+    return InteriorNumbers(
+        love_number=np.array([float(value) for value in numbers]),
+        moment_factor=layers.moment_factor,
+        core_fraction=layers.core_fraction,
+        fluid_love_number=equilibrium(layers).k,
+        global_ocean_love_number=global_ocean(layers),
+    ).with_attributes(love_number={"references": layers.reference})
+
+
+class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
+    """Dependence of the last rung on each input."""
+
+    days_per_unit: Value = number("d", "change of the last rung per unit of the input")
+    input_value: Value = number("1", "value of the input")
+    input_half_width: Value = number("1", "95 % half-width of the input")
+    days_from_input: Value = number(
+        "d", "95 % half-width of the last rung from the uncertainty of the input"
     )
-    result.love_number.attrs["references"] = layers.reference
-    return result
 
 
-SENSITIVITY = without_error(
-    "a share of an error, or an input of it",
-    {
-        "days_per_unit": Variable(("input",), "d", "change of the last rung per unit of the input"),
-        "input_value": Variable(("input",), "1", "value of the input"),
-        "input_half_width": Variable(("input",), "1", "95 % half-width of the input"),
-        "days_from_input": Variable(
-            ("input",), "d", "95 % half-width of the last rung from the uncertainty of the input"
-        ),
-    },
-)
-
-
-@part(gives=SENSITIVITY)
-def sensitivity(inside: Inside) -> xr.Dataset:
+@part
+def sensitivity(inside: Inside) -> Sensitivity:
     """Days of the last rung per unit of each input."""
-    from earthspin.wobble import ladder, propagation
-
-    settings = (inside.spin, inside.interior, inside.ocean)
-    slopes = propagation.sensitivities(inside.inputs, *settings)
-    anelastic = "anelastic" in ladder.climb(inside.inputs, *settings).turns
-    half = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
-
-    def stack(parts: Mapping[str, Numeric]) -> xr.DataArray:
-        return _along(parts, "input", inside.label)
-
-    return build(
-        SENSITIVITY,
-        {
-            "days_per_unit": stack(slopes) * DAY,
-            "input_value": stack(vars(inside.inputs)),
-            "input_half_width": stack(half),
-            "days_from_input": abs(stack(slopes) * stack(half)) * DAY,
-        },
+    slopes = propagation.sensitivities(inside.inputs, *inside.setting)
+    anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
+    half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
+    slope, half_width = inside.stack(slopes, "input"), inside.stack(half_widths, "input")
+    return Sensitivity(
+        days_per_unit=slope * DAY,
+        input_value=inside.stack(vars(inside.inputs), "input"),
+        input_half_width=half_width,
+        days_from_input=abs(slope * half_width) * DAY,
     )
 
 
-CORE_NUTATION = without_error(
-    "the uncertainty of the core was not propagated to it",
-    {
-        "free_core_nutation": Variable(
-            ("core_shape",), "d", "period of the free core nutation in space"
-        ),
-        "free_core_nutation_sidereal": Variable(
-            ("core_shape",), "1", "period of the free core nutation in turns of the body"
-        ),
-    },
-)
+class CoreNutation(
+    Variables,
+    along=("core_shape",),
+    no_error="the uncertainty of the core was not propagated to it",
+):
+    """The free core nutation, by the shape of the core."""
+
+    free_core_nutation: Value = number("d", "period of the free core nutation in space")
+    free_core_nutation_sidereal: Value = number(
+        "1", "period of the free core nutation in turns of the body"
+    )
 
 
-@part(gives=CORE_NUTATION)
-def core_nutation(inside: Inside, body: Body) -> xr.Dataset:
+@part
+def core_nutation(inside: Inside, body: Body) -> CoreNutation:
     """Free core nutation, the other root of the equations, by the shape of the core."""
-    from earthspin.wobble import ladder
-
     shapes = {"hydrostatic": inside.inputs}
+    attributes = {}
     observed = inside.interior.observed_core_ellipticity
     # observed in the body itself, not in one that has been changed
     if observed is not None and body.observed_wobble is not None:
         shapes["observed"] = replace(inside.inputs, core_ellipticity=observed.value)
-    settings = (inside.spin, inside.interior, inside.ocean)
+        attributes["references"] = observed.source
     turns = {
-        name: inside.label(ladder.climb(i, *settings).core_turns["fluid-core"])
-        for name, i in shapes.items()
+        name: ladder.climb(inputs, *inside.setting).core_turns["fluid-core"]
+        for name, inputs in shapes.items()
     }
-    nutation = _along(turns, "core_shape") * body.needed("spin_period")
-    result = build(
-        CORE_NUTATION,
-        {
-            "free_core_nutation": nutation,
-            "free_core_nutation_sidereal": nutation / abs(body.needed("spin_period")),
-        },
-    )
-    if observed is not None and "observed" in shapes:
-        result.free_core_nutation.attrs["references"] = observed.source
-    return result
-
-
-INNER_CORE = without_error(
-    "the section interior has the numbers that it follows from, which have none",
-    {
-        "chandler_by_core": Variable(
-            ("core_model",),
-            "d",
-            "period of the free wobble of the elastic body without an ocean, by the inner core",
-        ),
-    },
-)
+    nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
+    return CoreNutation(
+        free_core_nutation=nutation,
+        free_core_nutation_sidereal=nutation / abs(body.needed("spin_period")),
+    ).with_attributes(free_core_nutation=attributes)
 
 
 def no_inner_core(body: Body) -> str | None:
@@ -400,19 +367,27 @@ def no_inner_core(body: Body) -> str | None:
     return None if layers_of(body).inner_core_radius else "it has no inner core"
 
 
-@part(gives=INNER_CORE, unless=(why_rigid, no_inner_core))
-def inner_core(body: Body) -> xr.Dataset:
-    """What a solid inner core does to the free wobble: the same system with all of its parts."""
-    from earthspin.interior.rotation import chandler_by_core
-    from earthspin.mass.inertia import ellipticity_from_h
+class InnerCore(
+    Variables,
+    along=("core_model",),
+    no_error="the section interior has the numbers that it follows from, which have none",
+):
+    """The free wobble, by the model of the inner core."""
 
+    chandler_by_core: Value = number(
+        "d", "period of the free wobble of the elastic body without an ocean, by the inner core"
+    )
+    core_model: Labels = labels()
+
+
+@part(unless=(why_rigid, no_inner_core))
+def inner_core(body: Body) -> InnerCore:
+    """What a solid inner core does to the free wobble: the same system with all of its parts."""
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
-    found = chandler_by_core(layers_of(body), e, abs(float(body.spin_rate)))
-    turn = abs(body.number("spin_period"))
-    return build(
-        INNER_CORE,
-        {"chandler_by_core": [turn * turns for turns in found.values()]},
-        coords={"core_model": list(found)},
+    turns = chandler_by_core(layers_of(body), e, abs(float(body.spin_rate)))
+    day = abs(body.number("spin_period"))
+    return InnerCore(
+        chandler_by_core=[day * turn for turn in turns.values()], core_model=list(turns)
     )
 
 

@@ -153,11 +153,8 @@ def _files(
         raise SeriesError(", ".join(map(str, given)), "there is no file")
     if components is None:
         if len(found) > 1 and "" in found:
-            raise SeriesError(
-                found[""][0],
-                "its name does not tell its component",
-                f"names hold one of {', '.join(COMPONENTS)}",
-            )
+            problem = "its name does not tell its component"
+            raise SeriesError(found[""][0], problem, f"names hold one of {', '.join(COMPONENTS)}")
         return found
     wanted = list(components)
     if not wanted:
@@ -165,11 +162,8 @@ def _files(
         raise SeriesError(", ".join(map(str, given)), "no component is named", words)
     for word in wanted:
         if word not in found:
-            raise SeriesError(
-                ", ".join(map(str, given)),
-                f"there is no component {word!r}",
-                nearest(word, found) if any(found) else "names of files do not tell components",
-            )
+            remedy = nearest(word, found) if any(found) else "names of files do not tell components"
+            raise SeriesError(", ".join(map(str, given)), f"there is no component {word!r}", remedy)
     return {word: found[word] for word in wanted}
 
 
@@ -184,24 +178,18 @@ def _joined(files: list[Path]) -> AngularMomentum:
         if row.mjd > last.mjd + SAME_TIME:
             kept.append(row)
         elif (row.mass, row.motion) != (last.mass, last.motion):
-            raise SeriesError(
-                row.file,
+            problem = (
                 f"MJD {row.mjd:.3f} stands twice, in line {last.line} of '{last.file.name}' with "
-                "other numbers",
-                "keep one of them",
-                row.line,
+                "other numbers"
             )
+            raise SeriesError(row.file, problem, "keep one of them", row.line)
     mjd = np.array([row.mjd for row in kept])
     steps = np.diff(mjd)
     uneven = abs(steps - np.median(steps)) > SAME_TIME
     if np.any(uneven):
         bad = kept[int(np.argmax(uneven)) + 1]
-        raise SeriesError(
-            bad.file,
-            f"the step changes before MJD {bad.mjd:.3f}",
-            "even steps are needed; is a file missing?",
-            bad.line,
-        )
+        problem = f"the step changes before MJD {bad.mjd:.3f}"
+        raise SeriesError(bad.file, problem, "even steps are needed; is a file missing?", bad.line)
     return AngularMomentum(
         mjd, np.array([row.mass for row in kept]), np.array([row.motion for row in kept])
     )
@@ -216,24 +204,18 @@ def _rows(file: Path) -> Iterable[_Row]:
         if not words or not is_number(words[0]):
             continue
         if len(words) not in (8, 11):
-            raise SeriesError(
-                file, f"{len(words)} columns", "8 or 11 are expected; is it cut off?", line=number
-            )
+            problem = f"{len(words)} columns"
+            raise SeriesError(file, problem, "8 or 11 are expected; is it cut off?", line=number)
         *calendar, mjd = numbers(file, number, words[:5])
         check_calendar(file, number, calendar, mjd)
         if mjd < last:
-            raise SeriesError(
-                file, f"MJD {mjd:.3f} comes after {last:.3f}", "time runs backwards", line=number
-            )
+            problem = f"MJD {mjd:.3f} comes after {last:.3f}"
+            raise SeriesError(file, problem, "time runs backwards", line=number)
         last = mjd
         terms = numbers(file, number, words[5:])
         mass, motion = complex(*terms[:2]), complex(*terms[3:5])
         for one in (mass, motion):
             if not abs(one) <= LARGEST:
-                raise SeriesError(
-                    file,
-                    f"excitation {one:.3g} is no such number",
-                    "radians are wanted",
-                    line=number,
-                )
+                problem = f"excitation {one:.3g} is no such number"
+                raise SeriesError(file, problem, "radians are wanted", line=number)
         yield _Row(file, number, mjd, mass, motion)

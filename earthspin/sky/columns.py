@@ -97,12 +97,8 @@ def refuse_text_between(file: Path, lines: list[str]) -> None:
     text = text_between(lines, starts_with_number)
     if text:
         count = f"{len(text)} line{'s' * (len(text) > 1)}"
-        raise SeriesError(
-            file,
-            f"{count} among the rows does not begin with a number",
-            "correct it, or begin a comment with #",
-            text[0],
-        )
+        problem = f"{count} among the rows does not begin with a number"
+        raise SeriesError(file, problem, "correct it, or begin a comment with #", text[0])
 
 
 def numbers(file: Path, line: int, words: list[str]) -> list[float]:
@@ -139,14 +135,9 @@ def check_calendar(file: Path, line: int, calendar: list[float], mjd: float) -> 
     try:
         first = datetime.date(int(year), int(month), int(day)).toordinal() - _FIRST_DAY
     except (ValueError, OverflowError):
-        raise SeriesError(
-            file, f"there is no day {year:g}-{month:g}-{day:g}", "is a column lost?", line
-        ) from None
+        problem = f"there is no day {year:g}-{month:g}-{day:g}"
+        raise SeriesError(file, problem, "is a column lost?", line) from None
     expected = first + hour / 24
     if not abs(mjd - expected) <= _SAME_DATE:
-        raise SeriesError(
-            file,
-            f"MJD {mjd:.2f} stands beside the calendar's date of MJD {expected:.2f}",
-            "the two must agree; is a column lost?",
-            line,
-        )
+        problem = f"MJD {mjd:.2f} stands beside the calendar's date of MJD {expected:.2f}"
+        raise SeriesError(file, problem, "the two must agree; is a column lost?", line)

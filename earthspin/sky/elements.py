@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.numerics.kepler import eccentric_anomaly
+from earthspin.sky.equator import fixed_equator
 from earthspin.sky.poles import Direction, Pole
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
@@ -76,8 +77,6 @@ class Plane:
         if word == "orbit":
             return cls(tuple(pole.orbit_axes(orbit).ravel().tolist()))
         if orbit is None and not pole.of_the_iau:
-            from earthspin.sky.equator import fixed_equator
-
             rows = fixed_equator(pole.true(0.0), np.array([0.0, 0.0, -1.0]))
         else:
             rows = pole.equator(orbit, np.zeros(1)).reshape(3, 3)

@@ -102,12 +102,11 @@ class PoleSeries:
         """
         inside = (self.mjd >= first) & (self.mjd <= last)
         if np.count_nonzero(inside) < 2:
-            raise SeriesError(
-                self.name,
+            problem = (
                 f"it covers MJD {self.mjd[0]:.2f} to {self.mjd[-1]:.2f}, not {first:.2f} to "
-                f"{last:.2f}",
-                "choose a span inside it",
+                f"{last:.2f}"
             )
+            raise SeriesError(self.name, problem, "choose a span inside it")
         return replace(
             self,
             **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)},
@@ -175,12 +174,10 @@ def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
         columns = columns or len(words)
         if len(words) != columns or columns not in _C04_LAYOUTS:
             allowed = " or ".join(map(str, _C04_LAYOUTS))
-            raise SeriesError(
-                file,
-                f"{len(words)} columns",
-                f"{allowed} are expected, as many in each row; is it cut off, or a column lost?",
-                number,
+            remedy = (
+                f"{allowed} are expected, as many in each row; is it cut off, or a column lost?"
             )
+            raise SeriesError(file, f"{len(words)} columns", remedy, number)
         first, errors = _C04_LAYOUTS[columns]
         *calendar, mjd, x, y = numbers(file, number, words[: first + 3])
         check_calendar(file, number, [*calendar, 0.0][:4], mjd)
@@ -201,21 +198,16 @@ def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
             continue
         columns = columns or len(words)
         if len(words) != columns or columns < 5:
-            raise SeriesError(
-                file, f"{len(words)} columns", "5 or more are expected, as many in each row", number
-            )
+            problem = f"{len(words)} columns"
+            raise SeriesError(file, problem, "5 or more are expected, as many in each row", number)
         if columns == _C01_COLUMNS:
             mjd, x, y = numbers(file, number, words[:3])
             x_error, y_error = numbers(file, number, words[6:8])
         else:
             year, x, x_error, y, y_error = numbers(file, number, words[:5])
             if not 1800 <= year <= 2200:
-                raise SeriesError(
-                    file,
-                    f"the year is {year:g}",
-                    f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns",
-                    number,
-                )
+                remedy = f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns"
+                raise SeriesError(file, f"the year is {year:g}", remedy, number)
             # Besselian years, to the millisecond of arc that this table has.
             mjd = 15019.81352 + (year - 1900.0) * 365.242198781
         yield _Row(number, mjd, (x, y, x_error, y_error))
@@ -271,9 +263,8 @@ def _kind(file: Path, lines: list[str]) -> str:
         if by_date or ("." in words[0] and 1800 <= float(words[0]) <= 2200):
             return "c01"
         break
-    raise SeriesError(
-        file, "it is none of the known tables", f"name its kind: {', '.join(_READERS)}"
-    )
+    problem = "it is none of the known tables"
+    raise SeriesError(file, problem, f"name its kind: {', '.join(_READERS)}")
 
 
 # --- what can be wrong ---------------------------------------------------------------------------
@@ -285,12 +276,9 @@ def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[s
     lost = sorted([*text, *({row.line for row in rows} - {row.line for row in kept})])
     if lost:
         if len(lost) > max(1, LOST * (len(kept) + len(lost))):
-            raise SeriesError(
-                file,
-                f"{len(lost)} of {len(kept) + len(lost)} rows hold no numbers",
-                f"at most {LOST:.0%} are left out; is the file damaged?",
-                lost[0],
-            )
+            problem = f"{len(lost)} of {len(kept) + len(lost)} rows hold no numbers"
+            remedy = f"at most {LOST:.0%} are left out; is the file damaged?"
+            raise SeriesError(file, problem, remedy, lost[0])
         repairs.append(f"{len(lost)} rows without numbers left out, the first in line {lost[0]}")
     return kept
 
@@ -305,27 +293,18 @@ def _check_size(file: Path, rows: list[_Row]) -> None:
     for row in rows:
         x, y, *errors = row.values
         if max(abs(x), abs(y)) > LARGEST:
-            raise SeriesError(
-                file,
-                f"x, y = {x:g}, {y:g} arcsec",
-                "polar motion stays below one; is it in milliarcseconds?",
-                row.line,
-            )
+            remedy = "polar motion stays below one; is it in milliarcseconds?"
+            raise SeriesError(file, f"x, y = {x:g}, {y:g} arcsec", remedy, row.line)
         if min(errors) < 0:
-            raise SeriesError(
-                file,
-                f"errors of x, y = {errors[0]:g}, {errors[1]:g} arcsec",
-                "errors are not negative; is a column lost?",
-                row.line,
-            )
+            problem = f"errors of x, y = {errors[0]:g}, {errors[1]:g} arcsec"
+            raise SeriesError(file, problem, "errors are not negative; is a column lost?", row.line)
     farthest = max(rows, key=lambda row: math.hypot(*row.values[:2]))
     if 0 < math.hypot(*farthest.values[:2]) < SMALLEST:
-        raise SeriesError(
-            file,
-            f"x, y = {farthest.values[0]:g}, {farthest.values[1]:g} arcsec, and no more elsewhere",
-            f"the pole goes farther than {SMALLEST:g} arcsec; is it in radians?",
-            farthest.line,
+        problem = (
+            f"x, y = {farthest.values[0]:g}, {farthest.values[1]:g} arcsec, and no more elsewhere"
         )
+        remedy = f"the pole goes farther than {SMALLEST:g} arcsec; is it in radians?"
+        raise SeriesError(file, problem, remedy, farthest.line)
 
 
 def _check_jumps(file: Path, rows: list[_Row]) -> None:
@@ -335,12 +314,9 @@ def _check_jumps(file: Path, rows: list[_Row]) -> None:
         days = row.mjd - last.mjd
         scatter = sum(error for one in (last, row) for error in one.values[2:] if error > 0)
         if max(x, y) > JUMP + FASTEST * days + 3 * scatter:
-            raise SeriesError(
-                file,
-                f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d",
-                f"it moves by less than {FASTEST:g} arcsec a day; is a digit wrong?",
-                row.line,
-            )
+            problem = f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d"
+            remedy = f"it moves by less than {FASTEST:g} arcsec a day; is a digit wrong?"
+            raise SeriesError(file, problem, remedy, row.line)
 
 
 def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
@@ -353,12 +329,8 @@ def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
         if row.mjd > kept[-1].mjd + 1e-6:
             kept.append(row)
         elif row.values != kept[-1].values:
-            raise SeriesError(
-                file,
-                f"MJD {row.mjd:.2f} stands twice, in line {kept[-1].line} with other numbers",
-                "keep one of them",
-                row.line,
-            )
+            problem = f"MJD {row.mjd:.2f} stands twice, in line {kept[-1].line} with other numbers"
+            raise SeriesError(file, problem, "keep one of them", row.line)
     if len(kept) < len(ordered):
         repairs.append(f"{len(ordered) - len(kept)} repeated rows left out")
     return kept
@@ -373,12 +345,9 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
     longest = int(np.argmax(steps))
     bridge = min(LONGEST_BRIDGE * usual, max(LONGEST_DAYS, usual)) * (1 + DATE_ROUNDING)
     if steps[longest] > bridge:
-        raise SeriesError(
-            file,
-            f"a gap of {steps[longest]:.1f} d follows MJD {mjd[longest]:.2f}",
-            f"gaps up to {bridge:.0f} d are bridged; take a span on one side of it",
-            rows[longest].line,
-        )
+        problem = f"a gap of {steps[longest]:.1f} d follows MJD {mjd[longest]:.2f}"
+        remedy = f"gaps up to {bridge:.0f} d are bridged; take a span on one side of it"
+        raise SeriesError(file, problem, remedy, rows[longest].line)
     # Dates are rounded: the mean of all steps is more exact than any one of them.
     count = round((mjd[-1] - mjd[0]) / usual)
     whole = int(np.sum(np.round(steps / usual)))

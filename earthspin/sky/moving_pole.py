@@ -16,12 +16,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+import numpy as np
+
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import Where, nearest
+from earthspin.sky.equator import fixed_equator
 from earthspin.sky.poles import Direction, FixedPole
+from earthspin.units import quantity
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from earthspin.sky.iau import Nutation
@@ -138,8 +141,6 @@ class MovingPole:
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the axis, all published terms included, shape (n, 3)."""
-        import numpy as np
-
         time = np.asarray(days) * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
@@ -164,18 +165,12 @@ class MovingPole:
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the axis on a day, shape (3,)."""
-        import numpy as np
-
         return np.asarray(self.mean(np.array([day]))[0])
 
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
         """Equator of date and the equinox on the fixed orbit, shape (n, 3, 3)."""
-        import numpy as np
-
-        from earthspin.sky.equator import fixed_equator
-
         normal = self.orbit_normal(orbit)
         axes = self.mean(days)
         if self.is_upright(orbit):
@@ -195,8 +190,6 @@ class MovingPole:
         SceneError, UnitsError
             If a key is unknown or missing, or a value is no angle or rate.
         """
-        from earthspin.units import quantity
-
         every = (*_NAMES, *_RATES, *_SWINGS)
         for name in table:
             if name not in every:
@@ -230,8 +223,6 @@ class MovingPole:
 
 def _swing(given: object, where: Where) -> Swing:
     """Size, phase and rate of one term."""
-    from earthspin.units import quantity
-
     if not isinstance(given, (list, tuple)) or len(given) != 3:
         raise where.error(given, "give size, phase and rate of each term")
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")

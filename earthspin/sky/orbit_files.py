@@ -253,9 +253,8 @@ class _Rows:
             try:
                 columns[name] = real_numbers(frame.iloc[:, place])
             except (TypeError, ValueError):
-                raise SeriesError(
-                    _FRAME, f"column '{frame.columns[place]}' holds more than numbers"
-                ) from None
+                problem = f"column '{frame.columns[place]}' holds more than numbers"
+                raise SeriesError(_FRAME, problem) from None
         return cls(_FRAME, columns)
 
     @classmethod
@@ -274,9 +273,8 @@ class _Rows:
                     names = [word for word in words if word.strip("#%!")]
                 continue
             if rows and len(plain) != len(rows[0]):
-                raise SeriesError(
-                    file, f"{len(plain)} columns after {len(rows[0])}", "is it cut off?", number
-                )
+                problem = f"{len(plain)} columns after {len(rows[0])}"
+                raise SeriesError(file, problem, "is it cut off?", number)
             rows.append(numbers(file, number, plain))
             lines.append(number)
         if not rows:
@@ -318,17 +316,13 @@ class _Rows:
             raise self.error(f"time {t[row]:g} stands twice", "keep one of the rows", row)
         if np.any(steps < 0):
             row = int(np.argmax(steps < 0)) + 1
-            raise self.error(
-                f"time {t[row]:g} comes after {t[row - 1]:g}", "sort the rows by time", row
-            )
+            problem = f"time {t[row]:g} comes after {t[row - 1]:g}"
+            raise self.error(problem, "sort the rows by time", row)
         usual = float(np.median(steps))
         if np.any(steps > GAP * usual):
             row = int(np.argmax(steps > GAP * usual)) + 1
-            raise self.error(
-                f"a gap between times {t[row - 1]:g} and {t[row]:g}; rows are {usual:g} apart",
-                "fill it, or give a part without gaps",
-                row,
-            )
+            problem = f"a gap between times {t[row - 1]:g} and {t[row]:g}; rows are {usual:g} apart"
+            raise self.error(problem, "fill it, or give a part without gaps", row)
         if t[0] < t[-1]:
             return self
         lines = None if self.lines is None else self.lines[::-1]
@@ -351,11 +345,8 @@ def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
     wanted = ("t", "e", "inc", perihelion, "node")
     missing = [NAMES[name][0] for name in wanted if name not in found]
     if missing:
-        raise SeriesError(
-            source,
-            f"no column {' and none '.join(missing)} among {', '.join(names[:12])}",
-            "give t, e, inc, varpi, Omega, or t, k, h, q, p",
-        )
+        problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
+        raise SeriesError(source, problem, "give t, e, inc, varpi, Omega, or t, k, h, q, p")
     return {name: found[name] for name in wanted}
 
 
@@ -398,10 +389,8 @@ def _seconds(rows: _Rows, unit: str) -> FloatArray:
             f"is it another unit? time = {' or '.join(repr(u) for u in TIMES if u != unit)}",
         )
     if not times[0] <= 0 <= times[-1]:
-        raise rows.error(
-            f"it covers {times[0] / TIMES['kyr']:g} to {times[-1] / TIMES['kyr']:g} kyr",
-            "J2000.0, from which the axis starts, must be among the times",
-        )
+        problem = f"it covers {times[0] / TIMES['kyr']:g} to {times[-1] / TIMES['kyr']:g} kyr"
+        raise rows.error(problem, "J2000.0, from which the axis starts, must be among the times")
     return np.asarray(times)
 
 
@@ -410,9 +399,8 @@ def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray
     k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
     half = q * q + p * p  # squared sine of half the inclination
     if np.any(half >= 1):
-        raise rows.error(
-            "sin(inc/2) is 1 or more", "are q and p angles?", int(np.argmax(half >= 1))
-        )
+        problem = "sin(inc/2) is 1 or more"
+        raise rows.error(problem, "are q and p angles?", int(np.argmax(half >= 1)))
     _check_eccentricity(rows, np.hypot(k, h))
     c = 2 * np.sqrt(1 - half)
     normal = np.stack([c * p, -c * q, 1 - 2 * half], axis=1)
@@ -462,10 +450,8 @@ def _unit_of(rows: _Rows) -> str:
         return "deg"
     if largest <= 2 * math.pi * (1 + 1e-6):
         return "rad"
-    raise rows.error(
-        f"angles reach {largest:g}: degrees or radians that go on past a turn?",
-        "say which: angles = 'deg' or 'rad'",
-    )
+    problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
+    raise rows.error(problem, "say which: angles = 'deg' or 'rad'")
 
 
 def _check_unit(rows: _Rows, angles: str | None) -> None:
@@ -474,26 +460,20 @@ def _check_unit(rows: _Rows, angles: str | None) -> None:
     jump = max(float(np.max(np.abs(np.diff(of)))) for of in _turning(rows))
     steep = float(np.max(rows.columns["inc"]))
     if angles == "rad" and (steep > math.pi or 180 < jump <= 360.001):
-        raise rows.error(
-            f"angles reach {max(largest, steep):g}: these are degrees, not radians",
-            "give angles = 'deg'",
-        )
+        problem = f"angles reach {max(largest, steep):g}: these are degrees, not radians"
+        raise rows.error(problem, "give angles = 'deg'")
     if angles == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
-        raise rows.error(
-            f"angles go round at {largest:.4g}: these are radians, not degrees",
-            "give angles = 'rad'",
-        )
+        problem = f"angles go round at {largest:.4g}: these are radians, not degrees"
+        raise rows.error(problem, "give angles = 'rad'")
 
 
 def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:
     for words, of in (("the orbit's plane", normal), ("its perihelion", eccentricity)):
         moved = np.linalg.norm(np.diff(of, axis=0), axis=1)
         if moved.max() > LARGEST_MOVE:
-            raise rows.error(
-                f"{words} jumps by {moved.max():.2g} from one row to the next",
-                "are time or angles in other units? angles = 'deg' or 'rad'",
-                int(np.argmax(moved)) + 1,
-            )
+            problem = f"{words} jumps by {moved.max():.2g} from one row to the next"
+            remedy = "are time or angles in other units? angles = 'deg' or 'rad'"
+            raise rows.error(problem, remedy, int(np.argmax(moved)) + 1)
 
 
 def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
@@ -519,11 +499,8 @@ def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
     largest = _largest_eccentricity(body)
     if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
         row = int(np.argmax(e > MOST_ECCENTRIC * largest))
-        raise rows.error(
-            f"an eccentricity of {e[row]:g}, where that of {body} stays below {largest:.2g}",
-            "is it another body? body =",
-            row,
-        )
+        problem = f"an eccentricity of {e[row]:g}, where that of {body} stays below {largest:.2g}"
+        raise rows.error(problem, "is it another body? body =", row)
 
 
 @cache

@@ -8,6 +8,7 @@ from typing import Any
 from earthspin.errors import Where
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import Direction, Pole
+from earthspin.units import quantity
 
 
 class Angles:
@@ -18,8 +19,6 @@ class Angles:
 
     def read(self, given: object, where: Where) -> object:
         """Read two angles, in radians if they have no unit; a name is left to the body."""
-        from earthspin.units import quantity
-
         if isinstance(given, str) or hasattr(given, "of_the_iau"):
             return given
         if isinstance(given, Mapping):

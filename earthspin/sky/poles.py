@@ -10,11 +10,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
+import numpy as np
+
 from earthspin.constants import ARCSEC, EPSILON_0
 from earthspin.errors import UndefinedError
+from earthspin.sky.equator import direction, fixed_equator
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from earthspin.sky.iau import Nutation
@@ -77,8 +79,6 @@ class Direction(NamedTuple):
 
     def vector(self) -> FloatArray:
         """Unit vector, shape (3,)."""
-        from earthspin.sky.equator import direction
-
         return direction(*self)
 
 
@@ -152,16 +152,12 @@ class FixedPole(Direction):
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Plane of the orbit, from where the Sun crosses the equator northward."""
-        import numpy as np
-
         normal = self.orbit_normal(orbit)
         equinox = self.equator(orbit)[0]
         return np.stack([equinox, np.cross(normal, equinox), normal])
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Give the same direction at all days."""
-        import numpy as np
-
         return np.broadcast_to(self.vector(), (days.size, 3))
 
     def without_nutation(self) -> Self:
@@ -179,8 +175,6 @@ class FixedPole(Direction):
         nutation: Nutation | None = None,
     ) -> FloatArray:
         """Give one matrix for all days."""
-        from earthspin.sky.equator import fixed_equator
-
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
 
 
@@ -211,8 +205,6 @@ class IAU2006Pole:
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Mean pole of date, frame bias included."""
-        import numpy as np
-
         from earthspin.sky import iau
 
         return np.asarray(iau.mean_equator(days)[..., 2, :])
@@ -223,8 +215,6 @@ class IAU2006Pole:
 
     def true(self, day: float) -> FloatArray:
         """Celestial intermediate pole, frame bias included."""
-        import numpy as np
-
         from earthspin.sky import iau
 
         return np.asarray(iau.true_pole(np.array([day]))[0])

@@ -12,10 +12,13 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 
+import numpy as np
+
+from earthspin.dates import datetime64
 from earthspin.errors import UndefinedError, one_line
+from earthspin.units import real_numbers
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     FloatArray: TypeAlias = NDArray[np.float64]
@@ -146,11 +149,6 @@ def checked(found: FloatArray, place: Place, days: FloatArray) -> FloatArray:
     UndefinedError
         Naming the first day on which they are not.
     """
-    import numpy as np
-
-    from earthspin.dates import datetime64
-    from earthspin.units import real_numbers
-
     try:
         values = real_numbers(found)
     except (TypeError, ValueError) as error:

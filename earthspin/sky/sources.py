@@ -7,6 +7,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
 
 from earthspin.errors import Where
+from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.protocol import Place, Source, Trajectory, words
 
 if TYPE_CHECKING:
@@ -36,8 +37,6 @@ def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
     SceneError, MissingExtraError, KernelError
         If there is no such kernel, or it cannot be used.
     """
-    from earthspin.sky.ephemeris import open_ephemeris
-
     kernel = open_ephemeris(ephemeris)
     if word == "jplephem":
         return kernel
@@ -100,10 +99,8 @@ def read_position(given: Any, where: Where) -> VectorFunction | Trajectory:
     tables = [given] if isinstance(given, Mapping) else given
     if isinstance(tables, list) and tables and all(isinstance(one, Mapping) for one in tables):
         if _LIVE in tables[0]:
-            raise where.error(
-                tables[0][_LIVE],
-                "it was a live object, which no scene can hold; give it again in Python",
-            )
+            problem = "it was a live object, which no scene can hold; give it again in Python"
+            raise where.error(tables[0][_LIVE], problem)
         from earthspin.sky.vector_functions import read_segments
 
         return read_segments(tables, where)

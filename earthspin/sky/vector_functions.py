@@ -178,9 +178,8 @@ def read_segments(tables: Sequence[Mapping[str, Any]], where: Where) -> VectorFu
     chain = tuple(_read_segment(table, where) for table in tables)
     for before, after in pairwise(chain):
         if before.target != after.center:
-            raise where.error(
-                f"{before.target}, then {after.center}", "each segment starts where one ended"
-            )
+            problem = "each segment starts where one ended"
+            raise where.error(f"{before.target}, then {after.center}", problem)
     return chain[0] if len(chain) == 1 else VectorSum(chain[0].center, chain[-1].target, chain)
 
 
@@ -193,16 +192,12 @@ def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
             raise where.at(name).error(table[name], nearest(name, _NAMES))
     codes = table.get("centre"), table.get("target")
     if not isinstance(table.get("kernel"), str) or not all(type(code) is int for code in codes):
-        raise where.error(
-            dict(table), "name a segment like {kernel = 'de421', centre = 0, target = 5}"
-        )
+        problem = "name a segment like {kernel = 'de421', centre = 0, target = 5}"
+        raise where.error(dict(table), problem)
     file = open_ephemeris(table["kernel"])
     if table.get("sha256", file.sha256) != file.sha256:
-        raise KernelError(
-            file.path,
-            "it is not the file that this position was read from: its SHA-256 is another",
-            "give back that file, or leave sha256 out",
-        )
+        problem = "it is not the file that this position was read from: its SHA-256 is another"
+        raise KernelError(file.path, problem, "give back that file, or leave sha256 out")
     segments = _spice_kernel(os.fspath(file.path), file.sha256).segments
     for (centre, target), turn in ((codes, False), (codes[::-1], True)):
         found = [s for s in segments if (s.center, s.target) == (centre, target)]

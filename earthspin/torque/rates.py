@@ -14,35 +14,11 @@ arithmetic and take labelled arrays: ten thousand bodies with different H are on
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from earthspin.constants import NORMAL_95
-
-Numeric = Any
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A number, or an array of numbers, with what it may be off by.
-
-    Attributes
-    ----------
-    value : float
-    method, given : float
-        95 % half-widths from averaging and sampling, and from the given numbers.
-    """
-
-    value: Numeric
-    method: Numeric
-    given: Numeric
-
-    @property
-    def error(self) -> Numeric:
-        """95 % half-width from both."""
-        return np.hypot(self.method, self.given)
+from earthspin.numerics.estimate import Estimate, Numeric
 
 
 def precession_estimate(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from importlib import import_module
-from importlib.util import find_spec
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +14,7 @@ from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensit
 from earthspin.errors import SceneError
 from earthspin.views import plain
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, PageFigure, axes, empty
-from earthspin.views.reading import Result
+from earthspin.views.reading import Result, views_of
 from earthspin.views.table import Table, short_exponents, with_error
 
 if TYPE_CHECKING:
@@ -236,8 +234,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
     If the view of the question names none that differs, this is the first number that does; empty
     if no number differs.
     """
-    module = f"earthspin.views.{str(answer.attrs['compute']).replace('-', '_')}"
-    named = getattr(import_module(module), "CHIEF", ()) if find_spec(module) else ()
+    named = getattr(views_of(answer), "CHIEF", ())
     differing = dict.fromkeys(name for name, *_ in _numbers(answer))
     return tuple(name for name in named if name in differing) or tuple(differing)[:1]
 

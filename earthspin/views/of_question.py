@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -15,7 +13,14 @@ from earthspin.engine.plan import NOT_ASKED
 from earthspin.engine.spread import is_ensemble
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
-from earthspin.views.reading import Result, answer_of, changes_of, section
+from earthspin.views.reading import (
+    Result,
+    answer_of,
+    changes_of,
+    question_of,
+    section,
+    views_of,
+)
 from earthspin.views.table import BRACKETS, Table, along
 
 if TYPE_CHECKING:
@@ -25,27 +30,16 @@ if TYPE_CHECKING:
     from earthspin.views.solids import Solid
 
 
-_TORQUES = ("theory", "Precession, from the torque to the period")
-_POLE = ("pole", "The path of the pole, and its comparison with the IAU")
-_WOBBLE = ("wobble", "From 304 to 433 days: the free wobble")
-_ROTORS = ("rotors", "Rotors and tops, from the tensor to the torque")
-#: Page of the documentation that explains the method of a question: its file, and its title.
-EXPLAINED = {
-    "precession": _TORQUES,
-    "torque": _TORQUES,
-    "pole": _POLE,
-    "iau": _POLE,
-    "long-term": ("long_term", "Over millennia and millions of years"),
-    "wobble": _WOBBLE,
-    "polar-motion": _WOBBLE,
-    "love-numbers": _WOBBLE,
-    "compliances": _WOBBLE,
-    "free-rotor": _ROTORS,
-    "top": _ROTORS,
-    "spheroid": _ROTORS,
-    "rotation": ("rotation", "The whole attitude"),
-    "nutation": ("nutation", "From a rigid Earth to half a milliarcsecond"),
-    "cassini-states": ("frames", "Which model, which time, which frame"),
+#: Titles of the pages of the documentation that explain the method of a question, by their files.
+PAGES = {
+    "theory": "Precession, from the torque to the period",
+    "pole": "The path of the pole, and its comparison with the IAU",
+    "wobble": "From 304 to 433 days: the free wobble",
+    "rotors": "Rotors and tops, from the tensor to the torque",
+    "long_term": "Over millennia and millions of years",
+    "rotation": "The whole attitude",
+    "nutation": "From a rigid Earth to half a milliarcsecond",
+    "frames": "Which model, which time, which frame",
 }
 ERRORS = ("accuracy", "Errors and run times")
 
@@ -208,14 +202,14 @@ def _view(tree: Result) -> ModuleType:
     """Module of the question of an answer; a plain table for one that has none."""
     if is_ensemble(tree):
         return ensemble
-    name = f"earthspin.views.{str(tree.attrs['compute']).replace('-', '_')}"
-    return import_module(name if find_spec(name) else "earthspin.views.plain")
+    return views_of(tree)
 
 
 def _explained(tree: Result) -> str:
     """Where the documentation, which has no address of its own, explains a page."""
-    place = EXPLAINED.get(str(answer_of(tree).attrs["compute"]))
-    method = f'the method under "{place[1]}" (docs/{place[0]}.md), ' if place else ""
+    question = question_of(tree)
+    page = question.page if question is not None else ""
+    method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
 
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
+from importlib import import_module
+from types import ModuleType
 from typing import TypeVar
 
 import xarray as xr
 
 from earthspin.bodies import in_a_sentence
+from earthspin.engine.question import Question
 from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.
@@ -20,6 +23,17 @@ def answer_of(result: Result) -> xr.Dataset:
     """Answer itself; of many bodies or starts, only the first is shown."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
+
+
+def question_of(result: Result) -> type[Question] | None:
+    """Class of the question of an answer; None if it is not one of the package."""
+    return QUESTIONS.get(result.attrs["compute"])
+
+
+def views_of(result: Result) -> ModuleType:
+    """Module that makes the tables and figures of an answer; a plain table without one."""
+    question = question_of(result)
+    return import_module(f"earthspin.views.{question.views if question else 'plain'}")
 
 
 def section(result: Result, name: str) -> xr.Dataset | None:

@@ -20,9 +20,6 @@ FloatArray = NDArray[np.float64]
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from earthspin.views.drawing import Drawing
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008), and markers.
 _COLOURS = (
@@ -44,9 +41,9 @@ def accuracy_table(result: xr.Dataset) -> Table:
     unit = _unit(result)
     rows = []
     for place, name in enumerate(result["method"].values):
-        one = result.isel(method=place)
-        for rung in range(int(one.settings)):
-            rows.append(_row(str(name) if rung == 0 else "", one.isel(rung=rung)))
+        row = result.isel(method=place)
+        for rung in range(int(row.settings)):
+            rows.append(_row(str(name) if rung == 0 else "", row.isel(rung=rung)))
     return Table(
         result.attrs["quantity"],
         ("method", "setting", f"error{',' if unit else ''}{unit}", "run time", "±", "calls", ""),
@@ -57,11 +54,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
 
 
 def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
-    remarks = [
-        words
-        for words, says in (("front", point.pareto), ("at the reference's floor", point.at_floor))
-        if bool(says)
-    ]
+    flags = {"front": point.pareto, "at the reference's floor": point.at_floor}
     return (
         f"{name}{'' if bool(point.ours) or not name else ' (other)'}",
         str(point.setting.values),
@@ -69,7 +62,7 @@ def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
         duration(float(point.run_time)),
         duration(float(point.run_time_spread)),
         f"{int(point.evaluations):,}",
-        ", ".join(remarks),
+        ", ".join(words for words, flag in flags.items() if bool(flag)),
     )
 
 
@@ -85,10 +78,10 @@ def _note(result: xr.Dataset) -> str:
     if result.attrs["skipped"]:
         words.append(f"Left out: {result.attrs['skipped']}.")
     for place in np.flatnonzero(~result.holds.values):
-        one = result.isel(method=int(place))
+        row = result.isel(method=int(place))
         words.append(
-            f"FAILS: {one['method'].item()}, error {plain(float(one.error[-1]))}, bound "
-            f"{plain(float(one.bound))}{unit}."
+            f"FAILS: {row['method'].item()}, error {plain(float(row.error[-1]))}, bound "
+            f"{plain(float(row.bound))}{unit}."
         )
     return " ".join(words)
 
@@ -137,33 +130,19 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 4.4)
     unit = _unit(result)
     for number, name in enumerate(result["method"].values):
-        one = result.isel(method=number, rung=slice(0, int(result.settings[number])))
-        colour, ours = _COLOURS[number % len(_COLOURS)], bool(one.ours)
-        time, error = one.run_time.values, one.error.values
-        spread = one.run_time_spread.values
+        row = result.isel(method=number, rung=slice(0, int(result.settings[number])))
+        colour, ours = _COLOURS[number % len(_COLOURS)], bool(row.ours)
+        time, error = row.run_time.values, row.error.values
+        spread = row.run_time_spread.values
         ax.errorbar(
-            time,
-            error,
-            xerr=[np.minimum(spread, 0.9 * time).tolist(), spread.tolist()],
-            fmt=_MARKERS[number % len(_MARKERS)],
-            ms=5.5,
-            mfc=colour if ours else "white",
-            mec=colour,
-            color=colour,
-            elinewidth=0.8,
-            alpha=0.9,
-            label=str(name),
-            zorder=3,
-        )
+            time, error, xerr=[np.minimum(spread, 0.9 * time).tolist(), spread.tolist()],
+            fmt=_MARKERS[number % len(_MARKERS)], ms=5.5, mfc=colour if ours else "white",
+            mec=colour, color=colour, elinewidth=0.8, alpha=0.9, label=str(name), zorder=3,
+        )  # fmt: skip
         ax.step(
-            *_front(time, error),
-            where="post",
-            color=colour,
-            lw=0.8,
-            alpha=0.9,
-            ls="-" if ours else ":",
-            zorder=2,
-        )
+            *_front(time, error), where="post", color=colour, lw=0.8, alpha=0.9,
+            ls="-" if ours else ":", zorder=2,
+        )  # fmt: skip
     ax.set_xscale("log")
     ax.set_yscale("log")
     _draw_fronts(result, ax)
@@ -175,13 +154,9 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ax.yaxis.set_minor_formatter("")
     ax.legend(
         title="filled: earthspin\nopen: set by hand with SciPy,\nor another library",
-        alignment="left",
-        loc="upper left",
-        bbox_to_anchor=(1.01, 1.0),
-        fontsize=8,
-        title_fontsize=8,
-        borderaxespad=0,
-    )
+        alignment="left", loc="upper left", bbox_to_anchor=(1.01, 1.0),
+        fontsize=8, title_fontsize=8, borderaxespad=0,
+    )  # fmt: skip
     return ax
 
 
@@ -201,36 +176,20 @@ def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
         mine = (result.task == task) & result.pareto
         time, error = _front(result.run_time.values[mine], result.error.values[mine])
         ax.step(
-            [time[0], *time, right],
-            [top, *error, error[-1]],
-            where="post",
-            color="0.55",
-            lw=3.5,
-            alpha=0.35,
-            zorder=1,
-            solid_joinstyle="round",
-            label=label,
-        )
+            [time[0], *time, right], [top, *error, error[-1]], where="post", color="0.55", lw=3.5,
+            alpha=0.35, zorder=1, solid_joinstyle="round", label=label,
+        )  # fmt: skip
         label = "_"  # the others are alike
-
-
-def accuracy_figure(result: xr.Dataset) -> Figure:
-    """Figure of a quantity in the package's style, to be saved."""
-    return _drawing(result).figure
 
 
 def svg_of(result: xr.Dataset) -> str:
     """Figure of a quantity as the text of an SVG."""
-    return _drawing(result).svg
-
-
-def _drawing(result: xr.Dataset) -> Drawing:
     from earthspin.views.drawing import drawn, style
 
     with style():
         ax = plot_accuracy(result)
         ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
-        return drawn(result.attrs["quantity"], result.attrs["sentence"], ax)
+        return drawn(result.attrs["quantity"], result.attrs["sentence"], ax).svg
 
 
 # --- files -------------------------------------------------------------------------------------

@@ -1,6 +1,5 @@
 """Accuracy on request: kept, affordable, and refused only where it cannot be had."""
 
-import json
 from dataclasses import replace
 from typing import Any
 
@@ -9,7 +8,7 @@ import pytest
 
 import earthspin
 from earthspin import AccuracyError, Scene, load_scene
-from earthspin.choosing.choice import DATA, Choice, cheapest
+from earthspin.choosing.choice import Choice, cheapest
 from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.windows import PoleWindows, window_choices
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
@@ -180,11 +179,6 @@ def test_the_cheapest_of_the_good_is_chosen() -> None:
 def test_nutation_at_few_epochs_costs_no_more_than_those_epochs() -> None:
     costs = {choice.evaluations for choice in nutation_choices(0.0, 36525.0, 2)}
     assert costs == {0, 2 * 77, 2 * 1365}
-
-
-def test_the_data_file_is_small_and_says_where_it_comes_from() -> None:
-    assert DATA.stat().st_size < 130_000
-    assert "data_tools error-models" in json.loads(DATA.read_text())["made by"]
 
 
 # --- scenes that once broke the promise ----------------------------------------------------------

@@ -59,6 +59,7 @@ def test_errors_of_windows_are_as_stored(de421: Ephemeris, monkeypatch: pytest.M
         assert np.all((off > -0.6) & (off < 0.02)), (setting, off)
 
 
+@pytest.mark.slow
 def test_errors_of_nutation_are_as_stored(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(error_models, "NUTATION_STEPS", (2.0, 5.0))
     monkeypatch.setattr(error_models, "SAMPLES", 6000)

@@ -123,12 +123,14 @@ def test_it_has_exercises_whose_numbers_are_computed(name: str) -> None:
     assert all(READER.cells(solution) for solution in found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_its_cells_run_and_draw_one_picture(name: str, results: dict[str, dict[str, str]]) -> None:
     assert READER.cells(LESSONS[name])
     assert results[name]["faults"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_what_it_prints_twice_agrees(name: str, results: dict[str, dict[str, str]]) -> None:
     for words, nearness in PRINTED[name]:

@@ -60,6 +60,7 @@ def test_there_are_at_least_thirty() -> None:
     assert {name(script) for script in SCRIPTS} >= set(QUICK)
 
 
+@pytest.mark.any_version
 @pytest.mark.parametrize("script", SCRIPTS, ids=name)
 def test_it_says_what_is_seen_where_it_stands_and_what_to_try(script: Path) -> None:
     text = script.read_text(encoding="utf-8")
@@ -72,6 +73,7 @@ def test_it_says_what_is_seen_where_it_stands_and_what_to_try(script: Path) -> N
     assert any(part.startswith("*Next:*") for part in rest), "nothing to try next"
 
 
+@pytest.mark.any_version
 @pytest.mark.parametrize("script", SCRIPTS, ids=name)
 def test_it_is_short_and_types_no_result(script: Path) -> None:
     text = script.read_text(encoding="utf-8")
@@ -82,6 +84,7 @@ def test_it_is_short_and_types_no_result(script: Path) -> None:
     assert re.findall(r"\d+\.\d+", prose) == [], "numbers come from what the script prints or draws"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", QUICK)
 def test_it_draws_one_figure_whose_axes_name_their_units(
     script: str, faults: dict[str, list[str]]

@@ -15,7 +15,7 @@ import psutil
 import pytest
 
 from earthspin.engine import loop
-from tests.engine.work import Squares, bytes_of
+from tests.engine.work import Squares, blocks_in, bytes_of
 
 ROOT = Path(__file__).parents[2]
 #: Seconds after which no process may be left.
@@ -76,8 +76,8 @@ def started(program: Path) -> Iterator[Start]:
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
         )  # fmt: skip
         processes.append(process)
-        ledger = path.with_name(path.name + ".partial") / "ledger"
-        until(lambda: ledger.exists() and len(ledger.read_bytes().splitlines()) >= blocks)
+        partial = path.with_name(path.name + ".partial")
+        until(lambda: blocks_in(partial) >= blocks)
         return process
 
     yield start
@@ -109,7 +109,7 @@ def gone(processes: list[psutil.Process]) -> bool:
 def finished(path: Path, undisturbed: dict[str, str]) -> None:
     """Go on with what was left, and compare."""
     partial = path.with_name(path.name + ".partial")
-    had = len((partial / "ledger").read_bytes().splitlines())
+    had = blocks_in(partial)
     work = slow()
     loop.write(work, path)
     assert len(work.made) == work.layout.count - had

@@ -295,7 +295,7 @@ def test_parts_that_no_number_touches_run_once_for_all_of_the_same_words(
     assert work.width >= ROW  # members of the same words are copies of one answer
     first = work.variants[(OWN,)]
     assert work.variants[(OWN,)] is first
-    assert {"orbit_table", "series"} <= set(first.still)
+    assert {"orbit_table", "series"} <= set(first.fixed.results)
 
 
 # --- what they tell ------------------------------------------------------------------------------

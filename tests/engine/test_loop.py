@@ -18,6 +18,7 @@ import psutil
 import pytest
 import xarray as xr
 import zarr
+from filelock import FileLock
 
 import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
@@ -146,10 +147,9 @@ def test_two_runs_on_one_store(tmp_path: Path) -> None:
     path = tmp_path / "r.zarr"
     partial = ended(path)
     before = bytes_of(tmp_path)
-    with (partial / unfinished.OWNER).open() as owner:
-        assert drafts.take_lock(owner.fileno())
-        with pytest.raises(OutputError, match="another run is writing it"):
-            loop.write(Squares(), path)
+    lock, refused = FileLock(partial / unfinished.OWNER), "another run is writing it"
+    with lock, pytest.raises(OutputError, match=refused):
+        loop.write(Squares(), path)
     assert bytes_of(tmp_path) == before
     loop.write(Squares(), path)
 
@@ -205,7 +205,7 @@ def test_a_block_that_does_not_fit(tmp_path: Path) -> None:
             made = super().make(number)
             return made if number < 2 else made.isel(column=[0])
 
-    with pytest.raises(OutputError, match="block 2 has another shape of 'square'"):
+    with pytest.raises(OutputError, match=r"block 2 does not fit: .*'square'"):
         loop.write(Wider(), tmp_path / "r.zarr")
 
 
@@ -239,7 +239,7 @@ def test_a_damaged_block_is_made_again(
     path, work = tmp_path / "r.zarr", Squares()
     damage(ended(path) / unfinished.STORE / chunk)
     loop.write(work, path)
-    assert work.made == [3, 4, 5, 6, int(chunk.partition("/")[2][0])]
+    assert work.made == sorted([3, 4, 5, 6, int(chunk.partition("/")[2][0])])
     assert bytes_of(path) == bytes_of(undisturbed)
     assert earthspin.verify(path) == path
 
@@ -264,8 +264,8 @@ def test_a_damaged_block_where_none_is_missing(
     [
         b"garbage\n",
         b"\0" * 300 + b"\n", b"\0" * 300, b"\r\xff\r\n", b"[1]\n", b"[1, 2]\n", b"7\n",
-        b"[true, {}]\n", b"[99, {}]\n", b"[[], {}]\n", b"[1, {}]\n", b"[" * 100_000 + b"\n",
-        b'[1, {"square": "00", "member": "00", "day": "00"}]\n',
+        b"0" * 64 + b"  square/1.0\n", b"0" * 64 + b"  square/99.0\n", b"0" * 64 + b"  \n",
+        b"0" * 64 + b"  square/1\n", b"0" * 63 + b"  square/1.0\n", b"0" * 100_000 + b"\n",
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("place", ["first", "last"])
@@ -336,7 +336,7 @@ import os, random, signal, sys, time
 from pathlib import Path
 import xarray, zarr, numcodecs                    # loaded once; each child is a copy
 from earthspin.engine import loop, unfinished
-from tests.engine.work import Squares
+from tests.engine.work import Squares, blocks_in
 path, times = Path(sys.argv[1]), int(sys.argv[2])
 partial, chance = path.with_name(path.name + ".partial"), random.Random(int(sys.argv[3]))
 for _ in range(times):
@@ -347,8 +347,7 @@ for _ in range(times):
     time.sleep(chance.uniform(0.02, 0.35))
     os.kill(child, signal.SIGKILL)
     _, status = os.waitpid(child, 0)
-    print(int(os.WIFSIGNALED(status)), (partial / "ledger").read_bytes().count(b"\\n")
-          if (partial / "ledger").exists() else 0)
+    print(int(os.WIFSIGNALED(status)), blocks_in(partial))
     if path.exists():
         path.rename(f"{path}.{_}")                # and once more from the beginning
 """
@@ -399,7 +398,7 @@ def _connections(process: psutil.Process) -> list[Any]:
 
 
 def test_a_cluster_listens_to_this_machine_only() -> None:
-    with loop._client(1):
+    with loop._cluster(1):
         own = psutil.Process()
         connections = [
             connection

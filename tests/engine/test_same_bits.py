@@ -26,8 +26,8 @@ del in_the_way[::2]
 import earthspin
 from earthspin.checks.sky import SPIN, H, Tide
 from earthspin.constants import DAY
-from earthspin.motion.attitude import attitude_motion
-from earthspin.motion.exact import axisymmetric_motion
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.rotor.euler import integrate_rotation
 
 def digest(arrays):

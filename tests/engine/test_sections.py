@@ -228,7 +228,4 @@ def test_what_sections_declare_is_what_they_hold(
         held = {str(name) for name in tree[section].to_dataset(inherit=False).data_vars}
         # beside those that are there on a condition: what is neglected, a period that exists
         assert declared <= held
-        assert held - declared <= {
-            *("neglected_effect", "herpolhode_advance", "chandler_quality_factor"),
-            *("chandler_quality_factor_low", "chandler_quality_factor_high"),
-        }
+        assert held - declared <= {"neglected_effect", "herpolhode_advance"}

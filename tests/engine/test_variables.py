@@ -17,7 +17,7 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.torque.rates import Estimate
+from earthspin.numerics.estimate import Estimate
 
 
 class Turns(Variables, along=("body",), no_error="it is counted"):

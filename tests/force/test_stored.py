@@ -13,13 +13,13 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import earthspin
 from earthspin import OutputError, scenes
-from earthspin.engine import last_line, store
+from earthspin.engine import checksums, store
 from tests import shipped
 
 SEED = 20261121
@@ -67,7 +67,7 @@ def test_every_bit_of_a_netcdf_file_counts(tmp_path: Path) -> None:
     passed = []
     for place in range(8 * path.stat().st_size):
         with flipped(path, place):
-            if not last_line.is_broken(path):
+            if checksums.line_holds(path) is not False:
                 passed.append(place)
     assert passed == []
     assert same(store.open(path), answer)
@@ -95,7 +95,7 @@ def test_a_netcdf_file_that_was_cut_short_is_refused_or_whole(tmp_path: Path) ->
     path = store.write(answer, tmp_path / "r.nc")
     whole = path.read_bytes()
     rng = np.random.default_rng(SEED)
-    inside = len(whole) - last_line.LENGTH
+    inside = len(whole) - checksums.LENGTH
     for size in (0, 1, *rng.integers(0, inside, 20).tolist(), inside - 1):
         path.write_bytes(whole[:size])
         with pytest.raises(OutputError, match="cannot be read"):
@@ -117,7 +117,7 @@ def test_the_last_line_is_the_checksum_of_what_stands_before_it(tmp_path: Path) 
     """By hand: ``head -c -110 r.nc | sha256sum; tail -n 1 r.nc``."""
     path = store.write(shipped.tree("precession"), tmp_path / "r.nc")
     whole = path.read_bytes()
-    assert last_line.LENGTH == 110
+    assert checksums.LENGTH == 110
     line = f"\nearthspin: SHA-256 of all before this line: {sha256(whole[:-110]).hexdigest()}\n"
     assert whole[-110:] == line.encode()
 
@@ -131,6 +131,52 @@ def test_a_file_that_another_program_changed_has_no_last_line(tmp_path: Path) ->
     assert b"SHA-256 of all" not in path.read_bytes()
     assert same(store.open(path), answer)
     assert earthspin.verify(path) == path
+
+
+def test_the_ledger_of_a_zarr_store_is_what_sha256sum_reads(tmp_path: Path) -> None:
+    path = store.write(shipped.tree("precession"), tmp_path / "r.zarr")
+    (ledger,) = path.rglob(checksums.LEDGER)
+    rows = [line.split("  ", 1) for line in ledger.read_text().splitlines()]
+    files = {str(p.relative_to(path)) for p in path.rglob("*") if p.is_file() and p != ledger}
+    assert {name for _, name in rows} == files
+    assert all(sha256((path / name).read_bytes()).hexdigest() == digest for digest, name in rows)
+    with xr.open_dataset(path, engine="zarr", consolidated=False) as raw:  # without a warning
+        assert checksums.LEDGER not in raw.variables
+
+
+def test_a_number_that_another_program_changed_is_noticed(tmp_path: Path) -> None:
+    path = store.write(small_series(), tmp_path / "r.nc")
+    with netCDF4.Dataset(path, "a") as raw:
+        raw["torque"][0] *= 2
+    for read in (store.open, earthspin.verify):
+        with pytest.raises(OutputError, match="are not what was written"):
+            read(path)
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_files_of_the_version_before_are_read_and_verify_says_what_it_cannot_check(
+    tmp_path: Path, kind: str
+) -> None:
+    """Their checksums of content have other names; only the last line is still held to."""
+    answer = small_series()
+    old = answer.assign_attrs(header_sha256="0" * 64, data_sha256="0" * 64, made_in_blocks="time 9")
+    path = tmp_path / f"r.{kind}"
+    if kind == "nc":
+        old.to_netcdf(path, engine="netcdf4")
+    else:
+        from numcodecs import CRC32, Shuffle
+
+        filters = {"filters": [Shuffle(8), CRC32()]}
+        old.to_zarr(path, consolidated=False, zarr_format=2, encoding={"torque": filters})
+    back = store.open(path)
+    assert isinstance(back, xr.Dataset)
+    assert same(back.load(), answer)
+    with pytest.raises(OutputError, match="earlier version") as error:
+        earthspin.verify(path)
+    assert "\n" not in str(error.value)
+    if kind == "nc":
+        checksums.append_line(path)
+        assert earthspin.verify(path) == path
 
 
 def test_a_pipe_is_refused(tmp_path: Path) -> None:
@@ -272,6 +318,7 @@ ATTRIBUTES = st.dictionaries(
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
+@settings(max_examples=30)
 @given(values=ARRAYS, attrs=ATTRIBUTES)
 def test_nothing_sound_is_refused(
     tmp_path_factory: pytest.TempPathFactory, kind: str, values: np.ndarray, attrs: dict

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import textwrap
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ import pytest
 import xarray as xr
 
 from earthspin import OutputError
-from earthspin.engine import drafts, store
+from earthspin.engine import store
 
 ROOT = Path(__file__).parents[2]
 
@@ -104,9 +105,8 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Pa
     path = store.write(small(1.0), tmp_path / "r.zarr")
     program = """
         import os, signal, sys
-        from earthspin.engine import drafts, store
+        from earthspin.engine import store
         from tests.force.test_two_at_once import small
-        drafts._exchange = lambda one, other: False   # a system that cannot
         move = os.replace
         def move_and_die(source, target):
             move(source, target)
@@ -125,15 +125,27 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Pa
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_store_is_never_absent_where_folders_can_change_places(tmp_path: Path) -> None:
-    one, other = tmp_path / "one", tmp_path / "other"
-    for folder in (one, other):
-        folder.mkdir()
-        (folder / folder.name).touch()
-    if not drafts._exchange(one, other):
-        pytest.fail("this system cannot exchange folders; the tests are made for one that can")
-    assert [p.name for p in one.iterdir()] == ["other"]
-    assert [p.name for p in other.iterdir()] == ["one"]
+def test_a_reader_waits_for_a_store_that_is_being_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Between the two moves, as long as the writer lives."""
+    path = store.write(small(1.0), tmp_path / "r.zarr")
+    moved, real = threading.Event(), os.replace
+
+    def slow(source: Path, target: Path) -> None:
+        real(source, target)
+        if Path(target).name == "old":
+            moved.set()
+            time.sleep(0.3)
+
+    monkeypatch.setattr(os, "replace", slow)
+    writer = threading.Thread(target=store.write, args=(small(2.0), path))
+    writer.start()
+    moved.wait()
+    assert not path.exists()
+    found = store.open(path)
+    writer.join()
+    assert found.load().identical(small(2.0))
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])

@@ -41,7 +41,7 @@ def elsewhere() -> Iterator[None]:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
     with (
         tempfile.TemporaryDirectory() as folder,
-        mock.patch("earthspin.checks.gauntlet.judge", side_effect=UndefinedError("not tried")),
+        mock.patch("earthspin.checks.stability.judge", side_effect=UndefinedError("not tried")),
         mock.patch("webbrowser.open", return_value=False),
         warnings.catch_warnings(),
     ):
@@ -63,7 +63,7 @@ def only_planned() -> Iterator[None]:
         mock.patch.object(answering, "run", planned),
         mock.patch.object(answering, "run_tree", planned),
         mock.patch("earthspin.scenes._say_what_differs"),
-        mock.patch.object(run.Again, "__init__", side_effect=UndefinedError("not tried")),
+        mock.patch.object(run.Rerun, "__init__", side_effect=UndefinedError("not tried")),
     ):
         yield
 

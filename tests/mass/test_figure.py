@@ -12,6 +12,7 @@ from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass import figure
 from tests.conftest import load_pins
 from tests.mass.closeness import close
+from tests.refusals import refused
 
 PINS = load_pins("mass_figure")
 
@@ -130,23 +131,17 @@ def test_layers_add_up() -> None:
     assert close(moments.polar, figure.spheroid_moments(mass, 2.0, 0.3).polar, rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("layers", "message"),
-    [
-        (([2.0, 1.0], [5.0, 3.0], [0.0, 0.0]), "equatorial radius 2 m and the one around it 1 m"),
-        (([1.0, 1.1], [5.0, 3.0], [0.0, 0.3]), "polar radius 1 m and the one around it 0.77 m"),
-        (([1.0, 2.0], [5.0], [0.0, 0.3]), r"shapes \(2,\), \(1,\) and \(2,\)"),
-    ],
+test_layers_that_cannot_be = refused(
+    (([2.0, 1.0], [5.0, 3.0], [0.0, 0.0]), "equatorial radius 2 m and the one around it 1 m"),
+    (([1.0, 1.1], [5.0, 3.0], [0.0, 0.3]), "polar radius 1 m and the one around it 0.77 m"),
+    (([1.0, 2.0], [5.0], [0.0, 0.3]), r"shapes \(2,\), \(1,\) and \(2,\)"),
+    call=lambda arguments: figure.layered_moments(*arguments),
+    kind=UndefinedError,
 )
-def test_layers_that_cannot_be(layers: tuple[list[float], ...], message: str) -> None:
-    with pytest.raises(UndefinedError, match=message):
-        figure.layered_moments(*layers)
 
 
-def test_bodies_that_cannot_be() -> None:
-    with pytest.raises(BodyError, match=r"density = -5\.0"):
-        figure.layered_moments([1.0], [-5.0], [0.0])
-    with pytest.raises(BodyError, match=r"mass = 0\.0"):
-        figure.spheroid_moments(0.0, 1.0, 0.0)
-    with pytest.raises(BodyError, match=r"flattening = 1\.5.*below 1"):
-        figure.perimeter(1.0, 1.5, 0.0)
+test_bodies_that_cannot_be = refused(
+    (lambda: figure.layered_moments([1.0], [-5.0], [0.0]), BodyError, r"density = -5\.0"),
+    (lambda: figure.spheroid_moments(0.0, 1.0, 0.0), BodyError, r"mass = 0\.0"),
+    (lambda: figure.perimeter(1.0, 1.5, 0.0), BodyError, r"flattening = 1\.5.*below 1"),
+)

@@ -6,6 +6,7 @@ import pytest
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass.mesh import closed_mesh, solid_points
 from tests.mass.solids import brick
+from tests.refusals import refused
 
 CORNERS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -50,23 +51,19 @@ def test_what_is_closed_is_taken_as_it_is() -> None:
 TURNED = np.concatenate([FACES[:3], FACES[3:, ::-1]])
 
 
-@pytest.mark.parametrize(
-    ("faces", "said"),
-    [
-        (FACES[:3], "3 edges with a triangle on one side"),
-        (TURNED, "two turned against one another"),
-        (FACES[:, ::-1], "turned inside out"),
-        (np.concatenate([FACES, FACES]), "an edge of more than two triangles"),
-        (FACES + 1, "one of the 4 vertices, counted from 0"),
-        (FACES - 1, "one of the 4 vertices, counted from 0"),
-        (FACES[:0], "0 triangles"),
-        (FACES[:, :2], "three whole numbers for each triangle"),
-        (FACES.astype(float), "three whole numbers for each triangle"),
-    ],
+test_what_encloses_no_solid_is_refused = refused(
+    (FACES[:3], "3 edges with a triangle on one side"),
+    (TURNED, "two turned against one another"),
+    (FACES[:, ::-1], "turned inside out"),
+    (np.concatenate([FACES, FACES]), "an edge of more than two triangles"),
+    (FACES + 1, "one of the 4 vertices, counted from 0"),
+    (FACES - 1, "one of the 4 vertices, counted from 0"),
+    (FACES[:0], "0 triangles"),
+    (FACES[:, :2], "three whole numbers for each triangle"),
+    (FACES.astype(float), "three whole numbers for each triangle"),
+    call=lambda faces: closed_mesh(CORNERS, faces),
+    kind=BodyError,
 )
-def test_what_encloses_no_solid_is_refused(faces: np.ndarray, said: str) -> None:
-    with pytest.raises(BodyError, match=said):
-        closed_mesh(CORNERS, faces)
 
 
 def test_vertices_are_finite() -> None:

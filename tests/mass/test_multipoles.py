@@ -19,6 +19,7 @@ from earthspin.mass.legendre import factorial_ratio
 from earthspin.mass.tensor import inertia_tensor
 from tests.mass.accuracy import inverse_distance
 from tests.mass.closeness import close
+from tests.refusals import refused
 
 #: Random pairs of points; 600 in the full run.
 CASES = 60
@@ -243,51 +244,33 @@ def test_between_the_radii_neither_series_holds() -> None:
             series.potential([0.0, 2.0, 0.0])
 
 
-@pytest.mark.parametrize(
-    ("call", "kind", "message"),
-    [
-        (
-            lambda: multipoles.inverse_distance([1.0, 0, 0], [0, 1.0, 0], 3),
-            UndefinedError,
-            "both points are 1 m",
-        ),
-        (
-            lambda: multipoles.exterior_multipoles([-1.0], [[1.0, 0, 0]], 2),
-            BodyError,
-            r"mass = -1\.0",
-        ),
-        (
-            lambda: multipoles.exterior_multipoles(1.0, [[2.0, 0, 0]], 2, radius=1.0),
-            UndefinedError,
-            "radius = 1 m does not hold the mass at 2 m",
-        ),
-        (
-            lambda: multipoles.exterior_multipoles(1.0, [[0.0, 0, 0]], 2),
-            UndefinedError,
-            "radius = 0 m",
-        ),
-        (
-            lambda: multipoles.interior_multipoles(1.0, [[0.0, 0, 0]], 2),
-            UndefinedError,
-            "nearest mass is at 0 m",
-        ),
-        (
-            lambda: multipoles.interior_multipoles(1.0, [[1.0, 0, 0]], 2, radius=1.5),
-            UndefinedError,
-            "radius = 1.5 m",
-        ),
-        (
-            lambda: multipoles.exterior_multipoles(1.0, [[1.0, 0, 0]], -1),
-            UndefinedError,
-            "n_max = -1",
-        ),
-        (
-            lambda: multipoles.exterior_multipoles(np.ones((2, 1)), np.ones((2, 1, 3)), 2),
-            UndefinedError,
-            "one body",
-        ),
-    ],
+test_wrong_input = refused(
+    (
+        lambda: multipoles.inverse_distance([1.0, 0, 0], [0, 1.0, 0], 3),
+        UndefinedError,
+        "both points are 1 m",
+    ),
+    (lambda: multipoles.exterior_multipoles([-1.0], [[1.0, 0, 0]], 2), BodyError, r"mass = -1\.0"),
+    (
+        lambda: multipoles.exterior_multipoles(1.0, [[2.0, 0, 0]], 2, radius=1.0),
+        UndefinedError,
+        "radius = 1 m does not hold the mass at 2 m",
+    ),
+    (lambda: multipoles.exterior_multipoles(1.0, [[0.0, 0, 0]], 2), UndefinedError, "radius = 0 m"),
+    (
+        lambda: multipoles.interior_multipoles(1.0, [[0.0, 0, 0]], 2),
+        UndefinedError,
+        "nearest mass is at 0 m",
+    ),
+    (
+        lambda: multipoles.interior_multipoles(1.0, [[1.0, 0, 0]], 2, radius=1.5),
+        UndefinedError,
+        "radius = 1.5 m",
+    ),
+    (lambda: multipoles.exterior_multipoles(1.0, [[1.0, 0, 0]], -1), UndefinedError, "n_max = -1"),
+    (
+        lambda: multipoles.exterior_multipoles(np.ones((2, 1)), np.ones((2, 1, 3)), 2),
+        UndefinedError,
+        "one body",
+    ),
 )
-def test_wrong_input(call: Any, kind: type, message: str) -> None:
-    with pytest.raises(kind, match=message):
-        call()

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import EARTH
 from earthspin.checks.sky import Tide
-from earthspin.motion.attitude import attitude_motion
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.motion.axes import AxisPath, axis_path
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces

@@ -5,10 +5,10 @@ import pytest
 
 from earthspin.bodies import EARTH
 from earthspin.checks.sky import Tide
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.axes import AXES, axis_path, error_of_input, window_count
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces
 

@@ -8,8 +8,8 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
+from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.errors import UndefinedError
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.equations import Equations, Pull
 from earthspin.motion.rotation import Motion
 from earthspin.numerics import turns

@@ -139,6 +139,7 @@ def test_errors_of_modes_and_terms_follow_the_inputs(rungs: dict[str, ladder.Run
     assert observed["free_core_nutation"] < 0.02 * flat["free_core_nutation"]
 
 
+@pytest.mark.slow
 def test_a_pole_takes_its_response_by_name() -> None:
     """The predicted pole stands half a milliarcsecond from the fitted one, both far from rigid."""
     times = ["1983-03-04", "1999-10-11", "2016-06-07"]

@@ -14,8 +14,8 @@ import earthspin
 from earthspin import EARTH, MOON, SUN, Body, BodyError, Orbit, Scene, SceneError, UndefinedError
 from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
-from earthspin.errors import EarthspinError
 from earthspin.torque.rates import circular_orbit_torque
+from tests.refusals import refused
 
 BOTH = [MEAN_SUN, MEAN_MOON]
 #: A star and a planet that leans by 30 degrees, on the axes of the ICRF.
@@ -160,31 +160,24 @@ i = "5.145 deg", node_period = "-6793.5 d", epoch = "2000-01-01T12:00" } },
     assert Orbit(**written["perturbers"][1]["orbit"]) == moon
 
 
-@pytest.mark.parametrize(
-    ("elements", "told"),
-    [
-        ({"a": "384399 km", "period": "29 d"}, "contradict each other"),
-        ({"a": "384399 km", "e": 1.0}, "those of an ellipse"),
-        ({"a": "384399 km", "e": math.nan}, "finite"),
-        ({"a": "384399 km", "e": -0.1}, "those of an ellipse"),
-        ({"a": "7000 km", "e": 0.5}, "lies inside 'earth'"),
-        ({"a": "-1 km"}, "greater than zero"),
-        ({"period": "1e31 s"}, "at most"),
-        ({"e": 0.1}, "give a or period"),
-        ({"a": "384399 km", "node_period": "0 d"}, "not zero"),
-        ({"a": "384399 km", "about": "vulcan"}, "allowed: earth, sun"),
-        ({"a": "384399 km", "about": "moon"}, "allowed: earth, sun"),
-        ({"a": "384399 km", "plane": "galaxy"}, "allowed: ecliptic, equator, icrf, orbit"),
-        ({"a": "384399 km", "nodes": 1.0}, "did you mean 'node'"),
-        ({"a": "384399 km", "i": "190 deg"}, "0 to 180 deg"),
-        ({"a": xr.DataArray([1.0], dims="x")}, "one number"),
-    ],
-    ids=str,
+test_elements_that_cannot_be = refused(
+    ({"a": "384399 km", "period": "29 d"}, "contradict each other"),
+    ({"a": "384399 km", "e": 1.0}, "those of an ellipse"),
+    ({"a": "384399 km", "e": math.nan}, "finite"),
+    ({"a": "384399 km", "e": -0.1}, "those of an ellipse"),
+    ({"a": "7000 km", "e": 0.5}, "lies inside 'earth'"),
+    ({"a": "-1 km"}, "greater than zero"),
+    ({"period": "1e31 s"}, "at most"),
+    ({"e": 0.1}, "give a or period"),
+    ({"a": "384399 km", "node_period": "0 d"}, "not zero"),
+    ({"a": "384399 km", "about": "vulcan"}, "allowed: earth, sun"),
+    ({"a": "384399 km", "about": "moon"}, "allowed: earth, sun"),
+    ({"a": "384399 km", "plane": "galaxy"}, "allowed: ecliptic, equator, icrf, orbit"),
+    ({"a": "384399 km", "nodes": 1.0}, "did you mean 'node'"),
+    ({"a": "384399 km", "i": "190 deg"}, "0 to 180 deg"),
+    ({"a": xr.DataArray([1.0], dims="x")}, "one number"),
+    call=lambda elements: earthspin.precession(perturbers=[MEAN_SUN, MOON.replace(orbit=elements)]),
 )
-def test_elements_that_cannot_be(elements: dict, told: str) -> None:
-    with pytest.raises(EarthspinError, match=told) as error:
-        earthspin.precession(perturbers=[MEAN_SUN, MOON.replace(orbit=elements)])
-    assert "\n" not in str(error.value)
 
 
 def test_orbits_that_do_not_fit_together() -> None:

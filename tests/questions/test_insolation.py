@@ -105,6 +105,7 @@ def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
     assert np.allclose(by_tilt, moved, rtol=0.02, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_error_holds_where_the_season_of_perihelion_is_lost() -> None:
     """The half-width of the perihelion is more than a turn there; draws of it are the truth."""
     past = earthspin.long_term("-10 Myr", "-9.5 Myr", "10 kyr")

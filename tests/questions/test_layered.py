@@ -17,6 +17,7 @@ from earthspin.interior.mars import MARS as MARS_LAYERS
 from earthspin.interior.prem import PREM
 from earthspin.interior.samples import from_samples
 from tests import shipped
+from tests.refusals import refused
 
 TWO = [
     {"top": "3000 km", "density": 8000, "vp": "8 km/s"},
@@ -167,23 +168,18 @@ def test_what_has_no_layers_is_told_in_one_line(make: object, message: str) -> N
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ("permm", "did you mean 'prem'"),
-        (3, "give the name of an interior"),
-        ({"name": "none"}, "either layers or samples"),
-        ({"layers": [{"top": "1 km"}]}, "top, density, vp"),
-        ({"layers": [{**TWO[0], "rho": 3}]}, "a layer has"),
-        ({"layers": TWO[::-1]}, "grow from the centre"),
-        ({"samples": {"radius": [0, 1]}}, "columns of one length"),
-        ({"samples": {"radius": [1, 2], "density": [1, 1], "vp": [1, 1], "vs": [1, 1]}}, "at 0"),
-    ],
+test_what_is_no_layered_body_is_one_line = refused(
+    ("permm", "did you mean 'prem'"),
+    (3, "give the name of an interior"),
+    ({"name": "none"}, "either layers or samples"),
+    ({"layers": [{"top": "1 km"}]}, "top, density, vp"),
+    ({"layers": [{**TWO[0], "rho": 3}]}, "a layer has"),
+    ({"layers": TWO[::-1]}, "grow from the centre"),
+    ({"samples": {"radius": [0, 1]}}, "columns of one length"),
+    ({"samples": {"radius": [1, 2], "density": [1, 1], "vp": [1, 1], "vs": [1, 1]}}, "at 0"),
+    call=earthspin.love_numbers,
+    kind=SceneError,
 )
-def test_what_is_no_layered_body_is_one_line(given: object, message: str) -> None:
-    with pytest.raises(SceneError, match=message) as caught:
-        earthspin.love_numbers(given)
-    assert "\n" not in str(caught.value)
 
 
 def test_a_liquid_surface_is_refused() -> None:

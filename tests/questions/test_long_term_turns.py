@@ -1,10 +1,12 @@
 """The longitude of perihelion has no jumps, not even where the orbit is all but a circle."""
 
 import numpy as np
+import pytest
 
 import earthspin
 
 
+@pytest.mark.slow
 def test_the_perihelion_is_followed_past_an_orbit_that_is_all_but_a_circle() -> None:
     """1.127 million years ago e is 6e-4, and the perihelion goes half round within a kyr."""
     fine = earthspin.long_term("-1.14 Myr", "0 kyr", "20 yr")

@@ -13,7 +13,7 @@ import earthspin
 from earthspin import EARTH, SUN, AccuracyError, SceneError
 from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.question import Question
-from earthspin.engine.run import Again
+from earthspin.engine.run import Rerun
 from earthspin.scenes import load_scene, run, run_blocks, series_length, write_series
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ YEAR = {"span": ["2000-01-01", "2001-01-01"], "step": "4 min"}
 
 
 def _stretches(scene: Question, blocks: list[Block]) -> Iterator[xr.Dataset]:
-    again = Again(scene, {BLOCK})
-    return (again.answer(block=block) for block in blocks)
+    rerun = Rerun(scene, {BLOCK})
+    return (rerun(block=block).answer() for block in blocks)
 
 
 def test_stretches_are_the_series() -> None:

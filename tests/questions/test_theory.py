@@ -8,10 +8,10 @@ import pytest
 
 import earthspin
 from earthspin import EARTH, EarthspinError, Scene
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top
 from earthspin.engine import store
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.scenes import QUESTIONS
-from earthspin.top.integration import integrate_heavy_top
 from earthspin.top.start import HeavyTop
 
 TIMES = np.linspace(0.0, 20.0, 41)

@@ -18,12 +18,13 @@ from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
 from tests.conftest import load_pins
+from tests.refusals import refused
 from tests.rotor.accuracy import errors
 from tests.rotor.families import FAMILIES, cases
 from tests.rotor.textbook import DIGITS, Textbook, exact_moments
 
 #: Per family; `python -m tests.rotor.accuracy` runs as many as one likes.
-CASES = 30
+CASES = 12
 #: Worst of 600 cases: 1.8e-14 near the separatrix, where u reaches 70; 4.6e-15 next to the
 #: sphere; 2.3e-15 elsewhere.
 TOLERANCE = {"near the separatrix": 1e-13, "near the sphere": 2e-14}
@@ -368,22 +369,14 @@ def test_bodies_and_starts_broadcast() -> None:
     assert free_rotation(BODY, [0.1, 0.2, 1.0], []).omega_body.shape == (0, 3)
 
 
-@pytest.mark.parametrize(
-    ("moments", "omega", "times", "kind", "words"),
-    [
-        (BODY, [0.0, 0.0, 0.0], [1.0], UndefinedError, r"omega = \[0, 0, 0\] rad/s"),
-        (BODY, [[1.0, 0, 0], [0, 0, 0]], [1.0], UndefinedError, "no angular momentum"),
-        (BODY, [1.0, 0.0], [1.0], BodyError, r"shape of omega = \(2,\)"),
-        (BODY, [1.0, np.nan, 0.0], [1.0], BodyError, "omega = nan"),
-        (BODY, [1.0, 0.0, 0.0], [1.0, np.inf], BodyError, "times = inf"),
-        (BODY, [1.0, 0.0, 0.0], 1.0, BodyError, r"shape of times = \(\)"),
-        (np.ones((2, 3)), np.ones((3, 3)), [1.0], BodyError, r"shape of omega = \(3, 3\)"),
-        ([1.0, 2.0, 3.5], [1.0, 0.0, 0.0], [1.0], BodyError, "C = 3.5"),
-    ],
+test_what_has_no_answer_is_named = refused(
+    (BODY, [0.0, 0.0, 0.0], [1.0], UndefinedError, r"omega = \[0, 0, 0\] rad/s"),
+    (BODY, [[1.0, 0, 0], [0, 0, 0]], [1.0], UndefinedError, "no angular momentum"),
+    (BODY, [1.0, 0.0], [1.0], BodyError, r"shape of omega = \(2,\)"),
+    (BODY, [1.0, np.nan, 0.0], [1.0], BodyError, "omega = nan"),
+    (BODY, [1.0, 0.0, 0.0], [1.0, np.inf], BodyError, "times = inf"),
+    (BODY, [1.0, 0.0, 0.0], 1.0, BodyError, r"shape of times = \(\)"),
+    (np.ones((2, 3)), np.ones((3, 3)), [1.0], BodyError, r"shape of omega = \(3, 3\)"),
+    ([1.0, 2.0, 3.5], [1.0, 0.0, 0.0], [1.0], BodyError, "C = 3.5"),
+    call=free_rotation,
 )
-def test_what_has_no_answer_is_named(
-    moments: Any, omega: Any, times: Any, kind: type[Exception], words: str
-) -> None:
-    with pytest.raises(kind, match=words) as caught:
-        free_rotation(moments, omega, times)
-    assert "\n" not in str(caught.value)

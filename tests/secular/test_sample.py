@@ -79,6 +79,7 @@ def _readings(times: np.ndarray) -> Readings:
     return readings(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
 
 
+@pytest.mark.slow
 def test_fresh_members_lie_inside_where_half_widths_are_sampled() -> None:
     times = np.arange(-10_000.0, -5_000.0, 40) * KYR
     found = _readings(times)

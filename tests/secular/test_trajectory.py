@@ -75,8 +75,8 @@ def test_its_derivatives_are_those_of_finite_differences(
 #: normal, where the axis goes round in a window's time, 0.008 and 0.023 were measured, far from it
 #: 4e-8 at most.
 CLOSED = [
-    *((degrees, 1e-6) for degrees in (10.0, 23.4, 60.0, 89.0, 90.0, 91.0, 120.0, 150.0)),
-    *((degrees, 0.05) for degrees in (0.001, 1.0, 5.0, 8.0, 172.0, 175.0, 179.0, 179.999)),
+    *((degrees, 1e-6) for degrees in (10.0, 23.4, 89.0, 90.0, 150.0)),
+    *((degrees, 0.05) for degrees in (0.001, 5.0, 175.0, 179.999)),
 ]
 
 

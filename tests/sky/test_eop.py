@@ -7,9 +7,9 @@ import pytest
 
 import earthspin
 from earthspin import SeriesError
+from earthspin.checks.solvers import simulation
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
-from earthspin.wobble import simulation
 
 
 @pytest.fixture(scope="module")

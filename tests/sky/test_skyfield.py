@@ -139,6 +139,7 @@ def test_precession_asks_skyfield_for_declinations(monkeypatch: pytest.MonkeyPat
     assert not frames
 
 
+@pytest.mark.slow
 def test_both_readers_answer_every_question_that_opens_a_kernel() -> None:
     """With the same numbers: 1e-9 of the largest is required, 1e-11 and less measured."""
     from earthspin.scenes import QUESTIONS

@@ -6,9 +6,9 @@ from tests.top.accuracy import FRACTIONS, GOOD, LATE, errors
 from tests.top.families import FAMILIES, cases
 
 #: Tops per family; ``python -m tests.top.accuracy`` runs 500 and prints the table.
-CASES = 8
+CASES = 4
 #: Tops per family after ten thousand nutations, where every input of every case is moved.
-LATE_CASES = 2
+LATE_CASES = 1
 #: Errors beyond 1e-13 stay below this many units in the last place of the inputs, added up.
 ULPS, LATE_ULPS = 2.0, 4.0
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top
 from earthspin.errors import BodyError
-from earthspin.top.integration import integrate_heavy_top
 from earthspin.top.start import HeavyTop
 
 BODY = {"transverse_moment": 1.25, "axial_moment": 0.75, "weight_moment": 2.0}

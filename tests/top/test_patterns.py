@@ -11,6 +11,7 @@ from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, pattern_limits
 from earthspin.top.start import HeavyTop, top_constants
 from earthspin.top.steady import steady_precession
+from tests.refusals import refused
 from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook
 
@@ -135,14 +136,10 @@ def test_over_a_pole_and_in_a_plane_there_are_no_loops() -> None:
     assert nutation_pattern(HeavyTop(**BODY, theta=1.0, spin=0.0)) == "wave"
 
 
-@pytest.mark.parametrize(
-    ("start", "reason"),
-    [
-        ({"theta": 1.0, "spin": 0.0}, "without spin"),
-        ({"theta": 0.0, "spin": 1.0}, "on the vertical"),
-        ({"theta": 1.0, "spin": 5.0, "theta_rate": 3.0}, "theta_rate = 3.0"),
-    ],
+test_limits_that_do_not_exist_are_refused = refused(
+    ({"theta": 1.0, "spin": 0.0}, "without spin"),
+    ({"theta": 0.0, "spin": 1.0}, "on the vertical"),
+    ({"theta": 1.0, "spin": 5.0, "theta_rate": 3.0}, "theta_rate = 3.0"),
+    call=lambda start: pattern_limits(HeavyTop(**BODY, **start)),
+    kind=UndefinedError,
 )
-def test_limits_that_do_not_exist_are_refused(start: dict[str, float], reason: str) -> None:
-    with pytest.raises(UndefinedError, match=reason):
-        pattern_limits(HeavyTop(**BODY, **start))

@@ -6,8 +6,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top
 from earthspin.errors import UndefinedError
-from earthspin.top.integration import integrate_heavy_top
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from earthspin.top.steady import (

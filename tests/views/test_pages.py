@@ -6,14 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.views.of_question import (
     ERRORS,
-    EXPLAINED,
+    PAGES,
     drawings_for,
     figures_of,
     scene_page,
@@ -36,31 +35,24 @@ FIGURES = {
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
     tree = shipped.tree(scene)
-    page = scene_page(tree)
+    page, drawings, solids = scene_page(tree), drawings_for(tree), solids_for(tree)
     headings = [unescape(words) for words in re.findall(r"<h2>(.*?)</h2>", page)]
+    # a square first figure stands beside the title, where it needs no heading
+    beside_the_title = int(any(drawing.square for drawing in drawings[:1]))
     assert headings == [
-        *(drawing.title for drawing in drawings_for(tree)[_stands_first(tree) :]),
-        *(solid.title for solid in solids_for(tree)),
+        *(drawing.title for drawing in drawings[beside_the_title:]),
+        *(solid.title for solid in solids),
         *(table.title for table in tables_for(tree)),
         "Parts that ran, and parts left out",
     ]
-    assert page.count('<svg class="usual"') == len(drawings_for(tree))
-    assert page.count("<canvas") == len(solids_for(tree))
+    assert page.count('<svg class="usual"') == len(drawings)
+    assert page.count("<canvas") == len(solids)
     linked = set(re.findall(r'<a href="#(.*?)"', page))
     assert linked <= set(re.findall(r'<(?:section|details) id="(.*?)"', page))
     assert page.count(typeset(f"Left out: {tree.attrs['neglected']}.")) == 1
     assert page.count('class="cost"') == 1
     assert not re.search(r"(?:src|href)\s*=\s*\"http", page)
-
-
-def _stands_first(tree: xr.DataTree) -> int:
-    """One if the first figure stands beside the title, where it needs no heading."""
-    return int(any(drawing.square for drawing in drawings_for(tree)[:1]))
-
-
-@pytest.mark.parametrize("scene", ["precession", "iau", "wobble", "poinsot"])
-def test_names_of_a_page_are_its_own_and_figures_have_words(scene: str) -> None:
-    page = scene_page(shipped.tree(scene))
+    # names are the page's own, and figures have words
     names = re.findall(r'\bid="(.*?)"', page)
     assert len(names) == len(set(names))
     for words in re.findall(r"<svg[^>]*>", page):
@@ -84,7 +76,7 @@ def test_the_head_of_the_precession_page_says_of_which_number_it_speaks() -> Non
 
 @pytest.mark.parametrize(("scene", "count"), FIGURES.items())
 def test_a_plain_answer_can_be_drawn(scene: str, count: int) -> None:
-    figures = figures_of(shipped.answer(scene))
+    figures = figures_of(shipped.tree(scene).to_dataset())
     assert len(figures) == count
     for figure in figures:
         assert isinstance(figure, Figure)
@@ -93,10 +85,10 @@ def test_a_plain_answer_can_be_drawn(scene: str, count: int) -> None:
 
 def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
     docs = Path(__file__).parents[2] / "docs"
-    assert set(EXPLAINED) <= set(QUESTIONS)
-    for name, title in (*EXPLAINED.values(), ERRORS):
+    assert {question.page for question in QUESTIONS.values()} == set(PAGES)
+    for name, title in (*PAGES.items(), ERRORS):
         assert f"\n# {title}\n" in f"\n{(docs / f'{name}.md').read_text(encoding='utf-8')}"
-    page = scene_page(shipped.answer("spheroid"))
+    page = scene_page(shipped.tree("spheroid").to_dataset())
     assert "Rotors and tops, from the tensor to the torque" in page
     assert "Errors and run times" in page
 

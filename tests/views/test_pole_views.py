@@ -11,6 +11,7 @@ import earthspin
 from earthspin.views import iau as of_iau
 from earthspin.views import pole as of_pole
 from earthspin.views.of_question import tables_for
+from tests import shipped
 
 
 @pytest.fixture(scope="module")
@@ -20,8 +21,7 @@ def pole() -> xr.Dataset:
 
 @pytest.fixture(scope="module")
 def iau() -> xr.DataTree:
-    changes = {"span": ["1990-01-01", "2010-01-01"], "step": "20 d"}
-    return earthspin.run_tree(earthspin.load_scene("iau", changes))
+    return shipped.tree("iau")
 
 
 def test_table_of_the_path(pole: xr.Dataset) -> None:

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import ndtri
 
-from earthspin.checks.case import Cases, Distances, apart, hard_because, held_against, refused
+from earthspin.checks.case import Distances, holds, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.given import MEMBER
@@ -23,8 +22,6 @@ from earthspin.questions.precession import precession
 from earthspin.questions.spheroid import spheroid_field
 from earthspin.questions.top import heavy_top
 from earthspin.scenes import QUESTIONS
-
-CASES = Cases("many")
 
 FloatArray = NDArray[np.float64]
 
@@ -54,19 +51,25 @@ def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
     return _beside(question, ROTOR, rows, lambda *of: free_rotor(of[:3], of[3:], TIMES))
 
 
-@CASES.case("rotors twenty orders of magnitude apart, side by side")
-@hard_because("what scales one to the numbers of another leaves it no digit")
-@held_against("each rotor alone, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _scales() -> Distances:
+    """rotors twenty orders of magnitude apart, side by side
+
+    Hard because: what scales one to the numbers of another leaves it no digit
+    Held against: each rotor alone, bit for bit
+    """
     yield from _rotors(
         [[s, 2 * s, 2.8 * s, w, 0.3 * w, w] for s, w in ((1e-10, 1e-3), (1.0, 1.0), (1e10, 1e-9))]
     )
 
 
-@CASES.case("a sphere and a separatrix beside other rotors")
-@hard_because("the one has no polhode, the other's has no period: arrays know no exceptions")
-@held_against("each rotor alone, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _degenerate_rotors() -> Distances:
+    """a sphere and a separatrix beside other rotors
+
+    Hard because: the one has no polhode, the other's has no period: arrays know no exceptions
+    Held against: each rotor alone, bit for bit
+    """
     yield from _rotors(
         [
             [1.0, 2.0, 2.8, 0.01, 1.0, 0.0],
@@ -78,10 +81,13 @@ def _degenerate_rotors() -> Distances:
     )
 
 
-@CASES.case("tops that stand, hang and sleep beside one that loops")
-@hard_because("upright and upside down there is no azimuth, and a sleeping top has no nutation")
-@held_against("each top alone, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _tops() -> Distances:
+    """tops that stand, hang and sleep beside one that loops
+
+    Hard because: upright and upside down there is no azimuth, and a sleeping top has no nutation
+    Held against: each top alone, bit for bit
+    """
     top = {"transverse_moment": 1.0, "axial_moment": 1.2, "weight_moment": 1.5}
     question = QUESTIONS["top"](times=TIMES, theta=0.7, spin=3.0, **top)
     rows = [[0.7, 3.0], [0.0, 50.0], [0.0, 1.0], [np.pi, 3.0], [1e-9, 2.041], [1.0, 0.0]]
@@ -90,10 +96,13 @@ def _tops() -> Distances:
     )
 
 
-@CASES.case("a ball, a disc and a needle, side by side")
-@hard_because("each has a closed form of its own, and a series where that loses its digits")
-@held_against("the field of each alone, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _spheroids() -> Distances:
+    """a ball, a disc and a needle, side by side
+
+    Hard because: each has a closed form of its own, and a series where that loses its digits
+    Held against: the field of each alone, bit for bit
+    """
     place = [[7e6, 1e5, 2e6], [1e9, 1e9, 1e3]]
     question = QUESTIONS["spheroid"](position=place)
 
@@ -104,10 +113,13 @@ def _spheroids() -> Distances:
     yield from _beside(question, ("body.flattening",), rows, alone)
 
 
-@CASES.case("a thin disc and almost a ball, precessing side by side")
-@hard_because("their rates are eleven orders of magnitude apart, in one product")
-@held_against("the precession of each alone, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _discs() -> Distances:
+    """a thin disc and almost a ball, precessing side by side
+
+    Hard because: their rates are eleven orders of magnitude apart, in one product
+    Held against: the precession of each alone, bit for bit
+    """
     rows = [[5e-12, 1e-12], [H, J2], [0.5, 0.2]]
     yield from _beside(
         QUESTIONS["precession"](),
@@ -128,10 +140,13 @@ def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
     return Ensemble(question.replace(members=members)).values
 
 
-@CASES.case("the last of ten million members, alone")
-@hard_because("each has a generator of its own: those before it must not be needed")
-@held_against("numbers of a generator of its own, Philox by seed and member", bound=0.0)
+@holds(bound=0.0)
 def _last() -> Distances:
+    """the last of ten million members, alone
+
+    Hard because: each has a generator of its own: those before it must not be needed
+    Held against: numbers of a generator of its own, Philox by seed and member
+    """
     number = 10**7 - 1
     sequence = np.random.SeedSequence(5, spawn_key=(number,))
     own = np.random.Generator(np.random.Philox(sequence)).standard_normal(2)
@@ -139,10 +154,13 @@ def _last() -> Distances:
     yield [found[f"omega.{axis}"][0] - own[axis] for axis in range(2)]
 
 
-@CASES.case("inputs correlated by 0.999999")
-@hard_because("1 - r2 loses six digits, and the second input is nearly the first")
-@held_against("r x + sqrt((1 - r) (1 + r)) y of two independent numbers", bound=2e-13)
+@holds(bound=2e-13)
 def _correlated() -> Distances:
+    """inputs correlated by 0.999999
+
+    Hard because: 1 - r2 loses six digits, and the second input is nearly the first
+    Held against: r x + sqrt((1 - r) (1 + r)) y of two independent numbers
+    """
     r = 0.999999
     first, second = "omega.0", "omega.1"
     x, y = _drawn(200).values()
@@ -151,19 +169,12 @@ def _correlated() -> Distances:
     yield found[second] - (r * x + np.sqrt((1 - r) * (1 + r)) * y)
 
 
-@CASES.case("correlations that no three numbers have")
-@hard_because("each pair is possible, and a root of the matrix is not")
-@refused("the matrix is not positive")
-def _not_positive() -> None:
-    names = [f"omega.{axis}" for axis in range(3)]
-    pairs = [[names[a], names[b], -0.6] for a, b in ((0, 1), (1, 2), (2, 0))]
-    _drawn(3, **{names[2]: {"normal": [0.0, 1.0]}}, correlations=pairs)
-
-
-@CASES.case("thirty thousand decades of torques held at once")
-@hard_because("each alone fits, and so do all numbers that are drawn")
 @refused("write them to a store")
 def _too_many() -> None:
+    """thirty thousand decades of torques held at once
+
+    Hard because: each alone fits, and so do all numbers that are drawn
+    """
     decade = QUESTIONS["torque"](span=("2000-01-01", "2010-01-01"), step="1 d")
     ensemble(decade, {"n": 30_000, J2_OF_BODY: {"uniform": [1.082e-3, 1.083e-3]}})
 
@@ -171,36 +182,47 @@ def _too_many() -> None:
 # --- told ----------------------------------------------------------------------------------------
 
 
-@CASES.case("an ensemble of one member")
-@hard_because("it has no spread, no neighbour, and no row of its own length")
-@held_against("the answer to its own numbers, and that as each quantile, bit for bit", bound=0.0)
+@holds(bound=0.0)
 def _one() -> Distances:
+    """an ensemble of one member
+
+    Hard because: it has no spread, no neighbour, and no row of its own length
+    Held against: the answer to its own numbers, and that as each quantile, bit for bit
+    """
     h = 1.5 * H
     alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
     told = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
     yield told.precession_period.values != alone.values
 
 
-@CASES.case("slopes from one member")
-@hard_because("any line goes through one point")
 @refused("take at least 3 members")
 def _one_slope() -> None:
+    """slopes from one member
+
+    Hard because: any line goes through one point
+    """
     sensitivity(ensemble("precession", {H_OF_BODY: {"grid": [H]}}))
 
 
-@CASES.case("inputs whose spread is below their last bit")
-@hard_because("shares of no variance are zero over zero")
-@held_against("no slope, no share and nothing unexplained", bound=0.0)
+@holds(bound=0.0)
 def _no_spread() -> Distances:
+    """inputs whose spread is below their last bit
+
+    Hard because: shares of no variance are zero over zero
+    Held against: no slope, no share and nothing unexplained
+    """
     normal = {"normal": [H, 1e-30]}
     told = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
     yield from (of.values for of in told.data_vars.values())
 
 
-@CASES.case("a sum of inputs twenty-four orders of magnitude apart")
-@hard_because("a fit in their own units would leave the small ones out")
-@held_against("the coefficient of each, relative, and shares that add up to 1", bound=2e-14)
+@holds(bound=2e-14)
 def _additive() -> Distances:
+    """a sum of inputs twenty-four orders of magnitude apart
+
+    Hard because: a fit in their own units would leave the small ones out
+    Held against: the coefficient of each, relative, and shares that add up to 1
+    """
     spread = np.array([1e-12, 1e-3, 1.0, 1e12])
     inputs = spread * (3 + np.random.default_rng(1).standard_normal((300, 4)))
     weights = np.array([1.0, -2.0, 0.5, 3.0]) / spread
@@ -208,14 +230,3 @@ def _additive() -> Distances:
     yield told.slope / weights - 1
     yield told.share.sum() - 1
     yield told.unexplained
-
-
-@CASES.case("quantiles of the normal distribution, its infinite ends among the samples")
-@hard_because("between a number and infinity there is no straight line")
-@held_against("the samples that stand there", bound=0.0)
-def _quantiles() -> Distances:
-    shares = np.arange(1001) / 1000
-    samples = ndtri(shares)
-    found = sampling.quantiles(samples[::-1], shares)
-    yield apart(found[1:-1], samples[1:-1])
-    yield found[[0, -1]] != samples[[0, -1]]

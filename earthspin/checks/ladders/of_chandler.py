@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.solvers.simulation import simulate
 from earthspin.checks.work_precision import Ladder, Method, Setting
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import METHODS, fit
 from earthspin.wobble.record import BAND
-from earthspin.wobble.simulation import simulate
 
 Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
 
@@ -32,6 +32,13 @@ QUICK_EXCESS = 2.0  # few records tell a scatter to a third
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     years, records = (QUICK_YEARS, FEW_RECORDS) if quick else (YEARS, RECORDS)
+    excess, scatter = QUICK_EXCESS if quick else 1.0, best_scatter(years[-1])
+    bounds = {name: EXCESS[name] * excess * scatter * DAY for name in METHODS}
+
+    def method(name: str, estimate: Callable[[Record], float]) -> Method:
+        each = [_setting(estimate, length, records) for length in years]
+        return Method(name, each, bounds.get(name, np.inf))
+
     return Ladder(
         quantity="chandler",
         unit="d",
@@ -41,7 +48,10 @@ def ladder(quick: bool) -> Ladder:
         subject="the period of the free wobble from one record",
         reference="the period that the records were simulated with",
         reference_error=1e-9 * DAY,
-        methods=_methods(years, records, QUICK_EXCESS if quick else 1.0),
+        methods=[
+            *(method(name, partial(_fitted, name)) for name in METHODS),
+            method("peak of the FFT", _peak),
+        ],
         useful=10 * DAY,
         error=lambda periods: float(np.sqrt(np.mean((periods - PERIOD) ** 2))) * DAY,
     )
@@ -58,28 +68,12 @@ def record(years: float, seed: int) -> Record:
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 
-def _methods(years: tuple[float, ...], records: int, excess: float) -> list[Method]:
-    def settings(of: Callable[[Record], float]) -> list[Setting]:
-        return [_setting(of, length, records) for length in years]
-
-    ours = [
-        Method(
-            name,
-            True,
-            settings(partial(_fitted, name)),
-            bound=EXCESS[name] * excess * best_scatter(years[-1]) * DAY,
-        )
-        for name in METHODS
-    ]
-    return [*ours, Method("peak of the FFT", False, settings(_peak))]
-
-
-def _setting(of: Callable[[Record], float], years: float, records: int) -> Setting:
+def _setting(estimate: Callable[[Record], float], years: float, records: int) -> Setting:
     first = record(years, 0)
     return Setting(
         f"{years:g} years",
-        lambda: (of(first), first[0].size),
-        judged=lambda: np.array([of(record(years, seed)) for seed in range(records)]),
+        lambda: (estimate(first), first[0].size),
+        judged=lambda: np.array([estimate(record(years, seed)) for seed in range(records)]),
     )
 
 

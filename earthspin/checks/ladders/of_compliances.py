@@ -44,6 +44,17 @@ BOUND = 1e-11
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     true = load("compliances", INPUTS)["answers"]
+    fine = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
+    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+    thin = (0.1, 0.05) if quick else (0.2, 0.1, 0.05, 0.02, 0.01)
+    rows: list[tuple[str, str, Callable[..., Array], tuple[float, ...]]] = [
+        ("solve_ivp DOP853", "rtol {}", partial(_by_scipy, "DOP853"), fine),
+        ("solve_ivp LSODA", "rtol {}", partial(_by_scipy, "LSODA"), fine),
+        ("solve_ivp RK45", "rtol {}", partial(_by_scipy, "RK45"), coarse),
+        ("RK4 by hand", "steps of {} in ln r", _runge_kutta, thin),
+        ("even layers, matrix exponentials", "layers of {} in ln r", _even_layers, thin),
+    ]
+    settled = settings("settled to {}", partial(_run, by_collocation), (1e-4, 1e-13))
     return Ladder(
         quantity="compliances",
         unit="1",
@@ -54,7 +65,13 @@ def ladder(quick: bool) -> Ladder:
         reference="Hooke's law and Poisson's equation in the logarithm of the radius, in long "
         "double by extrapolation of order 20, from a tenth of the radius at which these start",
         reference_error=REFERENCE_ERROR,
-        methods=_methods(quick),
+        methods=[
+            Method("collocation at Gauss's nodes", settled, BOUND),
+            *(
+                Method(name, settings(words, partial(_run, carry), values))
+                for name, words, carry, values in rows
+            ),
+        ],
         useful=0.01,
         error=partial(scaled_error, true),
     )
@@ -64,34 +81,6 @@ def scaled_error(true: Values, found: Array) -> float:
     """Largest error of an answer over the geometric mean of the two on the diagonal."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
     return float(np.max(abs(true.error_of(found)) / np.outer(own, own)))
-
-
-def _methods(quick: bool) -> list[Method]:
-    settled = (1e-4, 1e-13)
-    loose = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
-    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
-    thin = (0.1, 0.05) if quick else (0.2, 0.1, 0.05, 0.02, 0.01)
-    return [
-        Method(
-            "collocation at Gauss's nodes",
-            True,
-            settings("settled to {}", partial(_run, by_collocation), settled),
-            bound=BOUND,
-        ),
-        *(
-            Method(f"solve_ivp {name}", False, settings("rtol {}", partial(_run, carry), fine))
-            for name, fine in (("DOP853", loose), ("LSODA", loose), ("RK45", coarse))
-            for carry in (partial(_by_scipy, name),)
-        ),
-        Method(
-            "RK4 by hand", False, settings("steps of {} in ln r", partial(_run, _runge_kutta), thin)
-        ),
-        Method(
-            "even layers, matrix exponentials",
-            False,
-            settings("layers of {} in ln r", partial(_run, _even_layers), thin),
-        ),
-    ]
 
 
 def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:

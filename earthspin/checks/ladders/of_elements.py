@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import jv, jvp
 
 from earthspin.checks.stored import load
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.work_precision import Ladder, Method, settings
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse, Plane
 
@@ -67,8 +67,18 @@ def days() -> FloatArray:
 
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
-    true = load("elements", INPUTS)
+    true = load("elements", INPUTS)["places"]
     wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
+    t = days()[wanted]
+    by_hand: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
+        ("fixed-point iteration", "{} steps", _fixed_point, (5, 20, 80, 320)),
+        ("Newton's method from M", "{} steps", _newton, (2, 4, 8, 16)),
+        ("Newton's method, Danby's start", "{} steps", _danby, (2, 3, 4, 6, 8)),
+        ("series in the eccentricity", "{} terms", _series, (3, 10, 30, 100, 300)),
+        ("solve_ivp DOP853", "rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
+        ("universal variables by Skyfield", "", _skyfield, (0.0,)),
+    ]
+    by_ellipse = settings("", lambda: (np.stack([e.positions(t) for e in ORBITS]), t.size * 3))
     return Ladder(
         quantity="elements",
         unit="1",
@@ -78,8 +88,15 @@ def ladder(quick: bool) -> Ladder:
         subject="places by elements",
         reference="Kepler's equation with 50 digits, kept to 32",
         reference_error=ROUNDING,
-        methods=_methods(days()[wanted], quick),
-        error=lambda found: _error(true["places"][:, wanted].error_of(found)),
+        methods=[
+            Method("ellipses by their elements", by_ellipse, 1e-13),
+            *(
+                Method(name, settings(words, partial(_placed, run, t), values))
+                for name, words, run, all_values in by_hand
+                for values in ((quick and all_values[1:3]) or all_values,)
+            ),
+        ],
+        error=lambda places: _error(true[:, wanted].error_of(places)),
         useful=0.1,
     )
 
@@ -87,29 +104,6 @@ def ladder(quick: bool) -> Ladder:
 def _error(off: FloatArray) -> float:
     """Largest of all places, off by so much, m, shape (3, n, 3)."""
     return float(np.max(np.linalg.norm(off, axis=-1)) / ORBIT.a)
-
-
-def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    by_hand: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
-        ("fixed-point iteration", "{} steps", _fixed_point, (5, 20, 80, 320)),
-        ("Newton's method from M", "{} steps", _newton, (2, 4, 8, 16)),
-        ("Newton's method, Danby's start", "{} steps", _danby, (2, 3, 4, 6, 8)),
-        ("series in the eccentricity", "{} terms", _series, (3, 10, 30, 100, 300)),
-        ("solve_ivp DOP853", "rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
-        ("universal variables by Skyfield", "", _skyfield, (0.0,)),
-    ]
-    ours = Setting("", lambda: (np.stack([one.positions(t) for one in ORBITS]), t.size * 3))
-    return [
-        Method("ellipses by their elements", True, [ours], bound=1e-13),
-        *(
-            Method(
-                name,
-                False,
-                settings(words, partial(_placed, run, t), (quick and values[1:3]) or values),
-            )
-            for name, words, run, values in by_hand
-        ),
-    ]
 
 
 def _placed(run: InPlane, t: FloatArray, setting: float) -> Found:

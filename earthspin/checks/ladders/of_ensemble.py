@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from earthspin.checks.sky import BODY, H
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import Ladder, Method, Setting, settings
 from earthspin.engine.spread import quantiles
 from earthspin.many import ensemble
 from earthspin.scenes import QUESTIONS, run
@@ -42,6 +42,10 @@ EXCESS, QUICK_EXCESS = 1.5, 2.0
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     seeds = FEW_SEEDS if quick else SEEDS
+    members = QUICK_MEMBERS if quick else MEMBERS
+    scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])
+    drawn, by_numpy = ([_over_seeds(n, run, seeds) for n in members] for run in (_drawn, _by_hand))
+    spread = [Setting(f"{n:,} members", partial(_spread, n)) for n in members]
     return Ladder(
         quantity="ensemble",
         unit="1",
@@ -52,8 +56,13 @@ def ladder(quick: bool) -> Ladder:
         reference="the closed form: the period is as 1/H, so that its quantiles follow from those "
         "of the normal distribution",
         reference_error=1e-15,
-        methods=_methods(quick, seeds),
-        error=lambda found: float(np.sqrt(np.mean((found / HALF_WIDTH - 1) ** 2))),
+        methods=[
+            Method("members drawn", drawn, scatter),
+            Method("members spread evenly", spread, 5 / members[-1]),
+            Method("linear errors", settings("", _linear), 1.1 * OFF * OFF),
+            Method("numpy, as 1/H", by_numpy),
+        ],
+        error=lambda widths: float(np.sqrt(np.mean((widths / HALF_WIDTH - 1) ** 2))),
         useful=0.3,
     )
 
@@ -72,28 +81,11 @@ def expected_scatter(members: int) -> float:
     return both / HALF_WIDTH
 
 
-def _methods(quick: bool, seeds: int) -> list[Method]:
-    members = QUICK_MEMBERS if quick else MEMBERS
-    excess = QUICK_EXCESS if quick else EXCESS
-    spread = [Setting(f"{n:,} members", partial(_spread, n)) for n in members]
-    return [
-        Method(
-            "members drawn",
-            True,
-            [_over_seeds(n, _drawn, seeds) for n in members],
-            bound=excess * expected_scatter(members[-1]),
-        ),
-        Method("members spread evenly", True, spread, bound=5 / members[-1]),
-        Method("linear errors", True, [Setting("", _linear)], bound=1.1 * OFF * OFF),
-        Method("numpy, as 1/H", False, [_over_seeds(n, _by_hand, seeds) for n in members]),
-    ]
-
-
-def _over_seeds(members: int, of: Callable[[int, int], Found], seeds: int) -> Setting:
+def _over_seeds(members: int, run: Callable[[int, int], Found], seeds: int) -> Setting:
     return Setting(
         f"{members:,} members",
-        lambda: of(members, 0),
-        judged=lambda: np.concatenate([of(members, seed)[0] for seed in range(seeds)]),
+        lambda: run(members, 0),
+        judged=lambda: np.concatenate([run(members, seed)[0] for seed in range(seeds)]),
     )
 
 

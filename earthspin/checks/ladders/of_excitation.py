@@ -42,6 +42,7 @@ TO, FROM = "excitation from polar motion", "polar motion from excitation"
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     span = SHORT_SPAN if quick else SPAN
+    steps = (10.0, 1.0) if quick else STEPS
     return Ladder(
         quantity="excitation",
         unit="mas",
@@ -51,7 +52,13 @@ def ladder(quick: bool) -> Ladder:
         subject="excitation",
         reference="closed form of both, for sinusoids and steps",
         reference_error=2e-13 * MAS,
-        methods=_methods(span, (10.0, 1.0) if quick else STEPS),
+        methods=[
+            _method("exact mean", TO, steps, _to("exact", span)),
+            _method("central difference", TO, steps, _to("central difference", span, intervals=2)),
+            _method("Wilson's filter", TO, steps, _to("wilson", span)),
+            _method("exact step", FROM, steps, _from("exact", span)),
+            _method("explicit Euler", FROM, steps[-3:], _from("explicit euler", span)),
+        ],
         useful=10 * MAS,
         error=lambda values: float(np.max(np.abs(values[0] - values[1]))) * MAS,
     )
@@ -108,28 +115,11 @@ def weighting_error(step: float, *, resonant: bool) -> float:
     return float(total)
 
 
-def _methods(span: float, steps: tuple[float, ...]) -> list[Method]:
-    few = steps[-3:]
-    return [
-        _method("exact mean", TO, steps, _to("exact", span)),
-        _method("central difference", TO, steps, _to("central difference", span, intervals=2)),
-        _method("Wilson's filter", TO, steps, _to("wilson", span)),
-        _method("exact step", FROM, steps, _from("exact", span)),
-        _method("explicit Euler", FROM, few, _from("explicit euler", span)),
-    ]
-
-
 def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Method:
-    """A scheme at every step; only the exact pair promises anything."""
-    ours = name.startswith("exact")
-    promised = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
-    return Method(
-        name,
-        ours,
-        [Setting(f"{step:g} d", run_at(step)) for step in steps],
-        bound=promised if ours else np.inf,
-        task=task,
-    )
+    """Return a scheme at every step; only the exact pair claims a bound."""
+    claimed = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
+    bound = claimed if name.startswith("exact") else np.inf
+    return Method(name, [Setting(f"{step:g} d", run_at(step)) for step in steps], bound, task)
 
 
 def _to(scheme: str, span: float, intervals: int = 1) -> RunAt:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from earthspin.checks.ladders.rotation import FEW_FINE, FINE, Rotation, ladder_of_rotation
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.ladders.rotation import Rotation, ladder_of_rotation
+from earthspin.checks.work_precision import Ladder
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import free_rotation
 
@@ -24,6 +24,8 @@ INPUTS = {"moments": MOMENTS, "omega": OMEGA}
 
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
+    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+    stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
     return ladder_of_rotation(
         "free-rotor",
         INPUTS,
@@ -31,28 +33,13 @@ def ladder(quick: bool) -> Ladder:
         periods="periods of a free triaxial rotor",
         detail=", moments 1 : 1.7 : 2.4",
         reference="the textbook's closed form (Whittaker)",
-        methods=_methods,
-    )
-
-
-def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
-    stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
-    return [
-        Method("closed form", True, [Setting("", partial(_closed_form, t))], bound=1e-13),
-        Method(
-            "integrate_rotation",
-            True,
-            settings("DOP853, rtol {}", partial(_integrated, t), FEW_FINE if quick else FINE),
-            bound=1e-3 if quick else 1e-9,
-        ),
-        *(
-            Method(
-                f"solve_ivp {name}", False, settings("rtol {}", partial(_by_hand, t, name), steps)
-            )
+        closed_form=(_closed_form, 1e-13),
+        integrator=("integrate_rotation", _integrated),
+        by_hand={
+            f"solve_ivp {name}": (partial(_by_hand, name), steps)
             for name, steps in (("RK45", coarse), ("LSODA", coarse), ("Radau", stiff))
-        ),
-    ]
+        },
+    )
 
 
 def _closed_form(t: FloatArray) -> Rotation:
@@ -65,7 +52,7 @@ def _integrated(t: FloatArray, rtol: float) -> Rotation:
     return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(t: FloatArray, method: str, rtol: float) -> Rotation:
+def _by_hand(method: str, t: FloatArray, rtol: float) -> Rotation:
     """Euler's equations and the quaternion as one would type them."""
     a, b, c = MOMENTS
 

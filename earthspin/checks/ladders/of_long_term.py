@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -76,8 +77,21 @@ def ladder(quick: bool) -> Ladder:
     span = FEW if quick else SPAN
     start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0])
     motion = Motion(start, np.linspace(-span, 0.0, TIMES))
-    true = reference(motion, REFERENCE_STEP)
+    true, lean = reference(motion, REFERENCE_STEP), Lean(motion)
+    plain = partial(_scipy, as_it_stands)
     words = "100,000 years" if quick else "a million years"
+    nodes = (12, 16) if quick else (10, 12, 14, 16)
+    steps = (4, 2) if quick else (8, 5, 4, 3, 2)
+    loose = (1e-6, 1e-8) if quick else (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+    hand = (0.5, 0.25) if quick else (1.0, 0.5, 0.25, 0.125)
+    rows: list[tuple[str, str, Callable[..., Found], tuple[float, ...], float]] = [
+        ("Newton in time", "{} nodes", partial(_newton, 1), nodes, BOUND),
+        ("Newton in time, windows halved", "{} nodes", partial(_newton, 2), (6, 8), BOUND),
+        (f"lanes, {MEMBERS} members", "steps of {} kyr", _lanes, steps, BOUND),
+        ("DOP853 on the equation as it stands", "rtol {}", plain, loose[:3], math.inf),
+        ("DOP853 on a lean one", "rtol {}", partial(_scipy, lean), loose, math.inf),
+        ("RK4 by hand, lean", "steps of {} kyr", partial(_by_hand, lean), hand, math.inf),
+    ]
     return Ladder(
         quantity="long-term",
         unit="arcsec",
@@ -87,60 +101,19 @@ def ladder(quick: bool) -> Ladder:
         subject=f"{words} of the spin axis",
         reference="the midpoint rule, extrapolated to order 14 in steps of 2,000 years",
         reference_error=REFERENCE_ERROR,
-        methods=_methods(motion, quick),
-        error=lambda found: float(np.max(np.linalg.norm(found - true, axis=0))),
+        methods=[
+            Method(name, settings(setting, partial(run, motion), values), bound)
+            for name, setting, run, values, bound in rows
+        ],
+        error=lambda axes: float(np.max(np.linalg.norm(axes - true, axis=0))),
         useful=1000 * ARCSEC,
     )
-
-
-def _methods(motion: Motion, quick: bool) -> list[Method]:
-    nodes = (12, 16) if quick else (10, 12, 14, 16)
-    halved = (6, 8)
-    steps = (4, 2) if quick else (8, 5, 4, 3, 2)
-    loose = (1e-6, 1e-8) if quick else (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
-    hand = (0.5, 0.25) if quick else (1.0, 0.5, 0.25, 0.125)
-    lean = Lean(motion)
-    return [
-        Method(
-            "Newton in time",
-            True,
-            settings("{} nodes", partial(_newton, motion, 1), nodes),
-            bound=BOUND,
-        ),
-        Method(
-            "Newton in time, windows halved",
-            True,
-            settings("{} nodes", partial(_newton, motion, 2), halved),
-            bound=BOUND,
-        ),
-        Method(
-            f"lanes, {MEMBERS} members",
-            True,
-            settings("steps of {} kyr", partial(_lanes, motion), steps),
-            bound=BOUND,
-        ),
-        Method(
-            "DOP853 on the equation as it stands",
-            False,
-            settings("rtol {}", partial(_scipy, motion, as_it_stands), loose[:3]),
-        ),
-        Method(
-            "DOP853 on a lean one",
-            False,
-            settings("rtol {}", partial(_scipy, motion, lean), loose),
-        ),
-        Method(
-            "RK4 by hand, lean",
-            False,
-            settings("steps of {} kyr", partial(_by_hand, motion, lean), hand),
-        ),
-    ]
 
 
 # --- ours ----------------------------------------------------------------------------------------
 
 
-def _newton(motion: Motion, pieces: int, order: int) -> Found:
+def _newton(pieces: int, motion: Motion, order: int) -> Found:
     path = trajectory.solve(
         STRENGTH, _orbit(), motion.start, (motion.times[0], 0.0), order=order, pieces=pieces
     )
@@ -197,7 +170,7 @@ class Lean:
         return np.array([q * w - r * v, r * u - p * w, p * v - q * u])
 
 
-def _scipy(motion: Motion, slope: Slope, rtol: float) -> Found:
+def _scipy(slope: Slope, motion: Motion, rtol: float) -> Found:
     done = solve_ivp(
         slope,
         (0.0, motion.times[0]),
@@ -211,7 +184,7 @@ def _scipy(motion: Motion, slope: Slope, rtol: float) -> Found:
     return found / np.linalg.norm(found, axis=0), done.nfev
 
 
-def _by_hand(motion: Motion, slope: Slope, kyr: float) -> Found:
+def _by_hand(slope: Slope, motion: Motion, kyr: float) -> Found:
     """Runge and Kutta's rule in equal steps that meet the times."""
     each = max(round(-motion.times[0] / (TIMES - 1) / (kyr * KYR)), 1)
     step = motion.times[0] / (TIMES - 1) / each

@@ -37,6 +37,19 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     true = load("mean-orbit", INPUTS)["mean"]
+    cycle = 2 * math.pi / abs(ORBIT.node_rate)
+    counts = (8, 32) if quick else (8, 16, 32, 64, 120)
+    lengths = (cycle,) if quick else (DAY * 365.25, DAY * 3652.5, cycle, 5 * cycle)
+    windows = [
+        Setting(f"{turns} turns, {step} d", partial(_windowed, turns, cycle, "sin4", step))
+        for turns, step in (WINDOWS[2:4] if quick else WINDOWS)
+    ]
+    plain = [
+        Setting(
+            f"{length / DAY / 365.25:.3g} years, 1 d", partial(_windowed, 1, length, "plain", 1)
+        )
+        for length in lengths
+    ]
     return Ladder(
         quantity="mean-orbit",
         unit="1",
@@ -45,48 +58,15 @@ def ladder(quick: bool) -> Ladder:
         subject="the mean pull of an orbit by elements",
         reference="sum over anomaly and node with 50 digits, kept to 32",
         reference_error=ROUNDING,
-        methods=_methods(quick),
-        error=lambda found: abs(float(true.error_of(found) / true.hi)),
+        methods=[
+            Method("closed mean", settings("", lambda: (_closed(), 1)), 2e-15),
+            Method("sin4 window", windows, 1e-8 if quick else 2e-14),
+            Method("sum over anomaly and node", settings("{} anomalies", _summed, counts)),
+            Method("plain mean over years", plain),
+        ],
+        error=lambda mean: abs(float(true.error_of(mean) / true.hi)),
         useful=0.1,
     )
-
-
-def _methods(quick: bool) -> list[Method]:
-    cycle = 2 * math.pi / abs(ORBIT.node_rate)
-    windows = WINDOWS[2:4] if quick else WINDOWS
-    counts = (8, 32) if quick else (8, 16, 32, 64, 120)
-    plain = (cycle,) if quick else (DAY * 365.25, DAY * 3652.5, cycle, 5 * cycle)
-    return [
-        Method("closed mean", True, [Setting("", lambda: (_closed(), 1))], bound=2e-15),
-        Method(
-            "sin4 window",
-            True,
-            [
-                Setting(
-                    f"{turns} turns, {step} d",
-                    partial(_windowed, Window(0.0, turns, cycle, "sin4"), step * DAY),
-                )
-                for turns, step in windows
-            ],
-            bound=1e-8 if quick else 2e-14,
-        ),
-        Method(
-            "sum over anomaly and node",
-            False,
-            settings("{} anomalies", _summed, counts),
-        ),
-        Method(
-            "plain mean over years",
-            False,
-            [
-                Setting(
-                    f"{length / DAY / 365.25:.3g} years, 1 d",
-                    partial(_windowed, Window(0.0, 1.0, length, "plain"), DAY),
-                )
-                for length in plain
-            ],
-        ),
-    ]
 
 
 def _precessing(places: FloatArray) -> FloatArray:
@@ -98,8 +78,9 @@ def _closed() -> float:
     return float(precessing_torque(mean_torque(tide, AXIS)[np.newaxis], AXIS, NORMAL)[0])
 
 
-def _windowed(window: Window, step: float) -> Found:
-    times = window.sample_times(step)
+def _windowed(turns: float, cycle: float, taper: str, step: float) -> Found:
+    window = Window(0.0, turns, cycle, taper)
+    times = window.sample_times(step * DAY)
     return float(window.mean(times, _precessing(ORBIT.positions(times / DAY)))), times.size
 
 

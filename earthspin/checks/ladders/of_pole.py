@@ -12,12 +12,12 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.checks.ladders import taylor
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
+from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.work_precision import Ladder, Method, settings
 from earthspin.constants import DAY, J2000_JD, UAS
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.axes import axis_path
-from earthspin.motion.exact import axisymmetric_motion
 from earthspin.motion.forces import Figure, Forces
 from earthspin.motion.triaxial import equatorial_basis
 
@@ -89,6 +89,27 @@ def ladder(quick: bool) -> Ladder:
     motion = Motion(
         true["start_axis"].hi, true["start_momentum"].hi, true["days"].hi[wanted] * DAY, span * DAY
     )
+    windows = {8: WINDOWS[8][1::3]} if quick else WINDOWS
+    by_hand = ("LSODA",) if quick else ("RK45", "LSODA", "DOP853")
+    loose = (1e-6,) if quick else (1e-6, 1e-8)
+    methods = [
+        Method(
+            f"Picard, {length} d",
+            settings("{} nodes", partial(_picard, motion, length), nodes),
+            PICARD_BOUNDS[length] * UAS,
+        )
+        for length, nodes in windows.items()
+    ]
+    methods += [
+        Method("momentum and figure axis", settings("DOP853", partial(_exact, motion)), 5e-4 * UAS),
+        Method("whole attitude", settings("DOP853", partial(_attitude, motion)), 5e-3 * UAS),
+    ]
+    for name in by_hand:
+        on_pole = settings("rtol {}", partial(_by_hand, motion, name), loose)
+        methods.append(Method(f"{name} on the pole alone", on_pole))
+    if taylor.is_installed():
+        series = settings("tolerance {}", partial(_peer, motion), (1e-9, 1e-12, 1e-16))
+        methods.append(Method("Taylor series by heyoka", series))
     return Ladder(
         quantity="pole",
         unit="uas",
@@ -98,49 +119,16 @@ def ladder(quick: bool) -> Ladder:
         reference="angular momentum and figure axis in long double by extrapolation of order 20 "
         "in steps of 3 hours",
         reference_error=REFERENCE_ERROR,
-        methods=_methods(motion, quick),
-        error=lambda found: _error(found, figure),
+        methods=methods,
+        error=lambda axes: _error(axes, figure),
         useful=1e6 * UAS,
         skipped="" if taylor.is_installed() else "heyoka, which is not installed",
     )
 
 
-def _error(found: FloatArray, figure: Values) -> float:
-    found = found / np.linalg.norm(found, axis=1, keepdims=True)
-    return float(np.max(np.linalg.norm(figure.error_of(found), axis=1)))
-
-
-def _methods(motion: Motion, quick: bool) -> list[Method]:
-    methods = [
-        Method(
-            f"Picard, {length} d",
-            True,
-            settings("{} nodes", partial(_picard, motion, length), nodes[1::3] if quick else nodes),
-            bound=PICARD_BOUNDS[length] * UAS,
-        )
-        for length, nodes in WINDOWS.items()
-        if not quick or length == 8
-    ]
-    methods += [
-        Method(name, True, [Setting("DOP853", partial(solver, motion))], bound=bound * UAS)
-        for name, solver, bound in (
-            ("momentum and figure axis", _exact, 5e-4),
-            ("whole attitude", _attitude, 5e-3),
-        )
-    ]
-    loose = (1e-6,) if quick else (1e-6, 1e-8)
-    methods += [
-        Method(
-            f"{name} on the pole alone",
-            False,
-            settings("rtol {}", partial(_by_hand, motion, name), loose),
-        )
-        for name in (("LSODA",) if quick else ("RK45", "LSODA", "DOP853"))
-    ]
-    if taylor.is_installed():
-        series = settings("tolerance {}", partial(_peer, motion), (1e-9, 1e-12, 1e-16))
-        methods.append(Method("Taylor series by heyoka", False, series))
-    return methods
+def _error(axes: FloatArray, figure: Values) -> float:
+    axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    return float(np.max(np.linalg.norm(figure.error_of(axes), axis=1)))
 
 
 def _picard(motion: Motion, length: int, order: int) -> Found:

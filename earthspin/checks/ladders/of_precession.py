@@ -35,7 +35,23 @@ QUICK_BOUND = 1e-3
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     epochs = EPOCHS[::4] if quick else EPOCHS
-    true = model_sky.torus_mean(TORUS)
+    true, cycle = model_sky.torus_mean(TORUS), model_sky.turn_of_the_node()
+    windows, years = (QUICK_WINDOWS, BY_HAND[1:3]) if quick else (WINDOWS, BY_HAND)
+    tapered = [
+        Method(
+            taper,
+            [
+                _setting(f"{turns} turns, {step} d", taper, turns * cycle, step, epochs)
+                for turns, step in windows
+            ],
+            QUICK_BOUND if quick else BOUNDS[taper],
+        )
+        for taper in TAPERS
+    ]
+    plain = [
+        _setting(f"{n:g} year{'s' * (n > 1)}, 1 d", "plain", n * JULIAN_YEAR, 1, epochs)
+        for n in years
+    ]
     return Ladder(
         quantity="precession",
         unit="1",
@@ -46,32 +62,10 @@ def ladder(quick: bool) -> Ladder:
         reference="mean over the torus of the four angles that the model hangs on, by the "
         "trapezoid rule; no window is in it",
         reference_error=1e-14,
-        methods=_methods(epochs, quick),
+        methods=[*tapered, Method("plain mean over years", plain)],
         error=lambda means: float(np.max(np.abs(np.asarray(means) / true - 1))),
         useful=0.1,
     )
-
-
-def _methods(epochs: FloatArray, quick: bool) -> list[Method]:
-    windows = QUICK_WINDOWS if quick else WINDOWS
-    ours = [
-        Method(
-            taper,
-            True,
-            [
-                _setting(f"{turns} turns, {step} d", taper, turns * cycle, step, epochs)
-                for cycle in [model_sky.turn_of_the_node()]
-                for turns, step in windows
-            ],
-            bound=QUICK_BOUND if quick else BOUNDS[taper],
-        )
-        for taper in TAPERS
-    ]
-    plain = [
-        _setting(f"{years:g} year{'s' * (years > 1)}, 1 d", "plain", years * JULIAN_YEAR, 1, epochs)
-        for years in (BY_HAND[1:3] if quick else BY_HAND)
-    ]
-    return [*ours, Method("plain mean over years", False, plain)]
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.checks.ladders.rotation import Rotation
+from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.checks.stored import load, rotation_error
 from earthspin.checks.work_precision import Ladder, Method, settings
-from earthspin.motion.attitude import attitude_motion
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above
 from earthspin.motion.rotation import Motion, start_of
@@ -52,6 +52,9 @@ def ladder(quick: bool) -> Ladder:
     t = times()[wanted]
     omega, attitude = true["omega"][wanted], true["attitude"][wanted]
     span = f"{(SHORT if quick else SPAN) / (2 * math.pi):.1f} orbits of a tumbling moon"
+    windows = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
+    fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
+    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-5, 1e-7, 1e-9)
     return Ladder(
         quantity="rotation",
         unit="1",
@@ -62,36 +65,25 @@ def ladder(quick: bool) -> Ladder:
         reference="orbit, angular momentum and quaternion in long double by extrapolation of order "
         "20",
         reference_error=REFERENCE_ERROR,
-        methods=_methods(t, quick),
-        useful=0.1,
-        error=lambda found: rotation_error(found, omega, attitude),
-    )
-
-
-def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    windows = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
-    fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
-    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-5, 1e-7, 1e-9)
-    return [
-        Method(
-            "windows in two forms, with the error",
-            True,
-            settings("tolerance {}", partial(_windows, t), windows),
-            bound=1e-6 if quick else 2e-11,
-        ),
-        Method(
-            "attitude_motion",
-            True,
-            settings("DOP853, rtol {}", partial(_attitude, t), fine),
-            bound=1e-5 if quick else 1e-9,
-        ),
-        *(
+        methods=[
             Method(
-                f"solve_ivp {name}", False, settings("rtol {}", partial(_by_hand, t, name), steps)
-            )
-            for name, steps in (("DOP853", fine), ("LSODA", fine), ("RK45", coarse))
-        ),
-    ]
+                "windows in two forms, with the error",
+                settings("tolerance {}", partial(_windows, t), windows),
+                1e-6 if quick else 2e-11,
+            ),
+            Method(
+                "attitude_motion",
+                settings("DOP853, rtol {}", partial(_attitude, t), fine),
+                1e-5 if quick else 1e-9,
+            ),
+            *(
+                Method(f"solve_ivp {name}", settings("rtol {}", partial(_by_hand, t, name), steps))
+                for name, steps in (("DOP853", fine), ("LSODA", fine), ("RK45", coarse))
+            ),
+        ],
+        useful=0.1,
+        error=lambda rotation: rotation_error(rotation, omega, attitude),
+    )
 
 
 def _places(t: FloatArray) -> FloatArray:

@@ -43,6 +43,16 @@ def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     place = points()
     true = load("spheroid", {"flattening": FLATTENING, "points": place.tolist()})
+    degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
+    cells = (4, 8) if quick else (4, 8, 12, 16, 20)
+
+    def setting(words: str, field: Field, where: Any = place) -> Setting:
+        return Setting(words, lambda: (field(where), len(where)))
+
+    textbook = [
+        setting("float64", _arctangents),
+        setting("long double", _arctangents, place.astype(np.longdouble)),
+    ]
     return Ladder(
         quantity="spheroid",
         unit="1",
@@ -52,9 +62,17 @@ def ladder(quick: bool) -> Ladder:
         subject="attraction and torque of a spheroid at any distance",
         reference="the textbook's arctangents (MacMillan) with 80 digits, kept to 32",
         reference_error=ROUNDING,
-        methods=_methods(place, quick),
+        methods=[
+            Method("exact", [setting("", _exact)], 1e-14),
+            Method(
+                "zonal series", [setting(f"to degree {n}", partial(_series, n)) for n in degrees]
+            ),
+            Method("MacCullagh", [setting("", _maccullagh)]),
+            Method("textbook's arctangents", textbook),
+            Method("sum over the body", [setting(f"{n}³ cells", partial(_sum, n)) for n in cells]),
+        ],
         useful=0.1,
-        error=lambda found: _error(found, true),
+        error=lambda field: _error(field, true),
     )
 
 
@@ -72,37 +90,6 @@ def relative_errors(found: Any, true: dict[str, Values]) -> dict[str, FloatArray
     return errors
 
 
-def _methods(place: FloatArray, quick: bool) -> list[Method]:
-    degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
-    cells = (4, 8) if quick else (4, 8, 12, 16, 20)
-
-    def setting(words: str, field: Field, where: Any = place) -> Setting:
-        return Setting(words, lambda: (field(where), len(where)))
-
-    return [
-        Method("exact", True, [setting("", _exact)], bound=1e-14),
-        Method(
-            "zonal series",
-            False,
-            [setting(f"to degree {n}", partial(_series, n_max=n)) for n in degrees],
-        ),
-        Method("MacCullagh", False, [setting("", _maccullagh)]),
-        Method(
-            "textbook's arctangents",
-            False,
-            [
-                setting("float64", _arctangents),
-                setting("long double", _arctangents, place.astype(np.longdouble)),
-            ],
-        ),
-        Method(
-            "sum over the body",
-            False,
-            [setting(f"{n}³ cells", partial(_sum, cells=n)) for n in cells],
-        ),
-    ]
-
-
 def _exact(r: FloatArray) -> tuple[Any, Any]:
     attraction = spheroid_attraction(1.0, 1.0, FLATTENING, r)
     return attraction, spheroid_torque(1.0, 1.0, FLATTENING, 1.0, r)
@@ -113,7 +100,7 @@ def _torque(push: Any, r: Any) -> Any:
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 
-def _series(r: FloatArray, n_max: int) -> tuple[Any, Any]:
+def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
     """Zonal series by Legendre polynomials and their derivatives."""
     zonals = spheroid_zonals(FLATTENING, n_max)
     distance = np.linalg.norm(r, axis=1)
@@ -157,7 +144,7 @@ def _arctangents(r: Any) -> tuple[Any, Any]:
     return attraction, _torque(1.5 * (a3 - a1) * r[:, 2], r)
 
 
-def _sum(r: FloatArray, cells: int) -> tuple[Any, Any]:
+def _sum(cells: int, r: FloatArray) -> tuple[Any, Any]:
     """Sum over Gauss points in the radius and the latitude, even ones in longitude."""
     node, weight = np.polynomial.legendre.leggauss(cells)
     size, size_weight = (1 + node) / 2, weight / 2

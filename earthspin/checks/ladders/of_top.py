@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.checks.ladders.rotation import FEW_FINE, FINE, Rotation, ladder_of_rotation
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
-from earthspin.top.integration import integrate_heavy_top
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from earthspin.checks.work_precision import Ladder
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 
@@ -31,6 +31,8 @@ TOP = {
 
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
+    fine = FEW_FINE if quick else FINE
+    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     return ladder_of_rotation(
         "top",
         TOP,
@@ -38,30 +40,13 @@ def ladder(quick: bool) -> Ladder:
         periods="nutations of a heavy top",
         detail=" that goes in loops",
         reference="the textbook's closed form (I.7.9 to I.7.17)",
-        methods=_methods,
-    )
-
-
-def _methods(t: FloatArray, quick: bool) -> list[Method]:
-    fine = FEW_FINE if quick else FINE
-    coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
-    return [
-        Method("closed form", True, [Setting("", partial(_closed_form, t))], bound=5e-13),
-        Method(
-            "integrate_heavy_top",
-            True,
-            settings("DOP853, rtol {}", partial(_integrated, t), fine),
-            bound=1e-3 if quick else 1e-9,
-        ),
-        *(
-            Method(
-                f"Euler angles, {name}",
-                False,
-                settings("rtol {}", partial(_by_hand, t, name), steps),
-            )
+        closed_form=(_closed_form, 5e-13),
+        integrator=("integrate_heavy_top", _integrated),
+        by_hand={
+            f"Euler angles, {name}": (partial(_by_hand, name), steps)
             for name, steps in (("RK45", coarse), ("LSODA", coarse), ("DOP853", fine))
-        ),
-    ]
+        },
+    )
 
 
 def _closed_form(t: FloatArray) -> Rotation:
@@ -74,7 +59,7 @@ def _integrated(t: FloatArray, rtol: float) -> Rotation:
     return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(t: FloatArray, method: str, rtol: float) -> Rotation:
+def _by_hand(method: str, t: FloatArray, rtol: float) -> Rotation:
     """The textbook's equations in the Euler angles (I.7.5 to I.7.8)."""
     i1, i3, weight = TOP["transverse_moment"], TOP["axial_moment"], TOP["weight_moment"]
     spin = TOP["spin"]

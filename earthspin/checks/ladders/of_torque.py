@@ -42,7 +42,23 @@ SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 def ladder(quick: bool) -> Ladder:
     """Make the ladder."""
     days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
+    ends = float(days[0]), float(days[-1])
     true = reference(days)
+    fine, coarse = ((8.0, 1.0), (2.0,)) if quick else (SPACINGS, SPACINGS[2:5])
+
+    def from_nodes(model: str, spacing: float) -> tuple[Any, int]:
+        nutation = iau.Nutation(*ends, model=model, spacing=spacing)
+        return _seen(nutation.true_equator(days), days), days.size
+
+    def nodes(model: str, spacings: tuple[float, ...]) -> list[Setting]:
+        return settings("every {} d", partial(from_nodes, model), spacings)
+
+    def at_each(matrices: Callable[[], FloatArray]) -> list[Setting]:
+        return settings("", lambda: (_seen(matrices(), days), days.size))
+
+    def at_epochs() -> FloatArray:
+        return iau.Nutation(*ends, 1).true_equator(days)
+
     return Ladder(
         quantity="torque",
         unit="mas",
@@ -53,8 +69,16 @@ def ladder(quick: bool) -> Ladder:
         reference="IAU 2006/2000A summed in long double with Skyfield's tables of the series and "
         "the angles of Fukushima & Williams",
         reference_error=4 * float(np.finfo(np.longdouble).eps),
-        methods=_methods(days, quick),
-        error=lambda found: float(np.max(np.linalg.norm(found - true, axis=-1))),
+        methods=[
+            Method("IAU 2000A from nodes", nodes("2000A", fine), 8e-12),
+            Method("IAU 2000B from nodes", nodes("2000B", coarse), 2 * MAS),
+            Method("IAU 2000A at each epoch", at_each(at_epochs), 2e-15),
+            Method('source = "skyfield"', settings("", _skyfield_source(days)), 5e-12),
+            Method("IAU 2000B at each epoch", at_each(lambda: erfa.pnm00b(J2000_JD, days))),
+            Method("mean equator alone", at_each(lambda: iau.mean_equator(days))),
+            Method("Skyfield, radec of date", settings("", _skyfield(days))),
+        ],
+        error=lambda seen: float(np.max(np.linalg.norm(seen - true, axis=-1))),
         useful=1e3 * MAS,
     )
 
@@ -130,46 +154,6 @@ def _about(axis: int, angle: LongArray) -> LongArray:
     matrix[:, one, one] = matrix[:, two, two] = c
     matrix[:, one, two], matrix[:, two, one] = s, -s
     return matrix
-
-
-# --- methods -----------------------------------------------------------------------------------
-
-
-def _methods(days: FloatArray, quick: bool) -> list[Method]:
-    start, end = float(days[0]), float(days[-1])
-
-    def from_nodes(model: str, spacing: float) -> tuple[Any, int]:
-        nutation = iau.Nutation(start, end, model=model, spacing=spacing)
-        return _seen(nutation.true_equator(days), days), days.size
-
-    def at_each(matrices: Callable[[], FloatArray]) -> list[Setting]:
-        return [Setting("", lambda: (_seen(matrices(), days), days.size))]
-
-    fine, coarse = ((8.0, 1.0), (2.0,)) if quick else (SPACINGS, SPACINGS[2:5])
-    return [
-        Method(
-            "IAU 2000A from nodes",
-            True,
-            settings("every {} d", partial(from_nodes, "2000A"), fine),
-            bound=8e-12,
-        ),
-        Method(
-            "IAU 2000B from nodes",
-            True,
-            settings("every {} d", partial(from_nodes, "2000B"), coarse),
-            bound=2 * MAS,
-        ),
-        Method(
-            "IAU 2000A at each epoch",
-            True,
-            at_each(lambda: iau.Nutation(start, end, 1).true_equator(days)),
-            bound=2e-15,
-        ),
-        Method('source = "skyfield"', True, [Setting("", _skyfield_source(days))], bound=5e-12),
-        Method("IAU 2000B at each epoch", False, at_each(lambda: erfa.pnm00b(J2000_JD, days))),
-        Method("mean equator alone", False, at_each(lambda: iau.mean_equator(days))),
-        Method("Skyfield, radec of date", False, [Setting("", _skyfield(days))]),
-    ]
 
 
 def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:

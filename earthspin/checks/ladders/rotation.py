@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.stored import load, rotation_error
-from earthspin.checks.work_precision import Ladder, Method
+from earthspin.checks.work_precision import Ladder, Method, settings
 
 FloatArray = NDArray[np.float64]
 #: Angular velocity along the body's axes and attitude, and how often slopes were evaluated.
 Rotation = tuple[tuple[FloatArray, FloatArray], int]
+#: From times (s) and a relative tolerance.
+Solver = Callable[[FloatArray, float], Rotation]
 
 #: Periods that are followed. Half of the stored times lie within the first few.
 PERIODS, FEW_PERIODS = 100.0, 5.0
@@ -32,7 +35,9 @@ def ladder_of_rotation(
     periods: str,
     detail: str,
     reference: str,
-    methods: Callable[[FloatArray, bool], Sequence[Method]],
+    closed_form: tuple[Callable[[FloatArray], Rotation], float],
+    integrator: tuple[str, Solver],
+    by_hand: Mapping[str, tuple[Solver, Sequence[float]]],
 ) -> Ladder:
     """Make the ladder of a rotation whose angular velocity and attitude are stored.
 
@@ -40,20 +45,26 @@ def ladder_of_rotation(
     ----------
     quantity : str
     inputs : mapping
-        What the stored reference hangs on.
+        Numbers that the stored reference was made for.
     quick : bool
     periods, detail : str
-        What there are so many of, and what else there is to say of it.
+        Name of the periods that are counted, and the rest of the problem's description.
     reference : str
-        Where the true values come from.
-    methods : callable
-        From times (s) and `quick`.
+        Source of the true values.
+    closed_form : tuple
+        Rotation at times (s), and the bound on its error.
+    integrator : tuple
+        Name and run of the integrator of this package, by DOP853.
+    by_hand : mapping
+        Runs of other methods by name, with their tolerances.
     """
     true = load(quantity, inputs)
     wanted = slice(0, TIMES // 2 if quick else TIMES)
     t = true["times"].hi[wanted]
     omega, attitude = true["omega"][wanted], true["attitude"][wanted]
     span = f"{FEW_PERIODS if quick else PERIODS:g} {periods}"
+    (closed, bound), (name, integrated) = closed_form, integrator
+    stepped = settings("DOP853, rtol {}", partial(integrated, t), FEW_FINE if quick else FINE)
     return Ladder(
         quantity=quantity,
         unit="1",
@@ -62,7 +73,14 @@ def ladder_of_rotation(
         subject=span,
         reference=f"{reference} with 80 digits, kept to 32",
         reference_error=ROUNDING,
-        methods=methods(t, quick),
+        methods=[
+            Method("closed form", settings("", partial(closed, t)), bound),
+            Method(name, stepped, 1e-3 if quick else 1e-9),
+            *(
+                Method(other, settings("rtol {}", partial(run, t), tolerances))
+                for other, (run, tolerances) in by_hand.items()
+            ),
+        ],
         useful=0.1,
-        error=lambda found: rotation_error(found, omega, attitude),
+        error=lambda rotation: rotation_error(rotation, omega, attitude),
     )

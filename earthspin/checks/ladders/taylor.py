@@ -1,8 +1,8 @@
 """The figure axis by a peer's Taylor integrator, heyoka, where that is installed.
 
-Angular momentum and figure axis as in `earthspin.motion.exact`; Sun and Moon are polynomials in
-pieces of four days, as the kernel has them, whose coefficients are parameters, so that the
-equations are compiled once.
+Angular momentum and figure axis as in `earthspin.checks.solvers.momentum_and_figure`; Sun and Moon
+are polynomials in pieces of four days, as the kernel has them, whose coefficients are parameters,
+so that the equations are compiled once.
 """
 
 from __future__ import annotations

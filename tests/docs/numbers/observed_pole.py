@@ -11,9 +11,10 @@ import numpy as np
 
 import earthspin
 from data_tools.free_wobble import DRAWS, RED
+from earthspin.checks.solvers import simulation
 from earthspin.sky import eop
 from earthspin.sky.eop import LONGEST_DAYS
-from earthspin.wobble import likelihood, presence, simulation
+from earthspin.wobble import likelihood, presence
 from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
 from tests.docs.numbers.answers import fitted, observed, of_c04, value
 from tests.docs.numbers.sentence import ROOT, Sentence, Told
@@ -200,7 +201,6 @@ MEASURED = [
         '| {} ± {} d, $Q$ = {} ({} to {}) |\n| `"likelihood"`',
         partial(of_c04, "burg"),
         (0, 0, 0, 0, 50),
-        newest=True,
     ),
     Sentence(PAGE, "For $Q$ = 100 and {} years that is {} days", lambda: [65, limit()]),
     Sentence(
@@ -234,7 +234,6 @@ MEASURED = [
         PAGE,
         "The last window of the table to September 2026 has its middle in June 2023: {} ± {} mas",
         last_amplitude,
-        newest=True,
     ),
     Sentence(
         PAGE,

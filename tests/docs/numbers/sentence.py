@@ -40,8 +40,6 @@ class Sentence:
         Only in the run of all numbers.
     de440 : bool
         Needs that kernel.
-    newest : bool
-        Stands on the newest tables of polar motion: another digit with older ones.
     """
 
     page: str
@@ -52,7 +50,6 @@ class Sentence:
     bound: bool = False
     slow: bool = False
     de440: bool = False
-    newest: bool = False
 
     def __str__(self) -> str:
         return f"{self.page}: {' '.join(self.text.split())[:60]}"

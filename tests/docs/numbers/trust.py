@@ -214,7 +214,7 @@ TOLD: list[Told | Part] = [
     Told(FILES, "h5py (HDF5 {})", "the version of a library"),
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
-    Told(TESTING, "runs all of it with Python {} and", "the version of a program"),
+    Told(TESTING, "runs the same with Python {} and", "the version of a program"),
     Told("README.md", "# {} % half-widths", ERROR),
     Told(QUICK, "are half-widths of {} % intervals", ERROR),
     Told(

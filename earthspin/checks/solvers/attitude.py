@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from earthspin.motion.exact import Tide, integrate
+from earthspin.checks.solvers.momentum_and_figure import Tide, integrate
 
 FloatArray = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""The gauntlet: every stiff and extreme case, run and judged, as one dataset."""
+"""Run and judge every stiff and extreme case, and return the verdicts as one dataset."""
 
 from __future__ import annotations
 
@@ -78,8 +78,8 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
     Examples
     --------
     >>> import earthspin
-    >>> found = earthspin.stability(only="sleeping top")
-    >>> print(sorted(set(found.verdict.values.tolist())))
+    >>> verdicts = earthspin.stability(only="sleeping top").verdict
+    >>> print(sorted(set(verdicts.values.tolist())))
     ['holds']
     """
     cases = chosen_cases(quick=quick, only=only, long=long)
@@ -92,22 +92,22 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
 
 
 def all_cases() -> tuple[Case, ...]:
-    """Every case there is."""
+    """Return every case, in the order of `PARTS` and of definition."""
     modules = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
-    return tuple(case for module in modules for case in module.CASES)
+    return tuple(c for module in modules for c in vars(module).values() if isinstance(c, Case))
 
 
 def chosen_cases(
     *, quick: bool = False, only: str | None = None, long: bool = False
 ) -> tuple[Case, ...]:
-    """Cases that a run takes; arguments as of `stability`.
+    """Return the cases that a run takes; arguments as of `stability`.
 
     Raises
     ------
     SceneError
         If there are none.
     """
-    cases = all_cases()
+    cases = every = all_cases()
     for name, value in (("quick", quick), ("long", long)):
         if not isinstance(value, bool):
             raise SceneError(name, value, "give True or False", source="stability")
@@ -116,33 +116,25 @@ def chosen_cases(
             raise SceneError("only", only, "give a word", source="stability")
         word = only.lower()
         if word in PARTS:
-            cases = tuple(c for c in cases if c.part == word)
+            cases = tuple(c for c in every if c.part == word)
         else:
-            cases = tuple(c for c in cases if word in c.name.lower())
+            cases = tuple(c for c in every if word in c.name.lower())
         if not word or not cases:
-            words = {*PARTS, *(w for c in all_cases() for w in c.name.lower().split())}
+            words = {*PARTS, *(w for c in every for w in c.name.lower().split())}
             hint = nearest(only, words).split("allowed:")[0]
-            raise SceneError(
-                "only",
-                only,
-                f"no case has that word; {hint}give a part ({', '.join(PARTS)}) or a word of a "
-                f"case's name",
-                source="stability",
-            )
+            allowed = f"give a part ({', '.join(PARTS)}) or a word of a case's name"
+            reason = f"no case has that word; {hint}{allowed}"
+            raise SceneError("only", only, reason, source="stability")
     cases = tuple(c for c in cases if (long or not c.long) and not (quick and c.slow))
     if not cases:
-        raise SceneError(
-            "only",
-            only,
-            "its cases take long; leave out --quick, or add --long",
-            source="stability",
-        )
+        reason = "its cases take long; leave out --quick, or add --long"
+        raise SceneError("only", only, reason, source="stability")
     return cases
 
 
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
-    """The dataset of cases and how they went."""
-    # the bound of an outcome goes before that of its case
+    """Return the dataset of cases and their outcomes."""
+    # the bound of an outcome replaces that of its case
     rows = [
         {"case_part": case.part} | vars(case) | vars(outcome)
         for case, outcome in zip(cases, outcomes, strict=True)

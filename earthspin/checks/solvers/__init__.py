@@ -1,0 +1,1 @@
+"""Solvers that share no method with the package, as references for cases, ladders and tests."""

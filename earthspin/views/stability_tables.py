@@ -1,0 +1,85 @@
+"""The stiff and extreme cases as tables for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import xarray as xr
+
+from earthspin.views.table import Table
+
+HEADERS = ("case", "measured", "bound", "unit", "verdict")
+
+
+def verdict_tables(result: xr.Dataset) -> list[Table]:
+    """One table for each part of the package that has cases in the result.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `stability` gives it.
+    """
+    tables = []
+    for part, rows in rows_by_part(result):
+        seconds = sum(row["run_time"] for row in rows)
+        lines = [tuple(row[name] for name in HEADERS) for row in rows]
+        tables.append(Table(part, HEADERS, lines, f"{len(rows)} cases, {seconds:.1f} s"))
+    return tables
+
+
+def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]]]:
+    """Yield each part of the package and its cases, with numbers and units as they are shown.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `stability` gives it.
+    """
+    columns = {str(name): variable.values.tolist() for name, variable in result.variables.items()}
+    for part in dict.fromkeys(columns["case_part"]):
+        rows = []
+        for values in zip(*columns.values(), strict=True):
+            row: dict[str, Any] = dict(zip(columns, values, strict=True))
+            row["unit"] = "" if row["unit"] == "1" else row["unit"]
+            for name in ("measured", "bound"):
+                row[name] = "0" if row[name] == 0 else f"{abs(row[name]):.1e}"
+            if row["verdict"] == "refused":
+                row |= {"measured": "", "bound": "", "unit": ""}
+            if row["case_part"] == part:
+                rows.append(row)
+        yield part, rows
+
+
+def tally(result: xr.Dataset) -> dict[str, int]:
+    """How many cases hold, are refused, and fail."""
+    return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
+
+
+def tally_line(result: xr.Dataset) -> str:
+    """Number of cases that hold, are refused and fail, in one line."""
+    count = tally(result)
+    must = int(result.must_hold.sum())
+    return (
+        f"{result.sizes['case']} cases, {must} of which must hold: {count['holds']} hold, "
+        f"{count['refused']} are refused as they should be, {count['fails']} fail; "
+        f"{float(result.run_time.sum()):.1f} s"
+    )
+
+
+def print_verdicts(result: xr.Dataset) -> None:
+    """Print the tables, the reasons of failures, and the tally.
+
+    Parameters
+    ----------
+    result : Dataset
+        As `stability` gives it.
+    """
+    from earthspin.views.terminal import Terminal
+
+    console = Terminal()
+    for table in verdict_tables(result):
+        console.print_table(table)
+    for name in result.case.values[result.verdict.values == "fails"]:
+        console.print(f"fails: {name}: {result.reason.sel(case=name).item()}", markup=False)
+    console.print(tally_line(result), markup=False)
