@@ -261,11 +261,15 @@ def no_figure(body: Body) -> str | None:
 class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
     """Models of the figure, and what follows from them."""
 
-    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", along=("earth_model",))
-    period_by_model: Value = number(
-        "yr", "period of one full turn of precession", along=("earth_model",)
+    h_by_model: Value = number(
+        "1", "dynamical flattening (C - A)/C", along=("earth_model",), short="H = (C-A)/C"
     )
-    wobble_by_model: Value = number("d", "period of the rigid free wobble", along=("earth_model",))
+    period_by_model: Value = number(
+        "yr", "period of one full turn of precession", along=("earth_model",), short="precession"
+    )
+    wobble_by_model: Value = number(
+        "d", "period of the rigid free wobble", along=("earth_model",), short="wobble"
+    )
     moment_difference: Value = number("kg m2", "C - A from J2")
     polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
     j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
@@ -418,8 +422,10 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
 class Standstills(Variables, along=("standstill",)):
     """Standstills of the Moon."""
 
-    standstill_kind: Value = words("major or minor")
-    standstill_declination: Pair = measured("deg", "extreme declination, mean equator of date")
+    standstill_kind: Value = words("major or minor", short="kind")
+    standstill_declination: Pair = measured(
+        "deg", "extreme declination, mean equator of date", short="extreme declination"
+    )
     standstill: Labels = labels("day of the extreme declination (TDB)")
 
 

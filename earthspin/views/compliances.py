@@ -53,15 +53,14 @@ def numbers(tree: Result) -> Table:
     )
     if sources:
         note += f" Published: {sources}."
-    columns = [Column("number_value", ".6g", "value"), *columns]
-    return table_along(answer, "number", "Compliances", columns, note)
+        return table_along(answer, "number", "Compliances", ["number_value:.6g", *columns], note)
 
 
 def modes(tree: Result) -> Table:
     """Free modes of the elastic body."""
     columns = (
         Column("free_mode", words_of("free_mode"), "mode"),
-        Column("compliance_mode_period", ".1f", "period, d"),
+        "compliance_mode_period:.1f",
     )
     note = "Nutations have their periods in space, negative if retrograde; wobbles in the body."
     title = "Free modes of the elastic body"

@@ -11,7 +11,7 @@ from earthspin.views import solids
 from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, PageFigure, axes, legend_above
 from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.solids import BLACK, GREY, FloatArray, Solid
-from earthspin.views.table import Column, Table, along, listed, quantities
+from earthspin.views.table import Table, along, listed, quantities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,7 +24,7 @@ def tables(tree: Result) -> list[Table]:
     answer, poinsot = answer_of(tree), section(tree, "poinsot")
     momentum = float(np.linalg.norm(answer.angular_momentum_body.isel(time=0)))
     rows = [
-        ("kinetic energy, J", f"{float(answer.energy.isel(time=0)):.10g}"),
+        *quantities(answer.isel(time=0), "energy:.10g"),
         ("angular momentum, kg m2/s", f"{momentum:.10g}"),
     ]
     if poinsot is not None:
@@ -32,11 +32,7 @@ def tables(tree: Result) -> list[Table]:
         advance = "none (the polhode has no period)"
         if "herpolhode_advance" in poinsot:
             advance = f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
-        rows += quantities(
-            poinsot,
-            Column("polhode_period", ".10g", "period of the polhode, s"),
-            Column("invariable_plane_distance", ".10g", "distance of the invariable plane, rad/s"),
-        )
+        rows += quantities(poinsot, "polhode_period:.10g", "invariable_plane_distance:.10g")
         rows += [
             ("radii of the herpolhode, rad/s", f"{inner:.8g} and {outer:.8g}"),
             ("advance of the herpolhode per period, deg", advance),

@@ -102,14 +102,12 @@ def residuals(tree: Result) -> Table:
     series = section(tree, "residuals_by_model")
     dates = "" if series is None else f", {date(series.time[0])} to {date(series.time[-1])}"
 
-    def both(name: str, head: str) -> Column:
-        return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values), head)
+    def both(name: str) -> Column:
+        return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
 
     columns = (
         Column("model", lambda row: MODELS[row.model.item()]),
-        both("residual_rms", "rms, mas"),
-        both("residual_maximum", "largest, mas"),
-        both("residual_rms_unfitted", "rms without a fit, mas"),
+        *map(both, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
     )
     note = (
         f"Each cell gives dpsi sin(eps) / deps{dates}. A constant and a rate were fitted to each "
@@ -219,7 +217,7 @@ def flattening(tree: Result) -> Table:
         error = float(row.flattening_error)
         return with_error(row.flattening, error) if error else f"{float(row.flattening):.10f}"
 
-    columns = Column("flattening", value, "H = (C-A)/C"), "polar_moment:.7f"
+    columns = Column("flattening", value), "polar_moment:.7f"
     note = (
         "PREM gives C from densities, independently of the pole, although the observed moment was "
         "among its data; its H is J2 divided by that C/(M a2)."

@@ -47,7 +47,7 @@ def tables(tree: Result) -> list[Table]:
     columns = (
         Column("epoch", lambda row: f"{float(row.epoch) / 1000:g}", "kyr"),
         *("obliquity", "eccentricity", "climatic_precession"),
-        Column("precession_period", period, "period, yr"),
+        Column("precession_period", period),
     )
     note = (
         "Epochs count from J2000.0 TDB. Climatic precession is the eccentricity times the sine of "

@@ -43,8 +43,8 @@ def numbers(tree: Result) -> Table:
         "published_love_source",
     )
     columns = [
-        Column("love_number", ".5f", "real part"),
-        Column("love_number_imaginary", _unless_zero, "imaginary part"),
+        "love_number:.5f",
+        Column("love_number_imaginary", _unless_zero),
         *columns,
     ]
     words = f"Layers: {answer.love_number.attrs['references']}."

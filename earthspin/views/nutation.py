@@ -44,14 +44,10 @@ def tables(tree: Result) -> list[Table]:
 
 
 def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") -> Table:
-    def size(name: str) -> Callable[[xr.Dataset], str]:
-        return lambda row: with_error(row[f"{prefix}{name}"], data[f"{prefix}rms_error"])
+    def size(name: str) -> Column:
+        return Column(name, lambda row: with_error(row[name], data[f"{prefix}rms_error"]))
 
-    columns = (
-        Column("", size("rms_dpsi_sineps"), "dpsi sin(eps), mas"),
-        Column("", size("rms_deps"), "deps, mas"),
-        Column(f"{prefix}adds", head="what it adds"),
-    )
+    columns = size(f"{prefix}rms_dpsi_sineps"), size(f"{prefix}rms_deps"), f"{prefix}adds"
     return table_along(data, dim, title, columns, note, words=(0, 3))
 
 
@@ -83,10 +79,10 @@ def beside(tree: Result) -> Table:
 def modes(tree: Result) -> Table:
     """Free modes of each rung."""
     columns = (
-        Column("mode_rung", head="rung"),
-        Column("mode_name", words_of("mode_name"), "mode"),
-        Column("mode_period", head="period, d"),
-        Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g"), "Q"),
+        "mode_rung",
+        Column("mode_name", words_of("mode_name")),
+        "mode_period",
+        Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
     )
     note = (
         "Nutations have their periods in space, negative if retrograde; wobbles in the body. A "
@@ -126,7 +122,7 @@ def compliances(tree: Result) -> Table:
         "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of the mantle, "
         "the fluid core and the inner core."
     )
-    data, columns = needed(tree, "compliances"), [Column("compliance", ".6e", "value")]
+    data, columns = needed(tree, "compliances"), ["compliance:.6e"]
     return table_along(data, "compliance_name", "Compliances", columns, note, first="name")
 
 

@@ -22,7 +22,7 @@ from earthspin.views.drawing import (
     stacked,
 )
 from earthspin.views.reading import Result, answer_of, needed, of_sections
-from earthspin.views.table import Column, Table, date, measured, quantities, with_error
+from earthspin.views.table import Table, date, measured, quantities, with_error
 from earthspin.wobble.record import NEAR, YEAR
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def series(tree: Result) -> Table:
 def observed(tree: Result) -> Table:
     """Period, quality factor and present amplitude of the observed wobble."""
     found = needed(tree, "chandler")
-    rows = quantities(found, Column("chandler_period", head="period, d"))
+    rows = quantities(found, "chandler_period")
     if "chandler_quality_factor" in found:
         low, high = (float(found[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
         ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"

@@ -229,9 +229,7 @@ def models(tree: Result) -> Table:
     figure = needed(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
-        Column("h_by_model", ".7f", "H = (C-A)/C"),
-        Column("period_by_model", ",.0f", "precession, yr"),
-        Column("wobble_by_model", ".2f", "wobble, d"),
+        *("h_by_model:.7f", "period_by_model:,.0f", "wobble_by_model:.2f"),
     )
     note = (
         f"J2 gives C - A = {float(figure.moment_difference):.5e} kg m2, and C - A gives back J2 = "
@@ -296,8 +294,7 @@ def standstills(tree: Result) -> Table:
     error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
     columns = (
         Column("standstill", lambda row: date(row.standstill), "date (TDB)"),
-        Column("standstill_kind", head="kind"),
-        Column("standstill_declination", "+.4f", "extreme declination, deg"),
+        *("standstill_kind", "standstill_declination:+.4f"),
         Column("", lambda row: text[row.standstill_kind.item()], "source text (I.8), deg"),
     )
     note = (

@@ -38,8 +38,8 @@ def tables(tree: Result) -> list[Table]:
     answer = answer_of(tree)
     columns = (
         Column("", lambda row: date(row.time, "s"), "TDB"),
-        Column("", lambda row: listed(row.attitude.values), "quaternion, body to ICRF"),
-        Column("", lambda row: listed(row.omega.values), "spin in the body, rad/s"),
+        Column("attitude", lambda row: listed(row.attitude.values)),
+        Column("omega", lambda row: listed(row.omega.values)),
         Column("attitude_error_method", ".2g", "error of the method, deg"),
     )
     lost = known_until(answer)

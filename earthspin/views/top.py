@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.views import solids
 from earthspin.views.drawing import BLUE, RED, PageFigure, axes, empty
 from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.table import Column, Table, quantities
+from earthspin.views.table import Table, quantities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,12 +19,7 @@ if TYPE_CHECKING:
 def tables(tree: Result) -> list[Table]:
     """Pattern, period and mean rate of a heavy top."""
     answer, turning = answer_of(tree), section(tree, "turning")
-    rows = quantities(
-        answer,
-        "pattern",
-        Column("nutation_period", ".10g", "period of nutation, s"),
-        Column("mean_precession_rate", ".10g", "mean precession, rad/s"),
-    )
+    rows = quantities(answer, "pattern", "nutation_period:.10g", "mean_precession_rate:.10g")
     if turning is not None:
         upper, lower = np.degrees(turning.turning_angle.values)
         rows.insert(1, ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"))

@@ -58,9 +58,9 @@ def ladder(tree: Result) -> Table:
         notes.append(f"Rungs left out: {answer.rung.attrs['left_out']}.")
     columns = (
         Column("period_solar", period, "days of 86400 s"),
-        Column("period_sidereal", ".3f", "sidereal days"),
-        Column("factor", ".6f"),
-        Column("quality_factor", quality, "Q"),
+        "period_sidereal:.3f",
+        "factor:.6f",
+        Column("quality_factor", quality),
     )
     table = table_along(answer, "rung", "Free wobble, rung by rung", columns)
     rows = list(table.rows)
