@@ -42,7 +42,7 @@ def tables(tree: Result) -> list[Table]:
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
     answer = answer_of(tree)
-    columns, sources = beside_published(
+    published, sources = beside_published(
         section(tree, "published"), "number", "number_value", "published_value", "published_source"
     )
     note = (
@@ -53,7 +53,7 @@ def numbers(tree: Result) -> Table:
     )
     if sources:
         note += f" Published: {sources}."
-        return table_along(answer, "number", "Compliances", ["number_value:.6g", *columns], note)
+    return table_along(answer, "number", "Compliances", ["number_value:.6g", *published], note)
 
 
 def modes(tree: Result) -> Table:

@@ -35,18 +35,11 @@ def tables(tree: Result) -> list[Table]:
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
     answer = answer_of(tree)
-    columns, sources = beside_published(
-        section(tree, "published"),
-        "love",
-        "love_number",
-        "published_love_number",
-        "published_love_source",
+    known, published = section(tree, "published"), "published_love_number"
+    beside, sources = beside_published(
+        known, "love", "love_number", published, "published_love_source"
     )
-    columns = [
-        "love_number:.5f",
-        Column("love_number_imaginary", _unless_zero),
-        *columns,
-    ]
+    columns = ["love_number:.5f", Column("love_number_imaginary", _unless_zero), *beside]
     words = f"Layers: {answer.love_number.attrs['references']}."
     if sources:
         words += (
