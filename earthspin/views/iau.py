@@ -8,28 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
-from earthspin.views.drawing import (
-    BLUE,
-    ORANGE,
-    RED,
-    PageFigure,
-    axes,
-    legend_above,
-    note,
-    plot_both_angles,
-    stacked,
-    style,
-)
+from earthspin.views import drawing, table
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import (
-    MAS_PER_CENTURY,
-    Column,
-    Table,
-    along,
-    date,
-    table_along,
-    with_error,
-)
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,7 +49,7 @@ def tables(tree: Result) -> list[Table]:
 
 def budget(tree: Result) -> Table:
     """Rates by effect, their sum, and the difference from the IAU."""
-    rates = answer_of(tree).map(lambda rate: rate * MAS_PER_CENTURY)
+    rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
 
     def published(row: xr.Dataset) -> str:
         return f"{float(row.psi_rate_published):+.3f}" if row.psi_rate_published else ""
@@ -77,13 +59,13 @@ def budget(tree: Result) -> Table:
         Column("psi_rate_published", published, "published"),
         Column("omega_rate", "+.3f", "omega_A, mas/cy"),
     )
-    table = table_along(rates, "effect", "Rates at J2000.0, effect by effect", columns)
+    effects = table_along(rates, "effect", "Rates at J2000.0, effect by effect", columns)
     total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
     closure = f"{float(rates.closure):+.3f}", "", f"{float(rates.omega_closure):+.3f}"
     return replace(
-        table,
+        effects,
         rows=[
-            *table.rows,
+            *effects.rows,
             ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
             ("closure (sum + non-linear term - IAU)", *closure),
         ],
@@ -100,7 +82,9 @@ def budget(tree: Result) -> Table:
 def residuals(tree: Result) -> Table:
     """Size of the residuals in time, model by model."""
     series = section(tree, "residuals_by_model")
-    dates = "" if series is None else f", {date(series.time[0])} to {date(series.time[-1])}"
+    dates = (
+        "" if series is None else f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
+    )
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -154,7 +138,7 @@ def _size_left(row: xr.Dataset) -> str:
 
 def _neighbours(tree: Result) -> str:
     """Terms that have a neighbour, each with it."""
-    terms = along(needed(tree, "nutation"), "term")
+    terms = table.along(needed(tree, "nutation"), "term")
     pairs = [(term, str(row.neighbour.values)) for term, row in terms]
     return "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
 
@@ -170,7 +154,7 @@ def core(tree: Result) -> Table:
             f"{CORE_NUTATION_QUALITY.value:,.0f}",
         ),
     ]
-    for _, row in along(fit.isel(added_to=slice(ADDITIONS_SHOWN)), "added_to"):
+    for _, row in table.along(fit.isel(added_to=slice(ADDITIONS_SHOWN)), "added_to"):
         words = f"added to a response at {float(row.added_period):.2f} d, uas"
         rows.append((words, _both_phases(row, "added"), _both_phases(row, "added_published")))
     return Table(
@@ -200,7 +184,7 @@ def angles(tree: Result) -> Table:
         ("angle", "constant", "t", "t2", "t3"),
         [
             (f"{angle}, {whose}", *(f"{of[name].values[degree]:.6f}" for degree in range(4)))
-            for angle, of in along(needed(tree, "angles"), "angle")
+            for angle, of in table.along(needed(tree, "angles"), "angle")
             for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
         ],
         "Coefficients are in arcsec, with t in Julian centuries from J2000.0, fitted over the "
@@ -215,7 +199,7 @@ def flattening(tree: Result) -> Table:
 
     def value(row: xr.Dataset) -> str:
         error = float(row.flattening_error)
-        return with_error(row.flattening, error) if error else f"{float(row.flattening):.10f}"
+        return table.with_error(row.flattening, error) if error else f"{float(row.flattening):.10f}"
 
     columns = Column("flattening", value), "polar_moment:.7f"
     note = (
@@ -246,26 +230,26 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     effects = [e for e in answer.effect.values if e != "first-order"]
     of, place = answer.sel(effect=effects), np.arange(len(effects))
     for by, name, colour, marker, words in (
-        (0.14, "psi_rate", BLUE, "o", "measured by switching"),
-        (-0.14, "psi_rate_published", ORANGE, "D", "published"),
+        (0.14, "psi_rate", drawing.BLUE, "o", "measured by switching"),
+        (-0.14, "psi_rate_published", drawing.ORANGE, "D", "published"),
     ):
-        sizes = of[name].values * MAS_PER_CENTURY
+        sizes = of[name].values * table.MAS_PER_CENTURY
         ax.hlines(place + by, 0, sizes, color=colour, lw=0.8, alpha=0.6)
         ax.plot(sizes, place + by, marker, color=colour, ms=5, label=words)
-    closure = float(answer.closure) * MAS_PER_CENTURY
+    closure = float(answer.closure) * table.MAS_PER_CENTURY
     ax.axvline(0, color="0.4", lw=0.8, zorder=0)
-    ax.axvline(closure, color=RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
+    ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
     ax.set_yticks(place, effects)
     ax.invert_yaxis()
     ax.set_xscale("symlog", linthresh=LINEAR)
     reach = 2 * float(abs(of[["psi_rate", "psi_rate_published"]]).to_array().max())
-    ax.set_xlim(-reach * MAS_PER_CENTURY, reach * MAS_PER_CENTURY)
+    ax.set_xlim(-reach * table.MAS_PER_CENTURY, reach * table.MAS_PER_CENTURY)
     ax.set_xlabel("contribution to the rate of psi_A (mas per century)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
-@style()
+@drawing.style()
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
     """The computed pole minus the IAU's for each model, one above the other.
 
@@ -277,9 +261,9 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     figure : Figure, optional
     """
     series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
-    figure, rows = stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
-    for ax, (model, part) in zip(rows, along(series, "model"), strict=True):
-        plot_both_angles(ax, part.time, part.dpsi_sineps_by_model, part.deps_by_model)
+    figure, rows = drawing.stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
+    for ax, (model, part) in zip(rows, table.along(series, "model"), strict=True):
+        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps_by_model, part.deps_by_model)
         rms = sizes.residual_rms.sel(model=model, direction=["dpsi_sineps", "deps"]).values
         # one title of two lines: side by side they would meet on a narrow figure
         words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
@@ -310,12 +294,12 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
         terms.frequency,
         terms.ratio_in_phase,
         s=10 + 25 * np.log10(1 + np.abs(terms.rigid_in_phase.values)),
-        color=BLUE,
+        color=drawing.BLUE,
         label="IAU 2000A / rigid",
         zorder=3,
     )
     words, fitted = "fitted response", terms.transfer_in_phase
-    ax.plot(terms.frequency, fitted, "x", color=RED, ms=5, label=words, zorder=4)
+    ax.plot(terms.frequency, fitted, "x", color=drawing.RED, ms=5, label=words, zorder=4)
     ax.set_xscale("symlog", linthresh=0.1)
     ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
     ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])

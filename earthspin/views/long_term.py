@@ -9,19 +9,8 @@ from numpy.typing import NDArray
 
 from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREEN,
-    GREY,
-    NARROW,
-    RED,
-    PageFigure,
-    axes,
-    band,
-    legend_above,
-    stacked,
-)
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.stars import YEARS, Label, on_the_chart, plot_path, year_words
 from earthspin.views.table import Column, Table, table_along
@@ -84,9 +73,9 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     of = in_order(answer_of(result))
     panels = (
-        ("obliquity", "obliquity (deg)", BLUE),
-        ("eccentricity", "eccentricity (ratio)", RED),
-        ("climatic_precession", "climatic precession (ratio)", GREEN),
+        ("obliquity", "obliquity (deg)", drawing.BLUE),
+        ("eccentricity", "eccentricity (ratio)", drawing.RED),
+        ("climatic_precession", "climatic precession (ratio)", drawing.GREEN),
     )
     curves = [(label, of[name], of[f"{name}_error"], colour) for name, label, colour in panels]
     return _plot_curves(ax, of.epoch.values / 1000, curves, 5.6)
@@ -111,7 +100,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
             of.precession_period_error.sel(perturber=label) / 1000,
             colour,
         )
-        for label, colour in zip(labels, CYCLE, strict=False)
+        for label, colour in zip(labels, drawing.CYCLE, strict=False)
     ]
     return _plot_curves(ax, of.epoch.values / 1000, curves, 1.2 + 1.4 * len(labels))
 
@@ -124,13 +113,13 @@ def _plot_curves(
 ) -> Axes:
     """Curves with their half-widths one above the other, or the first alone on given axes."""
     if ax is None:
-        figure, rows = stacked(len(curves), height)
+        figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)
     else:
         rows = [ax]
     for row, (label, value, error, colour) in zip(rows, curves, strict=False):
         marker = "o" if kyr.size == 1 else None
-        band(row, kyr, value.values, error.values, colour, lw=1.0, marker=marker)
+        drawing.band(row, kyr, value.values, error.values, colour, lw=1.0, marker=marker)
         if kyr.size > 1:
             row.set_xlim(kyr[0], kyr[-1])
         row.set_ylabel(label)
@@ -182,7 +171,10 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     first, last = years[near][[0, -1]]
     marked = [year for year in YEARS if first <= year - 2000 <= last]
     at = on(np.array(marked, dtype=float) - 2000).tolist()
-    dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in zip(marked, at, strict=True)]
+    dates = [
+        Label(year_words(year), (x, y), drawing.RED)
+        for year, (x, y) in zip(marked, at, strict=True)
+    ]
     count = int((last - first) / FINE) + 2
     return plot_path(on(np.linspace(first, last, count)), dates, obliquity, ax)
 
@@ -214,14 +206,14 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     }
     together = np.sqrt(sum(share**2 for share in found.values()))
     ax.plot(away, together, color="black", lw=2.0, label="together")
-    for (cause, share), colour in zip(found.items(), (*CYCLE, GREY), strict=False):
+    for (cause, share), colour in zip(found.items(), (*drawing.CYCLE, drawing.GREY), strict=False):
         ax.plot(away, share, color=colour, lw=1.2, label=cause)
     ax.set(xscale="log", yscale="log")
     if away.size > 1:
         ax.set_xlim(away[0], away[-1])
         ax.set_ylim(LEAST * together[-1], 2 * together[-1])
     ax.set(xlabel="distance from J2000.0 (1000 years)", ylabel="share of the half-width (deg)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -234,7 +226,7 @@ FIGURES = [
         plot_pole,
         applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
         square=True,
-        phone=NARROW,
+        phone=drawing.NARROW,
     ),
     PageFigure(
         "Obliquity, eccentricity and climatic precession", _caption_of_climate, plot_climate

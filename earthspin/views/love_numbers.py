@@ -39,7 +39,11 @@ def numbers(tree: Result) -> Table:
     beside, sources = beside_published(
         known, "love", "love_number", published, "published_love_source"
     )
-    columns = ["love_number:.5f", Column("love_number_imaginary", _unless_zero), *beside]
+    columns: list[Column | str] = [
+        "love_number:.5f",
+        Column("love_number_imaginary", _unless_zero),
+        *beside,
+    ]
     words = f"Layers: {answer.love_number.attrs['references']}."
     if sources:
         words += (

@@ -8,18 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin.interior.published import CORE_NUTATION
-from earthspin.views.drawing import (
-    BLUE,
-    ORANGE,
-    RED,
-    PageFigure,
-    axes,
-    note,
-    plot_both_angles,
-    rungs,
-    stacked,
-    style,
-)
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections
 from earthspin.views.table import Column, Table, date, quality, table_along, with_error, words_of
 
@@ -143,8 +133,8 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 4)
     place = np.arange(answer.rung.size)
     for name, words, colour, marker in (
-        ("rms_dpsi_sineps", "dpsi sin(eps)", BLUE, "o"),
-        ("rms_deps", "deps", RED, "D"),
+        ("rms_dpsi_sineps", "dpsi sin(eps)", drawing.BLUE, "o"),
+        ("rms_deps", "deps", drawing.RED, "D"),
     ):
         ax.step(place, answer[name], where="mid", color=colour, lw=1, alpha=0.5)
         ax.plot(place, answer[name], marker, color=colour, ms=6, label=words)
@@ -152,7 +142,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
         note(ax, f"{value:.2g}" if value < 10 else f"{value:.0f}", (at, value), (0, 8), ha="center")
     ax.set(yscale="log", ylabel="left against IAU 2000A, rms (mas)")
     ax.margins(y=0.15)
-    rungs(ax, [str(rung).replace("-", "\n") for rung in answer.rung.values])
+    drawing.rungs(ax, [str(rung).replace("-", "\n") for rung in answer.rung.values])
     ax.legend(loc="upper right")
     return ax
 
@@ -173,7 +163,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 4.2)
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     near = np.abs(frequency) < SHOWN
-    for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], BLUE, 1.4)):
+    for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
         of = data.transfer_real.sel(rung=rung).values
         shown = np.flatnonzero(near & (np.abs(of - 1) < BEYOND))
         # no line from pole to pole, nor through rest in space
@@ -186,7 +176,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     at = 365.25 / main.period.values
     inside = np.abs(at) < SHOWN
     ratio = (main.iau_in_phase / rigid).values[inside]
-    ax.plot(at[inside], ratio, "o", color=ORANGE, ms=5, label="IAU 2000A / rigid")
+    ax.plot(at[inside], ratio, "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(
         ylim=(0.85, 1.45),
@@ -197,7 +187,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@style()
+@drawing.style()
 def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
     """Predicted pole minus the IAU's in time, one rung above the other.
 
@@ -209,10 +199,10 @@ def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     """
     series, sizes = needed(result, "residuals"), answer_of(result)
     shown = [str(rung) for rung in series.rung.values if rung not in ("elastic", "inner-core")]
-    figure, rows = stacked(len(shown), 1.5 * len(shown), figure)
+    figure, rows = drawing.stacked(len(shown), 1.5 * len(shown), figure)
     for ax, rung in zip(rows, shown, strict=True):
         part, size = series.sel(rung=rung), sizes.sel(rung=rung)
-        plot_both_angles(ax, part.time, part.dpsi_sineps, part.deps)
+        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps, part.deps)
         ax.set_title(rung, loc="left", fontsize=9)
         words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
         ax.set_title(f"rms {words} mas", loc="right", fontsize=8)

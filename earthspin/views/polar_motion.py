@@ -10,17 +10,8 @@ import numpy as np
 import xarray as xr
 
 from earthspin.constants import MAS
-from earthspin.views.drawing import (
-    BLUE,
-    GREEN,
-    GREY,
-    RED,
-    PageFigure,
-    axes,
-    band,
-    note,
-    stacked,
-)
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections
 from earthspin.views.table import Table, date, measured, quantities, with_error
 from earthspin.wobble.record import NEAR, YEAR
@@ -131,7 +122,7 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 
 
 def _plot_amplitude_and_phase(tree: Result) -> Figure:
-    figure, (upper, lower) = stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
+    figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
     plot_amplitude(tree, ax=upper)
     plot_phase(tree, ax=lower)
     return figure
@@ -174,8 +165,8 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
     ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
     dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
-    ax.plot(y[-1], x[-1], "o", color=RED, ms=6, zorder=3)
-    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=RED)
+    ax.plot(y[-1], x[-1], "o", color=drawing.RED, ms=6, zorder=3)
+    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if metres := _metres(answer):
@@ -200,7 +191,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 3.8)
     found = needed(result, "spectrum").spectral_amplitude
     frequency, amplitude = found.frequency.values * JULIAN, found.values
-    for sign, colour, words in ((1, BLUE, "prograde"), (-1, RED, "retrograde")):
+    for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
         ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
     marks = (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4)
@@ -208,7 +199,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
         at = JULIAN / period
         ax.axvline(at, color="0.7", lw=0.7, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
-        note(ax, words, (at, 0.97), (by, 0), color=GREY, **where)
+        note(ax, words, (at, 0.97), (by, 0), color=drawing.GREY, **where)
     ax.set_ylim(0.05, None)
     ax.set(xlabel="frequency (cycles per year)", ylabel="amplitude (mas)")
     ax.legend(loc="upper right", bbox_to_anchor=(1, 0.9))
@@ -227,10 +218,10 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 7.5, 3.4)
     found, time, size, half = _free_wobble(result)
-    band(ax, time, size, half, BLUE, alpha=0.2, lowest=0.0, lw=1.4, label="free")
-    ax.plot(time, found.annual_amplitude, color=GREEN, lw=1, label="annual")
-    ax.axhline(200, color=GREY, lw=0.8, ls="--")
-    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=GREY)
+    drawing.band(ax, time, size, half, drawing.BLUE, alpha=0.2, lowest=0.0, lw=1.4, label="free")
+    ax.plot(time, found.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
+    ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
+    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
     ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("amplitude (m)")
@@ -250,11 +241,11 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
     """
     ax = axes(ax, 7.5, 3.4)
     for found, colour, words in (
-        (observed, BLUE, "observed"),
-        (modelled, RED, modelled.attrs.get("source", "driven by a given excitation")),
+        (observed, drawing.BLUE, "observed"),
+        (modelled, drawing.RED, modelled.attrs.get("source", "driven by a given excitation")),
     ):
         _, time, size, half = _free_wobble(found)
-        band(ax, time, size, half, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
+        drawing.band(ax, time, size, half, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
     ax.set_ylim(0, None)
     ax.set_ylabel("amplitude (mas)")
     ax.legend(loc="best")
@@ -275,8 +266,8 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 2.6)
     found, time, size, half = _free_wobble(result)
     phase = found.chandler_phase.values
-    ax.plot(time, phase, color=BLUE, lw=1, alpha=0.35)
-    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=BLUE, lw=1.6)
+    ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
+    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=drawing.BLUE, lw=1.6)
     ax.set_ylabel("phase (deg)")
     return ax
 

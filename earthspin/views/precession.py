@@ -11,18 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
-from earthspin.views import stars, torque
-from earthspin.views.drawing import (
-    CYCLE,
-    NARROW,
-    RED,
-    Drawing,
-    PageFigure,
-    axes,
-    empty,
-    legend_above,
-    note,
-)
+from earthspin.views import drawing, stars, table, torque
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import (
     Result,
     answer_of,
@@ -33,19 +23,7 @@ from earthspin.views.reading import (
     perturbers_of,
     section,
 )
-from earthspin.views.table import (
-    BRACKETS,
-    Column,
-    Table,
-    along,
-    beside_observed,
-    date,
-    measured,
-    quantities,
-    table_along,
-    two_digits,
-    with_error,
-)
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,7 +45,7 @@ PASSED = 2.0
 def lead(tree: Result) -> str:
     """The sentence at the head of the page."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
-    alone = measured(answer.isel(perturber=-1), "precession_period", "years")
+    alone = table.measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {perturbers_of(answer)} on the equatorial bulge"
     once = f"The axis of {body_of(answer)} goes once round in"
     if known is None:
@@ -87,7 +65,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def _period_with_known_effects(known: xr.Dataset) -> str:
-    return with_error(*_with_known_effects(known))
+    return table.with_error(*_with_known_effects(known))
 
 
 def _left_out(answer: xr.Dataset, known: xr.Dataset) -> float:
@@ -122,7 +100,7 @@ def periods(tree: Result) -> Table:
         [
             (
                 "Sun and Moon, fixed ecliptic",
-                measured(answer.isel(perturber=-1), "precession_period"),
+                table.measured(answer.isel(perturber=-1), "precession_period"),
                 f"known effects: {_left_out(answer, known):+.2f} yr",
                 "the torque of Sun and Moon",
             ),
@@ -134,7 +112,7 @@ def periods(tree: Result) -> Table:
             ),
             (
                 "general precession, moving ecliptic",
-                measured(seasons, "general_precession_period"),
+                table.measured(seasons, "general_precession_period"),
                 f"unexplained: {-unexplained:+.3f} yr",
                 f"equinox, seasons; IAU 2006: {iau_general:.3f}",
             ),
@@ -153,7 +131,8 @@ def rates(tree: Result) -> Table:
     answer = answer_of(tree)
     first, last = answer.perturber.values[[0, -1]]
     method, given = (
-        two_digits(answer[f"precession_rate_error_{share}"][-1]) for share in ("method", "input")
+        table.two_digits(answer[f"precession_rate_error_{share}"][-1])
+        for share in ("method", "input")
     )
 
     def left_out(row: xr.Dataset) -> str:
@@ -168,10 +147,11 @@ def rates(tree: Result) -> Table:
     )
     note = (
         "Rates are in longitude along the fixed orbit and refer to "
-        f"{date(answer.reference_epoch, 'm')} TDB; the obliquity is {float(answer.obliquity):.6f} "
-        f"deg. Torques are averaged with the {answer.precession_rate.attrs['window']}. In the "
-        f"error of the last rate, {method} arcsec/yr are due to averaging and {given} arcsec/yr to "
-        f"the given numbers. {BRACKETS}"
+        f"{table.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
+        f"{float(answer.obliquity):.6f} deg. Torques are averaged with the "
+        f"{answer.precession_rate.attrs['window']}. In the error of the last rate, {method} "
+        f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers. "
+        f"{table.BRACKETS}"
     )
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
@@ -185,7 +165,7 @@ def _largest_left_out(answer: xr.Dataset) -> str:
 
 def sky_and_calendar(tree: Result) -> Table:
     """The rate as general precession and as drift of the calendar."""
-    computed = quantities(
+    computed = table.quantities(
         needed(tree, "seasons"),
         "general_precession",
         "general_precession_period",
@@ -245,11 +225,13 @@ def free_wobble(tree: Result) -> Table:
     """Period of the rigid wobble, and the observed one if this body was observed."""
     wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
-    rigid = measured(wobble, "free_wobble_period")
+    rigid = table.measured(wobble, "free_wobble_period")
     rows = []
     if "observed_period" in wobble:
-        rigid = beside_observed(wobble.free_wobble_period, wobble.free_wobble_period_error, None)
-        rows.append(("observed", measured(wobble, "observed_period"), ""))
+        rigid = table.beside_observed(
+            wobble.free_wobble_period, wobble.free_wobble_period_error, None
+        )
+        rows.append(("observed", table.measured(wobble, "observed_period"), ""))
         source = wobble.observed_period.attrs["references"]
         notes.append(f"Source of the observed period: {source}.")
     sidereal = f"{float(wobble.free_wobble_period_sidereal):.4f}"
@@ -265,19 +247,19 @@ def iau(tree: Result) -> Table:
     """The computed rate compared with that of IAU 2006."""
     of, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     rows = [
-        ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
+        ("computed", table.measured(answer.isel(perturber=-1), "precession_rate")),
         ("IAU 2006, psi_A", f"{float(of.iau_rate):.8f}"),
-        ("difference", measured(of, "difference_from_iau")),
+        ("difference", table.measured(of, "difference_from_iau")),
     ]
     if left_out is not None:
         rows += [
             (f"  left out: {effect}", f"{float(one.neglected_effect):+.6f}")
-            for effect, one in along(left_out, "effect")
+            for effect, one in table.along(left_out, "effect")
         ]
-    rows.append(("difference after the effects left out", measured(of, "closure")))
+    rows.append(("difference after the effects left out", table.measured(of, "closure")))
     return Table(
         "Comparison with IAU 2006",
-        (f"rate at {date(answer.reference_epoch)}", "arcsec/yr"),
+        (f"rate at {table.date(answer.reference_epoch)}", "arcsec/yr"),
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
@@ -293,7 +275,7 @@ def standstills(tree: Result) -> Table:
     text = {"major": "28.58", "minor": "18.30"}
     error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
     columns = (
-        Column("standstill", lambda row: date(row.standstill), "date (TDB)"),
+        Column("standstill", lambda row: table.date(row.standstill), "date (TDB)"),
         *("standstill_kind", "standstill_declination:+.4f"),
         Column("", lambda row: text[row.standstill_kind.item()], "source text (I.8), deg"),
     )
@@ -309,7 +291,7 @@ def standstills(tree: Result) -> Table:
 # --- figures -------------------------------------------------------------------------------------
 
 
-def chain(tree: Result, year: Result) -> Drawing:
+def chain(tree: Result, year: Result) -> drawing.Drawing:
     """The method in one figure: declination, torque, average, period."""
     figure = PageFigure(
         "From declination to the period of precession",
@@ -334,14 +316,14 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     figure : Figure, optional
         A figure of its own by default.
     """
-    figure = empty(8, 6.6) if figure is None else figure
+    figure = drawing.empty(8, 6.6) if figure is None else figure
     upper, middle, lower = figure.subplots(3, 1)
     upper.sharex(middle)
     torque.plot_declination(year, ax=upper)
     torque.plot_torque(year, ax=middle)
     upper.tick_params(labelbottom=False)
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
-    for colour, (window, row) in zip(CYCLE, along(curve, "window"), strict=False):
+    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
         lower.plot(curve.window_length, row.rate_by_window, color=colour, lw=1.1, label=window)
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
@@ -349,7 +331,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
     lower.set_xlabel("length of the averaging window (yr)")
     lower.set_ylabel("averaged rate\n(arcsec per year)")
-    legend_above(lower)
+    drawing.legend_above(lower)
     return figure
 
 
@@ -365,12 +347,12 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
     ax = axes(ax)
-    for colour, (window, row) in zip(CYCLE, along(curve, "window"), strict=False):
+    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
         off = abs(row.rate_by_window - total.precession_rate)
         ax.semilogy(curve.window_cycles, np.maximum(off, 1e-8), color=colour, lw=1.2, label=window)
     error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
-    words = f"error claimed for averaging, {two_digits(error)} arcsec/yr"
+    words = f"error claimed for averaging, {table.two_digits(error)} arcsec/yr"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
     ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
     ax.set_ylabel("difference (arcsec per year)")
@@ -427,7 +409,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     pole, turn = _circle(total), float(total.precession_period)
     years = [year for year in stars.YEARS if abs(year - 2000) <= 12_000]
     marks = zip(years, pole(years).tolist(), strict=True)
-    dates = [stars.Label(stars.year_words(year), (x, y), RED) for year, (x, y) in marks]
+    dates = [stars.Label(stars.year_words(year), (x, y), drawing.RED) for year, (x, y) in marks]
     path = pole(np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
     ax = stars.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
     ax.set_title(f"once round in {turn:,.0f} years")
@@ -447,7 +429,7 @@ FIGURES = [
         _plot_circle_on_page,
         section="seasons",
         square=True,
-        phone=NARROW,
+        phone=drawing.NARROW,
     ),
     PageFigure(
         "How the average converges",

@@ -7,20 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from earthspin.views import table
 from earthspin.views.drawing import BLUE, RED, PageFigure, axes, note, rungs
 from earthspin.views.reading import Result, answer_of, changes_of, needed, of_sections, section
-from earthspin.views.table import (
-    NUMBERS_ONLY,
-    Column,
-    Table,
-    along,
-    beside_observed,
-    measured,
-    quality,
-    table_along,
-    with_error,
-    words_of,
-)
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,8 +32,8 @@ def ladder(tree: Result) -> Table:
 
     def period(row: xr.Dataset) -> str:
         if observed is None or row.rung != answer.rung[-1]:
-            return measured(row, "period_solar")
-        return beside_observed(row.period_solar, row.period_solar_error, left_out)
+            return table.measured(row, "period_solar")
+        return table.beside_observed(row.period_solar, row.period_solar_error, left_out)
 
     notes = [
         "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
@@ -60,12 +50,12 @@ def ladder(tree: Result) -> Table:
         Column("period_solar", period, "days of 86400 s"),
         "period_sidereal:.3f",
         "factor:.6f",
-        Column("quality_factor", quality),
+        Column("quality_factor", table.quality),
     )
-    table = table_along(answer, "rung", "Free wobble, rung by rung", columns)
-    rows = list(table.rows)
+    ladder = table_along(answer, "rung", "Free wobble, rung by rung", columns)
+    rows = list(ladder.rows)
     if observed is not None:
-        rows.append(("observed", measured(observed, "observed_period"), "", "", ""))
+        rows.append(("observed", table.measured(observed, "observed_period"), "", "", ""))
         source = observed.observed_period.attrs.get("references", "")
         notes.append(f"Source of the observed period: {source}.")
         notes.append(
@@ -73,7 +63,7 @@ def ladder(tree: Result) -> Table:
             "stands beside the observed period, holds the sizes of what it leaves out, too, where "
             "they are known."
         )
-    return replace(table, rows=rows, note=" ".join(notes))
+    return replace(ladder, rows=rows, note=" ".join(notes))
 
 
 def sensitivity(tree: Result) -> Table:
@@ -84,12 +74,12 @@ def sensitivity(tree: Result) -> Table:
         if roots is None
         else ", ".join(
             f"{float(of.free_core_nutation):.1f} d ({shape} core)"
-            for shape, of in along(roots, "core_shape")
+            for shape, of in table.along(roots, "core_shape")
         )
     )
     columns = (
-        Column("input", words_of("input")),
-        Column("", lambda row: with_error(row.input_value, row.input_half_width), "value"),
+        Column("input", table.words_of("input")),
+        Column("", lambda row: table.with_error(row.input_value, row.input_half_width), "value"),
         Column("days_per_unit", ".4g", "days per unit of input"),
         Column("days_from_input", ".2g", "days from error of input"),
     )
@@ -104,7 +94,7 @@ def _caption(tree: Result) -> str:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
     words = (
         "Period of the free wobble by a series of models, with 95 % errors from sampled inputs "
-        f"({NUMBERS_ONLY}){band}."
+        f"({table.NUMBERS_ONLY}){band}."
     )
     return " ".join([words, *changes_of(answer_of(tree), "body")])
 
