@@ -22,14 +22,7 @@ from numpy.typing import NDArray
 from earthspin.engine import loop
 from earthspin.engine import run as running
 from earthspin.engine.given import MEMBER
-from earthspin.engine.inputs import (
-    Input,
-    along_members,
-    changed,
-    inputs_of,
-    one_member,
-    published,
-)
+from earthspin.engine.inputs import Input, along_members, changed, inputs_of, one_member, published
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
@@ -91,18 +84,18 @@ class Ensemble:
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
         if not self.inputs:
-            words = "no body of this question has a published uncertainty; say what differs"
-            raise where.error(None, words)
+            problem = "no body of this question has a published uncertainty; say what differs"
+            raise where.error(None, problem)
         n = count_of(members, distributions, where)
         self.which = np.array(members.only or range(n))
         numbers = {
-            name: of.values(self.inputs[name].kind, where.at(name))
-            for name, of in distributions.items()
+            name: distribution.values(self.inputs[name].kind, where.at(name))
+            for name, distribution in distributions.items()
         }
         self.values = draw(members, distributions, numbers, self.which, where)
         self.values |= {
-            name: self.inputs[name].checked(of, where.at(name))[self.which]
-            for name, of in members.values.items()
+            name: self.inputs[name].checked(values, where.at(name))[self.which]
+            for name, values in members.values.items()
         }
         self.dropped: list[int] = []
         self._leave_out_the_impossible(members.impossible == "drop", n)
@@ -123,18 +116,18 @@ class Ensemble:
     @cached_property
     def numbers(self) -> dict[str, Input]:
         """The inputs that are numbers; the others are words."""
-        return {name: item for name, item in self.inputs.items() if not item.named}
+        return {name: entry for name, entry in self.inputs.items() if not entry.named}
 
     @cached_property
     def variants(self) -> Variants:
         """The question, or one for all the words of a member."""
-        keys = tuple(item.key for item in self.inputs.values() if item.named)
-        return Variants(self.question, keys, {item.key for item in self.numbers.values()})
+        keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
+        return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def words(self, place: int) -> Words:
         """What is chosen for a member that is not a number."""
-        named = (name for name, item in self.inputs.items() if item.named)
-        return tuple(str(self.values[name][place]) for name in named)
+        names = (name for name, entry in self.inputs.items() if entry.named)
+        return tuple(str(self.values[name][place]) for name in names)
 
     @cached_property
     def every(self) -> dict[Words, IntArray]:
@@ -144,7 +137,7 @@ class Ensemble:
         places: dict[Words, list[int]] = {}
         for place in range(len(self.which)):
             places.setdefault(self.words(place), []).append(place)
-        return {words: np.array(members) for words, members in places.items()}
+        return {words: np.array(group) for words, group in places.items()}
 
     @cached_property
     def nominal(self) -> xr.Dataset:
@@ -158,7 +151,7 @@ class Ensemble:
         if not self.numbers:
             return rows * ROW or 1  # nothing is computed but the answer to each of their words
         together = self.question.graph.together
-        fit = all(item.key in together and item.labelled for item in self.numbers.values())
+        fit = all(entry.key in together and entry.labelled for entry in self.numbers.values())
         if not fit or getattr(self.question, "accuracy", None) is not None:
             return 1  # what is chosen for an accuracy is chosen for each alone
         return min(rows * ROW, self.question.graph.widest) or 1
@@ -192,8 +185,8 @@ class Ensemble:
         """
         size = self.nominal.nbytes * self.layout.size
         if size > LARGEST_IN_MEMORY:
-            words = f"they take about {size / 1e9:.3g} GB; write them to a store: give a path"
-            raise self.question.error("members", self.layout.size, words)
+            problem = f"they take about {size / 1e9:.3g} GB; write them to a store: give a path"
+            raise self.question.error("members", self.layout.size, problem)
         return loop.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
@@ -210,12 +203,12 @@ class Ensemble:
         numbers = [int(self.which[place]) for place in wrong]
         named = _named(numbers)
         if not drop or len(numbers) == len(self.which):
-            words = f"of {n} these cannot be: {next(iter(wrong.values()))}"
+            problem = f"of {n} these cannot be: {next(iter(wrong.values()))}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
-            raise self.question.error("members", named, words + remedy)
-        possible = np.delete(np.arange(len(self.which)), list(wrong))
-        self.which, self.dropped = self.which[possible], numbers
-        self.values = {name: array[possible] for name, array in self.values.items()}
+            raise self.question.error("members", named, problem + remedy)
+        kept = np.delete(np.arange(len(self.which)), list(wrong))
+        self.which, self.dropped = self.which[kept], numbers
+        self.values = {name: values[kept] for name, values in self.values.items()}
         del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
@@ -232,7 +225,7 @@ class Ensemble:
         self, question: Question, places: IntArray
     ) -> Iterator[tuple[int, EarthspinError]]:
         """The same of the members that share a question; at once where arrays tell."""
-        at_once = all(item.field and item.labelled for item in self.numbers.values())
+        at_once = all(entry.field and entry.labelled for entry in self.numbers.values())
         if at_once:
             try:
                 changed(question, self.numbers, along_members(self._of_numbers, places))
@@ -254,20 +247,20 @@ class Ensemble:
             SCENE: scene_text(self.asked_question),
         }
         if self.dropped:
-            words = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
-            attributes["members_dropped"] = words
+            count = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
+            attributes["members_dropped"] = count
         return self.variants.describe(self.make(0), self.every).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
-        make_pieces = self._one_by_one if self.width == 1 else self._side_by_side
-        places, pieces = zip(*make_pieces(first, last), strict=True)
-        laid = _laid([*pieces])
+        answers = self._one_by_one if self.width == 1 else self._side_by_side
+        places, pieces = zip(*answers(first, last), strict=True)
+        block = _laid([*pieces])
         order = np.argsort(np.concatenate(places))
         if (np.diff(order) != 1).any():
-            laid = laid.isel({MEMBER: order} if MEMBER in laid.dims else {})
-        return laid.assign_coords(self._labels(slice(first, last), laid))
+            block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
+        return block.assign_coords(self._labels(slice(first, last), block))
 
     def _one_by_one(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
         for place in range(first, last):
@@ -278,26 +271,25 @@ class Ensemble:
         for begin in range(first - first % ROW, last, self.width):
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
-            for words, members in self.every.items():
-                wanted = members[np.searchsorted(members, max(begin, first)) :]
-                wanted = wanted[: np.searchsorted(wanted, min(end, last))]
-                if not wanted.size:
+            for words, all_places in self.every.items():
+                places = all_places[np.searchsorted(all_places, max(begin, first)) :]
+                places = places[: np.searchsorted(places, min(end, last))]
+                if not places.size:
                     continue
-                stand_in = np.where(np.isin(row, wanted), row, wanted[0])
+                stand_in = np.where(np.isin(row, places), row, places[0])
                 values = along_members(self._of_numbers, stand_in)
-                which = _named(self.which[wanted].tolist())
+                which = _named(self.which[places].tolist())
                 try:
                     answer = self._answer(words, values, which)
                 except ApartError:
-                    yield from ((np.array([place]), self._single(place)) for place in wanted)
+                    yield from ((np.array([place]), self._single(place)) for place in places)
                     continue
                 self._check_labels(answer, which)
                 if words:
                     answer = _for_each(answer, len(row))
-                yield (
-                    wanted,
-                    answer.isel({MEMBER: _short(wanted - begin)} if MEMBER in answer.dims else {}),
-                )
+                if MEMBER in answer.dims:
+                    answer = answer.isel({MEMBER: _short(places - begin)})
+                yield places, answer
 
     def _single(self, place: int) -> xr.Dataset:
         which = str(self.which[place])
@@ -317,26 +309,26 @@ class Ensemble:
     def _check_labels(self, answer: xr.Dataset, which: str) -> None:
         for name, label in self.nominal.coords.items():
             if name not in answer.coords or not label.equals(answer.coords[name]):
-                words = f"member {which} has other labels along '{name}'"
-                raise self.question.error("members", list(self.inputs), words)
+                problem = f"member {which} has other labels along '{name}'"
+                raise self.question.error("members", list(self.inputs), problem)
 
     @property
     def _of_numbers(self) -> dict[str, NDArray[Any]]:
         """Values of the inputs that are numbers."""
         return {name: self.values[name] for name in self.numbers}
 
-    def _labels(self, which: slice, laid: xr.Dataset) -> dict[str, Any]:
+    def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
         """Numbers of members, and their inputs; of what moves, as theta, the one that is given."""
         labels: dict[str, Any] = {
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
-        for name, item in self.inputs.items():
+        for name, entry in self.inputs.items():
             values = self.values[name][which]
-            dims = (MEMBER, *(f"{item.label}_{k}" for k in range(values.ndim - 1)))
-            attrs = {"long_name": f"{name} of the member", "units": item.unit or "1", "input": name}
-            if item.named:
-                del attrs["units"]
-            label = f"{item.label}_given" if item.label in laid.variables else item.label
+            dims = (MEMBER, *(f"{entry.label}_{k}" for k in range(values.ndim - 1)))
+            attrs = {"long_name": f"{name} of the member"}
+            attrs |= {} if entry.named else {"units": entry.unit or "1"}
+            attrs |= {"input": name}
+            label = f"{entry.label}_given" if entry.label in block.variables else entry.label
             labels[label] = (dims, values, attrs)
         return labels
 
@@ -355,27 +347,26 @@ def _short(places: IntArray) -> IntArray | slice:
 
 def _for_each(answer: xr.Dataset, count: int) -> xr.Dataset:
     """An answer whose every number stands along `member`, that of one for so many."""
-    numbers = {
-        name: array for name, array in answer.data_vars.items() if array.dtype.kind in "fiubM"
+    alone = {
+        name: variable.expand_dims({MEMBER: count})
+        for name, variable in answer.data_vars.items()
+        if variable.dtype.kind in "fiubM" and MEMBER not in variable.dims
     }
-    alone = {name: array for name, array in numbers.items() if MEMBER not in array.dims}
-    return answer.assign(
-        {name: array.expand_dims({MEMBER: count}) for name, array in alone.items()}
-    )
+    return answer.assign(alone)
 
 
 def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
     """Pieces one after the other, `member` first; what no input touches stands once."""
     import xarray as xr
 
-    laid: dict[Any, Any] = {}
-    for name, array in pieces[0].data_vars.items():
-        laid[name] = array.variable
-        if MEMBER in array.dims:
+    variables: dict[Any, Any] = {}
+    for name, variable in pieces[0].data_vars.items():
+        variables[name] = variable.variable
+        if MEMBER in variable.dims:
             parts = [piece[name].variable.transpose(MEMBER, ...) for piece in pieces]
-            together = np.concatenate([part.values for part in parts])
-            laid[name] = xr.Variable(parts[0].dims, together, parts[0].attrs)
-    return xr.Dataset(laid, pieces[0].coords)
+            values = np.concatenate([part.values for part in parts])
+            variables[name] = xr.Variable(parts[0].dims, values, parts[0].attrs)
+    return xr.Dataset(variables, pieces[0].coords)
 
 
 def asked_of_members(
@@ -394,17 +385,17 @@ def asked_of_members(
     """
     own: Members | None = question.members
     if members is None and own is None:
-        words = "say how many members, or give a file or a table"
-        raise question.error("members", None, words)
+        problem = "say how many members, or give a file or a table"
+        raise question.error("members", None, problem)
     counted = isinstance(members, (int, np.integer)) and not isinstance(members, bool)
     if members is None:
-        asked = own
+        request = own
     else:
-        asked = Members.read(members, question.where("members"))
+        request = Members.read(members, question.where("members"))
         if own is not None and counted:
-            asked = replace(own, n=asked.n)
-    assert asked is not None
-    changes = {name: of for name, of in {"seed": seed, **more}.items() if of is not None}
+            request = replace(own, n=request.n)
+    assert request is not None
+    changes = {name: value for name, value in {"seed": seed, **more}.items() if value is not None}
     read = Members.read({"n": 1} | changes, question.where("members"))
     changes = {name: getattr(read, name) for name in changes}
-    return question.replace(members=replace(asked, **changes))
+    return question.replace(members=replace(request, **changes))

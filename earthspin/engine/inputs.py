@@ -100,21 +100,21 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
         is itself chosen.
     """
     inputs = {name: _input(question, name, where) for name in names}
-    chosen = {item.key: item.name for item in inputs.values() if item.named}
-    for item in inputs.values():
-        if chosen.get(item.key, item.name) != item.name:
-            words = f"members differ in '{chosen[item.key]}' itself; leave out one of the two"
-            raise where.at(item.name).error("a number", words)
+    chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
+    for entry in inputs.values():
+        if chosen.get(entry.key, entry.name) != entry.name:
+            problem = f"members differ in '{chosen[entry.key]}' itself; leave out one of the two"
+            raise where.at(entry.name).error("a number", problem)
     return inputs
 
 
 def _input(question: Question, name: str, where: Where) -> Input:
-    known = {item.name: item for item in _every(question)}
+    inputs = {one.name: one for one in _every(question)}
     short = name.removeprefix(f"{question.table}.") if question.table else name
     for spelled in (name, short):
-        if spelled in known:
-            return replace(known[spelled], name=name)
-    raise where.error(name, nearest(name, known))
+        if spelled in inputs:
+            return replace(inputs[spelled], name=name)
+    raise where.error(name, nearest(name, inputs))
 
 
 def _every(question: Question) -> Iterator[Input]:
@@ -176,31 +176,31 @@ def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str
         If it cannot be, in one line.
     """
     changes: dict[str, Any] = {}
-    several = False
-    for name, item in inputs.items():
-        if item.field:
+    labelled = False
+    for name, entry in inputs.items():
+        if entry.field:
             continue
-        several = several or hasattr(values[name], "dims")
-        if item.element is None:
-            changes[item.key] = values[name]
+        labelled = labelled or hasattr(values[name], "dims")
+        if entry.element is None:
+            changes[entry.key] = values[name]
         else:
-            list_of = changes.get(item.key, getattr(question, item.key))
-            changes[item.key] = _with_number(list_of, item.element, values[name])
+            list_of = changes.get(entry.key, getattr(question, entry.key))
+            changes[entry.key] = _with_number(list_of, entry.element, values[name])
     changed = question.replace(**with_bodies(question, inputs, values))
-    return changed.holding(**changes) if several else changed.replace(**changes)
+    return changed.holding(**changes) if labelled else changed.replace(**changes)
 
 
-def _with_number(several: Any, place: int, value: Any) -> Any:
+def _with_number(sequence: Any, place: int, value: Any) -> Any:
     """A list of numbers with one of them changed, or changed to one for each member."""
-    if hasattr(several, "numbers"):
-        numbers = several.numbers
-        return replace(several, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
-    if hasattr(value, "dims") and not hasattr(several, "dims"):
-        several = _for_each(several, value.size)
-    several = several.copy()
+    if hasattr(sequence, "numbers"):
+        numbers = sequence.numbers
+        return replace(sequence, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
+    if hasattr(value, "dims") and not hasattr(sequence, "dims"):
+        sequence = _for_each(sequence, value.size)
+    sequence = sequence.copy()
     rows = value.size if hasattr(value, "dims") else 1
-    getattr(several, "values", several).reshape(rows, -1)[:, place] = value
-    return several
+    getattr(sequence, "values", sequence).reshape(rows, -1)[:, place] = value
+    return sequence
 
 
 def _for_each(values: FloatArray, count: int) -> xr.DataArray:
@@ -228,16 +228,16 @@ def with_bodies(
         If such a body cannot exist.
     """
     fields: dict[tuple[str, int | None], dict[str, Any]] = {}
-    for name, item in inputs.items():
-        if item.field:
-            fields.setdefault((item.key, item.element), {})[item.field] = values[name]
+    for name, entry in inputs.items():
+        if entry.field:
+            fields.setdefault((entry.key, entry.element), {})[entry.field] = values[name]
     changes: dict[str, Any] = {}
-    for (key, element), numbers in fields.items():
+    for (key, element), new_values in fields.items():
         value = changes.get(key, getattr(question, key))
         if element is None:
-            changes[key] = value.replace(**numbers)
+            changes[key] = value.replace(**new_values)
         else:
-            new = value[element].replace(**numbers)
+            new = value[element].replace(**new_values)
             changes[key] = (*value[:element], new, *value[element + 1 :])
     return changes
 

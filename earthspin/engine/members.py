@@ -53,12 +53,12 @@ class Distribution:
     numbers: tuple[Any, ...]
 
     @classmethod
-    def read(cls, given: Mapping[str, Any], where: Where) -> Distribution:
+    def read(cls, value: Mapping[str, Any], where: Where) -> Distribution:
         """Read a table like ``{ normal = [0.00327, 2e-9] }``."""
-        if len(given) != 1 or next(iter(given)) not in _SHAPES:
+        if len(value) != 1 or next(iter(value)) not in _SHAPES:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
-            raise where.error(dict(given), problem)
-        ((shape, numbers),) = given.items()
+            raise where.error(dict(value), problem)
+        ((shape, numbers),) = value.items()
         numbers = numbers.tolist() if isinstance(numbers, np.ndarray) else numbers
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
         if many == 0 or (shape in ("normal", "uniform") and many != 2):
@@ -69,17 +69,17 @@ class Distribution:
         """Its numbers as the input is kept, or its words, checked."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
-                words = f"{self.shape} is of numbers; of words and names give choice or grid"
-                raise where.error(list(self.numbers), words)
+                problem = f"{self.shape} is of numbers; of words and names give choice or grid"
+                raise where.error(list(self.numbers), problem)
             return texts(self.numbers, kind, where)
-        read = [kind.read(number, where) for number in self.numbers]
-        if any(np.ndim(one) for one in read):
+        numbers = [kind.read(number, where) for number in self.numbers]
+        if any(map(np.ndim, numbers)):
             raise where.error(self.numbers, "give single numbers")
-        if self.shape == "normal" and not read[1] >= 0:
+        if self.shape == "normal" and not numbers[1] >= 0:
             raise where.error(self.numbers, "a standard deviation is zero or more")
-        if self.shape == "uniform" and not read[0] <= read[1]:
+        if self.shape == "uniform" and not numbers[0] <= numbers[1]:
             raise where.error(self.numbers, "the lowest value comes first")
-        return tuple(map(float, read))
+        return tuple(map(float, numbers))
 
 
 def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
@@ -90,13 +90,13 @@ def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     EarthspinError
         If the input does not take one, or it is told by more than text.
     """
-    texts_given = tuple(values)
-    for text in texts_given:
-        kind.read(text, where)
-        if not isinstance(text, str):
-            words = "members are labelled by text: give a name, or the path of a file it is in"
-            raise where.error(type(text).__name__, words)
-    return texts_given
+    names = tuple(several)
+    for word in names:
+        kind.read(word, where)
+        if not isinstance(word, str):
+            problem = "members are labelled by text: give a name, or the path of a file it is in"
+            raise where.error(type(word).__name__, problem)
+    return names
 
 
 def _plain(number: Any) -> Any:
@@ -109,10 +109,7 @@ def _plain(number: Any) -> Any:
 
 
 def drawn(
-    distribution: str,
-    numbers: tuple[Any, ...],
-    normal: FloatArray,
-    place: FloatArray,
+    distribution: str, numbers: tuple[Any, ...], normal: FloatArray, place: FloatArray
 ) -> NDArray[Any]:
     """Turn standard normal numbers into those of a distribution.
 
@@ -131,15 +128,15 @@ def drawn(
     """
     from scipy.special import ndtr
 
-    choices = np.array(numbers)
+    values = np.array(numbers)
     if distribution == "normal":
         return np.asarray(numbers[0] + numbers[1] * normal)
     share = ndtr(normal)
     if distribution == "uniform":
         return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
     if distribution == "choice":
-        place = np.minimum((share * choices.size).astype(int), choices.size - 1)
-    return np.asarray(choices[place])
+        place = np.minimum((share * values.size).astype(int), values.size - 1)
+    return np.asarray(values[place])
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
@@ -156,11 +153,11 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
     -------
     ndarray, shape (n, inputs)
     """
-    numbers = np.empty((len(members), inputs))
-    for row, member in zip(numbers, members.tolist(), strict=True):
+    normal = np.empty((len(members), inputs))
+    for row, member in zip(normal, members.tolist(), strict=True):
         sequence = np.random.SeedSequence(seed, spawn_key=(member,))
         np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
-    return numbers
+    return normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,7 +197,7 @@ class Members:
     # --- as a scene ------------------------------------------------------------------------------
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Members:
+    def read(cls, value: object, where: Where) -> Members:
         """Read how many, a table, a Dataset, or the path of a file with one.
 
         Raises
@@ -208,26 +205,26 @@ class Members:
         SceneError
             If it is none of these, a name or a number is wrong, or there is no member.
         """
-        if isinstance(given, Members):
-            return given
-        if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
-            return cls(n=_whole(given, where, 1), published=True)
-        if isinstance(given, (str, os.PathLike)):
-            given = read_file(Path(given))
-        if hasattr(given, "data_vars"):
-            return cls(values=of_dataset(given, where))
-        if not isinstance(given, Mapping):
-            raise where.error(given, f"give {cls.words}")
-        return cls._of_table(given, where)
+        if isinstance(value, Members):
+            return value
+        if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
+            return cls(n=_whole(value, where, 1), published=True)
+        if isinstance(value, (str, os.PathLike)):
+            value = read_file(Path(value))
+        if hasattr(value, "data_vars"):
+            return cls(values=of_dataset(value, where))
+        if not isinstance(value, Mapping):
+            raise where.error(value, f"give {cls.words}")
+        return cls._of_table(value, where)
 
     @classmethod
     def _of_table(cls, table: Mapping[str, Any], where: Where) -> Members:
-        settings = {name: value for name, value in table.items() if name in _SETTINGS}
-        inputs = {name: value for name, value in table.items() if name not in _SETTINGS}
-        for name, value in inputs.items():
-            if not isinstance(value, Mapping):
-                words = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
-                raise where.at(name).error(value, words)
+        settings = {name: entry for name, entry in table.items() if name in _SETTINGS}
+        inputs = {name: entry for name, entry in table.items() if name not in _SETTINGS}
+        for name, entry in inputs.items():
+            if not isinstance(entry, Mapping):
+                problem = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
+                raise where.at(name).error(entry, problem)
         uncertainty = settings.get("uncertainty")
         if not (uncertainty is None or _is_word(uncertainty, ("sample",))):
             raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
@@ -249,7 +246,7 @@ class Members:
             only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
-            values={name: from_scene(value, where.at(name)) for name, value in values.items()},
+            values={name: from_scene(entry, where.at(name)) for name, entry in values.items()},
         )
 
     def write(self) -> dict[str, Any]:
@@ -264,58 +261,58 @@ class Members:
         if self.correlations:
             table["correlations"] = [list(correlation) for correlation in self.correlations]
         table |= {
-            name: {value.shape: list(value.numbers)} for name, value in self.distributions.items()
+            name: {entry.shape: list(entry.numbers)} for name, entry in self.distributions.items()
         }
         if self.values:
             table["values"] = {
-                name: value.tolist() if value.dtype.kind == "U" else pack(value)
-                for name, value in self.values.items()
+                name: entry.tolist() if entry.dtype.kind == "U" else pack(entry)
+                for name, entry in self.values.items()
             }
         return table
 
 
-def _is_word(given: object, allowed: tuple[str, ...]) -> bool:
-    return isinstance(given, str) and given in allowed
+def _is_word(value: object, allowed: tuple[str, ...]) -> bool:
+    return isinstance(value, str) and value in allowed
 
 
-def _whole(given: Any, where: Where, low: int, high: int = MOST) -> int:
-    if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
-        raise where.error(given, "give a whole number")
-    if not low <= int(given) <= high:
-        raise where.error(given, f"it lies between {low} and {high}")
-    return int(given)
+def _whole(value: Any, where: Where, low: int, high: int = MOST) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise where.error(value, "give a whole number")
+    if not low <= int(value) <= high:
+        raise where.error(value, f"it lies between {low} and {high}")
+    return int(value)
 
 
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
     """Distributions by name; TOML makes tables within tables of names with points."""
-    for name, value in table.items():
+    for name, entry in table.items():
         if (
-            isinstance(value, Mapping)
-            and value
-            and not set(value) & set(_SHAPES)
-            and all(isinstance(inner, Mapping) for inner in value.values())
+            isinstance(entry, Mapping)
+            and entry
+            and not set(entry) & set(_SHAPES)
+            and all(isinstance(inner, Mapping) for inner in entry.values())
         ):
-            yield from _distributions(value, where, f"{before}{name}.")
-        elif isinstance(value, Mapping):
-            yield f"{before}{name}", Distribution.read(value, where.at(f"{before}{name}"))
+            yield from _distributions(entry, where, f"{before}{name}.")
+        elif isinstance(entry, Mapping):
+            yield f"{before}{name}", Distribution.read(entry, where.at(f"{before}{name}"))
         else:
-            raise where.at(f"{before}{name}").error(value, "give a table like normal = [1, 2]")
+            raise where.at(f"{before}{name}").error(entry, "give a table like normal = [1, 2]")
 
 
-def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
-    for correlation in given:
+def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
+    for row in rows:
         try:
-            first, second, size = correlation
+            first, second, size = row
         except (TypeError, ValueError):
             first = second = size = None
         if not (isinstance(first, str) and isinstance(second, str) and first != second):
             problem = 'give two names and a number: ["a", "b", 0.5]'
-            raise where.at("correlations").error(correlation, problem)
+            raise where.at("correlations").error(row, problem)
         if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
             problem = "a correlation lies between -1 and 1, both excluded"
-            raise where.at("correlations").error(correlation, problem)
+            raise where.at("correlations").error(row, problem)
         yield first, second, float(size)
 
 
@@ -330,10 +327,10 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
     SceneError
         If they do not, or nothing says it.
     """
-    grid = math.prod(len(values.numbers) for values in inputs.values() if values.shape == "grid")
-    gridded = any(values.shape == "grid" for values in inputs.values())
+    grid = math.prod(len(entry.numbers) for entry in inputs.values() if entry.shape == "grid")
+    gridded = any(entry.shape == "grid" for entry in inputs.values())
     counts = {"n": members.n} if members.n is not None else {}
-    counts |= {name: len(values) for name, values in members.values.items()}
+    counts |= {name: len(entry) for name, entry in members.values.items()}
     if len(set(counts.values())) > 1:
         raise where.error(counts, "these are not equally many")
     n = next(iter(counts.values()), grid if gridded else None)
@@ -404,6 +401,6 @@ def _root(members: Members, names: list[str], where: Where) -> FloatArray:
     try:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError:
-        rows = [list(correlation) for correlation in members.correlations]
+        rows = [list(row) for row in members.correlations]
         problem = "no numbers are correlated so; the matrix is not positive"
         raise where.at("correlations").error(rows, problem) from None

@@ -11,7 +11,7 @@ import numpy as np
 from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
 from earthspin.bodies.limits import refuse_break_up, refuse_fast_axis
 from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
-from earthspin.bodies.orbit import Orbit, OrbitTable
+from earthspin.bodies.orbit import Orbit
 from earthspin.constants import NORMAL_95
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -55,7 +55,7 @@ class CassiniStates(
     views, page = "cassini_states", "frames"
 
     body: Body = key(MOON, doc="body whose axis it is")
-    orbit: Annotated[Orbit | None, OrbitTable()] = key(
+    orbit: Annotated[Orbit | None, Orbit] = key(
         None,
         doc="its orbit, with a period of the node; if not given, the body's own, or the mean one "
         "of a moon and of Mercury",

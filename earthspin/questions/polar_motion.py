@@ -25,7 +25,6 @@ from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
-from earthspin.text import Text
 from earthspin.units import (
     Days,
     FilePath,
@@ -33,6 +32,7 @@ from earthspin.units import (
     Number,
     Numbers,
     Several,
+    Text,
     Word,
     kind_of,
 )
