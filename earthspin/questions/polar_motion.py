@@ -592,22 +592,15 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
-        ends, driving, begin = _fitted_start(fitted_to, chi, s)
+        from earthspin.wobble.driven import fitted_start
+
+        ends, observed, driving = _together(fitted_to, chi)
+        begin = fitted_start(ends, observed, driving, s)
     else:
         begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))
     x, y = ex.coordinates_of(ex.polar_motion_from(driving, step, s, begin))
     result = DrivenPole(time=datetime64(ends), x=x * MAS, y=y * MAS).dataset()
     return result.assign_attrs(source=f"driven by {known.get('source', 'a given excitation')}")
-
-
-def _fitted_start(
-    pole: xr.Dataset, chi: xr.Dataset, s: complex
-) -> tuple[FloatArray, ComplexArray, complex]:
-    """Days and excitation that the pole covers, and where it starts."""
-    from earthspin.wobble.driven import fitted_start
-
-    days, p, driving = _together(pole, chi)
-    return days, driving, fitted_start(days, p, driving, s)
 
 
 def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, float]:
