@@ -314,7 +314,7 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
         return Neglected({"start": half}, "mas", what)
     reach = max(abs(day) for day in epochs.span())
     return Neglected(
-        {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},
+        {name: effect.size_at(reach) for name, effect in EFFECTS.items() if name not in effects},
         "mas",
         "largest change of direction that the model leaves out",
         SOURCE,
