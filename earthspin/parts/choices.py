@@ -37,7 +37,7 @@ def windows_on_offer(
     _, epoch = start_of(body, pulls)
     first, last = (day * DAY - epoch for day in epochs.span())
     bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in perturbers}
-    if not all(one.naif for one in (body, *perturbers)):
+    if not all(member.naif for member in (body, *perturbers)):
         return []
     masses: dict[int, float] = {}
     for name, gm in forces.gm.items():
@@ -78,7 +78,7 @@ def averages_on_offer(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch
 ) -> list[Choice[Averaging]]:
     """Windows of an average over orbits; none where the sky was not measured."""
-    if not all(one.naif for one in (body, *perturbers)):
+    if not all(member.naif for member in (body, *perturbers)):
         return []
     cycle = max(p.cycle for p in perturbers)
     pole = body.needed("pole")
