@@ -231,27 +231,27 @@ def _run(options: Namespace) -> None:
     from earthspin.engine import drafts, store
     from earthspin.parts import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
-    from earthspin.views import of_question
 
     question, sections = _question(options), _sections(options)
     data = page = None
     if options.out is not None:
-        data = folder = Path(options.out)
-        if data.suffix in (".nc", ".zarr"):
-            folder = data.parent
-        else:
-            data, page = (folder / f"{Path(options.scene).stem}{end}" for end in (".nc", ".html"))
-        drafts.check_writable(folder)
+        data, name = Path(options.out), Path(options.scene).stem
+        long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
+        if data.suffix not in (".nc", ".zarr"):
+            data, page = data / f"{name}.nc", data / f"{name}.html"
+        drafts.check_writable(Path(options.out) if page else data.parent)
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
             if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
-            _print_written(write_series(question, data.with_suffix(".zarr") if page else data))
+            _print_written(write_series(question, long))
             return
         sections = "all" if sections is None else sections
     tree = run_tree(question, sections or ())
     if data is not None:
         store.write(tree, data)
     with _note_of_results(data):
+        from earthspin.views import of_question
+
         if page is not None:
             with drafts.replacing(page) as draft:
                 draft.write_text(of_question.scene_page(tree), encoding="utf-8")

@@ -32,8 +32,8 @@ _LOCK, _OLD = "owner", "old"
 #: A draft without a lock, older than this against the clock of its disk, has no owner, s. Its
 #: owner had a moment to make one.
 _GRACE = 60.0
-#: Time between two looks at a folder that is being replaced, s.
-_MOMENT = 0.01
+#: Time between two looks at a folder that is being replaced, s, and how often is looked.
+_MOMENT, _MOMENTS = 0.01, 500
 
 
 def as_path(given: object) -> Path:
@@ -166,11 +166,14 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 def box_of(target: Path) -> Iterator[Path]:
     """Hidden folder beside the target, locked by its owner as long as he lives."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
+    lock = FileLock(box / _LOCK)
+    with suppress(OSError, NotImplementedError):  # where there are no locks, no draft is cleared
+        lock.acquire()
     try:
-        with FileLock(box / _LOCK):
-            yield box
+        yield box
     finally:
-        shutil.rmtree(box, ignore_errors=True)
+        _remove(box, target)
+        lock.release()
 
 
 def put_back(path: str | Path) -> None:
@@ -184,7 +187,9 @@ def put_back(path: str | Path) -> None:
     """
     with suppress(OSError):
         target = Path(path).resolve()
-        while not target.exists() and any((box / _OLD).exists() for box in _boxes(target)):
+        for _ in range(_MOMENTS):
+            if target.exists() or not any((box / _OLD).exists() for box in _boxes(target)):
+                break
             clear_up_after_the_dead(target)
             time.sleep(_MOMENT)
 
@@ -212,11 +217,15 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
 def clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
     """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
     for box in _boxes(target):
-        if box == own or not _is_left(box, own):
-            continue
-        if (box / _OLD).exists() and not target.exists():
-            os.replace(box / _OLD, target)
-        shutil.rmtree(box, ignore_errors=True)
+        if box != own and _is_left(box, own):
+            _remove(box, target)
+
+
+def _remove(box: Path, target: Path) -> None:
+    """Remove the folder of a draft; what was moved aside goes back if nothing took its place."""
+    if (box / _OLD).exists() and not target.exists():
+        os.replace(box / _OLD, target)
+    shutil.rmtree(box, ignore_errors=True)
 
 
 def _boxes(target: Path) -> Iterator[Path]:
@@ -225,7 +234,7 @@ def _boxes(target: Path) -> Iterator[Path]:
 
 def _is_left(box: Path, own: Path | None) -> bool:
     """Whether the owner of a draft has ended."""
-    with suppress(OSError, Timeout):
+    with suppress(OSError, NotImplementedError, Timeout):
         if not (box / _LOCK).exists():
             # Its owner may be about to lock it. Clocks of machines differ, a disk has one.
             return own is not None and own.stat().st_mtime - box.stat().st_mtime > _GRACE
@@ -238,17 +247,14 @@ def _is_left(box: Path, own: Path | None) -> bool:
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Keep the draft on the disk, then let it take its place, then keep that."""
+    """Keep the draft on the disk, then let it take its place, then keep that.
+
+    If it cannot take its place, the end of `box_of` puts back what was moved aside.
+    """
     sync(draft)
-    aside = box / _OLD
     if target.is_dir():
-        os.replace(target, aside)
-    try:
-        os.replace(draft, target)
-    except BaseException:
-        if aside.exists():
-            os.replace(aside, target)
-        raise
+        os.replace(target, box / _OLD)
+    os.replace(draft, target)
     sync_one(target.parent)
 
 

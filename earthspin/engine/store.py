@@ -80,11 +80,12 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
             place, f"{type(result).__name__} is no answer", "give a Dataset or DataTree"
         )
     _refuse_attributes(result, place)
+    if place.suffix not in (".nc", ".zarr"):
+        raise OutputError(place, "it ends in neither .nc nor .zarr", "choose one of the two")
     if place.suffix == ".zarr":
-        return _write_zarr(result, place)
-    _refuse_other_endings(place)  # by its own name, not the draft's
+        zarr_of()
     with replacing(place) as draft:
-        write_netcdf(result, draft)
+        (_write_zarr if place.suffix == ".zarr" else write_netcdf)(result, draft)
     return place
 
 
@@ -93,12 +94,9 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
 
     Raises
     ------
-    OutputError
-        If the name does not end in ``.nc``.
     OSError
         If the file cannot be written, with the reason of the system.
     """
-    _refuse_other_endings(path)
     groups = _groups(result)
     root = groups["/"].assign_attrs({checksums.CONTENT: checksums.of_content(groups)})
     with _NETCDF:
@@ -199,25 +197,18 @@ def _as_shown(node: xr.Dataset) -> xr.Dataset:
     return node
 
 
-def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> Path:
+def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     """Write an answer with its sections to Zarr, a group for each node."""
-    zarr = zarr_of()
-    with replacing(path) as draft, zarr.config.set({"threading.max_workers": 1}):
+    with zarr_of().config.set({"threading.max_workers": 1}):
         for group, node in _groups(result).items():
             mode: Any = "w" if group == "/" else "a"
-            node.to_zarr(draft, mode=mode, group=group, encoding=zarr_encoding(node), **ZARR)
-        checksums.write_ledger(draft, checksums.of_files(draft, checksums.files_in(draft)))
-    return path
+            node.to_zarr(path, mode=mode, group=group, encoding=zarr_encoding(node), **ZARR)
+    checksums.write_ledger(path, checksums.of_files(path, checksums.files_in(path)))
 
 
 #: How our Zarr stores are made. Version 3 has no settled way to keep words. A chunk of nothing but
 #: fill values is written too: one that is missing is then always a loss.
 ZARR: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
-
-
-def _refuse_other_endings(path: Path) -> None:
-    if path.suffix != ".nc":
-        raise OutputError(path, "it ends in neither .nc nor .zarr", "choose one of the two")
 
 
 def zarr_of() -> Any:

@@ -19,7 +19,6 @@ import hashlib
 import json
 import os
 import shutil
-from collections import ChainMap
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -162,8 +161,10 @@ class Unfinished:
         """Give the store its ledger and put it in its place."""
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
-        blocks = ChainMap(*self.done.values())
-        write_ledger(self.store, {**_frame(self.store, self.layout.along), **blocks})
+        sums = _frame(self.store, self.layout.along)
+        for block in self.done.values():
+            sums |= block
+        write_ledger(self.store, sums)
         with drafts.box_of(place) as box:
             drafts.put_in_place(self.store, place, box)
         shutil.rmtree(self.folder)

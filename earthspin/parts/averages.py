@@ -16,7 +16,7 @@ from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
-from earthspin.parts.elements import exact_means, no_exact_means, ways
+from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
@@ -260,7 +260,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    found = ways(body, perturbers)
+    found = ellipse_chains(body, perturbers)
     torques, errors, nearness = [], [], []
     for one in perturbers:
         ((ellipse, _),) = found[one.name].ellipses

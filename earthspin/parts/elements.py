@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 THIRD_LAW = 0.01
 
 
-class Way(NamedTuple):
+class EllipseChain(NamedTuple):
     """How one comes to a body by ellipses.
 
     Attributes
@@ -34,7 +34,7 @@ class Way(NamedTuple):
     ellipses: tuple[tuple[Ellipse, int], ...]
 
 
-def ways(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Way]:
+def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
     """Ways to each perturber that elements place, by its name.
 
     They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
@@ -59,11 +59,11 @@ def ways(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Way]:
     for name, about in centres.items():
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
-    found: dict[str, Way] = {}
+    chains: dict[str, EllipseChain] = {}
     for start in (body, *(one for one in perturbers if one.orbit is None)):
-        if start.name not in found:
-            _walk(start, start.name, (), links, found)
-    return {name: way for name, way in found.items() if way.ellipses}
+        if start.name not in chains:
+            _walk(start, start.name, (), links, chains)
+    return {name: chain for name, chain in chains.items() if chain.ellipses}
 
 
 def _walk(
@@ -71,13 +71,13 @@ def _walk(
     at: str,
     so_far: tuple[tuple[Ellipse, int], ...],
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
-    found: dict[str, Way],
+    chains: dict[str, EllipseChain],
 ) -> None:
-    """Note the way to a body, and go on to its neighbours."""
-    found[at] = Way(start, so_far)
+    """Note the chain to a body, and go on to its neighbours."""
+    chains[at] = EllipseChain(start, so_far)
     for name, step in links[at].items():
-        if name not in found:
-            _walk(start, name, (*so_far, step), links, found)
+        if name not in chains:
+            _walk(start, name, (*so_far, step), links, chains)
 
 
 def _centre(one: Body, body: Body, known: Mapping[str, Body]) -> str:
@@ -185,17 +185,17 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
     if not any(one.orbit is not None for one in (body, *perturbers)):
         return False
-    found = ways(body, perturbers)
-    return all(one.name in found and found[one.name].start is body for one in perturbers)
+    chains = ellipse_chains(body, perturbers)
+    return all(one.name in chains and chains[one.name].start is body for one in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
     if not any(one.orbit is not None for one in (body, *perturbers)):
         return None
-    found = ways(body, perturbers)
-    single = len(found) == len(perturbers) and all(
-        way.start is body and len(way.ellipses) == 1 for way in found.values()
+    chains = ellipse_chains(body, perturbers)
+    single = len(chains) == len(perturbers) and all(
+        chain.start is body and len(chain.ellipses) == 1 for chain in chains.values()
     )
     return "orbits by their elements have exact means" if single else None
 

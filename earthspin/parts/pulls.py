@@ -51,7 +51,7 @@ class EffectWord:
         return value
 
 
-class Moved(Series):
+class AxisMotion(Series):
     """Keys of every question about axes that move under torques."""
 
     effects: Annotated[tuple[str, ...], Several(EffectWord())] = key(

@@ -20,7 +20,7 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import Way, all_by_elements, ways
+from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
@@ -74,7 +74,7 @@ SOURCE_DOC = (
 )
 
 
-class Pulled(Question):
+class PerturbedBody(Question):
     """Keys of every question about a body that others pull on."""
 
     body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
@@ -374,27 +374,27 @@ def address(body: Body) -> Address:
     return Address(body.name, body.naif, body.position)
 
 
-def _address_by_way(body: Body, way: Way | None) -> Address:
+def _address_by_chain(body: Body, chain: EllipseChain | None) -> Address:
     """How a body is known to a source, or where ellipses to it begin."""
-    if way is None:
+    if chain is None:
         return address(body)
-    start = way.start
+    start = chain.start
     if start.position is not None:
         raise SceneError(
             f"{body.name}.orbit",
             str(body.orbit),
             f"'{start.name}' has no NAIF code, but a position",
         )
-    return Address(body.name, start.naif, None, way.ellipses)
+    return Address(body.name, start.naif, None, chain.ellipses)
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    found = ways(body, perturbers)
+    chains = ellipse_chains(body, perturbers)
     return Places(
         address(body),
-        tuple(_address_by_way(one, found.get(one.name)) for one in perturbers),
+        tuple(_address_by_chain(one, chains.get(one.name)) for one in perturbers),
         {one.name: extent(body) + extent(one) for one in perturbers},
         all_by_elements(body, perturbers),
     )
@@ -405,7 +405,7 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
     told = [f"positions {describe_source(source, ephemeris)}"]
-    told += [f"{name} by the elements of its orbit" for name in ways(body, perturbers)]
+    told += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
     told += [
         f"{one.name} by {describe_position(one.position)}"
         for one in (body, *perturbers)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.choosing.promises import Report
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
 from earthspin.parts.reasons import no_accuracy
@@ -257,7 +257,7 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 
-made_of(
+define_parts(
     FreeRotor,
     answer=(free_rotation, rotation_accuracy),
     sections={"poinsot": poinsot, "neglected": neglected},
@@ -266,4 +266,4 @@ made_of(
     widest=4096,
 )
 
-free_rotor = ask(FreeRotor)
+free_rotor = public_call(FreeRotor)

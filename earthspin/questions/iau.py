@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -47,7 +47,7 @@ from earthspin.parts.path import (
     rigid,
 )
 from earthspin.parts.predicted import prediction
-from earthspin.parts.pulls import Moved, Pulls, pulls, start_of
+from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_of
 from earthspin.parts.sky import places, sky, unmeasured
 from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 LARGEST = 30
 
 
-class IAU(Moved, word="iau", call="compare_iau", positional=("start", "stop", "step")):
+class IAU(AxisMotion, word="iau", call="compare_iau", positional=("start", "stop", "step")):
     """Computed pole compared with IAU 2006/2000A: budget, residuals, nutations, angles.
 
     Returns
@@ -620,7 +620,7 @@ def neglected(effects: tuple[str, ...]) -> Neglected:
     )
 
 
-made_of(
+define_parts(
     IAU,
     answer=budget,
     sections={
@@ -639,4 +639,4 @@ made_of(
     ),
 )  # fmt: skip
 
-compare_iau = ask(IAU)
+compare_iau = public_call(IAU)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import Where
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
@@ -22,7 +22,7 @@ from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
+from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
 from earthspin.secular.angles import equator_and_equinox, leaning
@@ -45,7 +45,9 @@ Factor = Annotated[float, Number("", "1.0", low=-10.0, high=10.0)]
 Shift = Annotated[float, Number("rad", "0.1 deg")]
 
 
-class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", "stop", "step")):
+class LongTerm(
+    PerturbedBody, word="long-term", call="long_term", positional=("start", "stop", "step")
+):
     """Obliquity, precession and eccentricity from the averaged torque on a changing orbit.
 
     The spin axis starts at J2000.0 from the mean pole of the body, without nutation. Errors need
@@ -511,7 +513,7 @@ def neglected() -> Neglected:
     )
 
 
-made_of(
+define_parts(
     LongTerm,
     answer=(series, long_term_accuracy),
     sections={"budget": budget, "matrices": matrices, "neglected": neglected},
@@ -527,4 +529,4 @@ made_of(
     widest=64,
 )  # fmt: skip
 
-long_term = ask(LongTerm)
+long_term = public_call(LongTerm)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.layers import LayeredBody
@@ -153,11 +153,11 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-made_of(
+define_parts(
     LoveNumbers,
     answer=love,
     sections={"published": published, "by_period": by_period, "neglected": neglected},
     parts=(layers,),
 )
 
-love_numbers = ask(LoveNumbers)
+love_numbers = public_call(LoveNumbers)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of, setting
+from earthspin.engine.question import define_parts, key, setting
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -38,7 +38,7 @@ from earthspin.parts.path import (
     rigid,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import Moved, Pulls, pulls
+from earthspin.parts.pulls import AxisMotion, Pulls, pulls
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
@@ -49,7 +49,7 @@ LARGEST = 12
 
 
 class NutationLadder(
-    Moved,
+    AxisMotion,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -388,7 +388,7 @@ def neglected() -> Neglected:
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 
-made_of(
+define_parts(
     NutationLadder,
     answer=rung_sizes,
     sections={
@@ -403,4 +403,4 @@ made_of(
     parts=(places, sky, pulls, epochs, pole_analysis, models, left),
 )
 
-nutation_ladder = ask(NutationLadder)
+nutation_ladder = public_call(NutationLadder)

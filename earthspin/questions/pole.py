@@ -10,10 +10,10 @@ from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.motion.axes import AXES
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
@@ -33,7 +33,7 @@ from earthspin.parts.path import (
     turns_of,
 )
 from earthspin.parts.predicted import SOURCES, no_layers, prediction
-from earthspin.parts.pulls import Moved, Pulls, pulls, start_error, start_note
+from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from earthspin.motion.axes import AxisPath
 
 
-class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
+class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the axes under the torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
@@ -323,7 +323,7 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
     )
 
 
-made_of(
+define_parts(
     Pole,
     answer=(axes, response_error, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
@@ -334,4 +334,4 @@ made_of(
     ),
 )  # fmt: skip
 
-pole = ask(Pole)
+pole = public_call(Pole)

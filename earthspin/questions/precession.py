@@ -12,10 +12,10 @@ from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -41,7 +41,7 @@ from earthspin.parts.reasons import (
     not_sun_and_moon,
     not_the_iaus_earth,
 )
-from earthspin.parts.sky import SOURCE_DOC, Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
@@ -56,7 +56,7 @@ CURVE_POINTS = 81
 MODELS = ("mccullough", "homogeneous", "measured")
 
 
-class Precession(Pulled, word="precession", call="precession"):
+class Precession(PerturbedBody, word="precession", call="precession"):
     """Rate and period of precession from torques averaged over orbits (I.8).
 
     Returns
@@ -463,7 +463,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     )
 
 
-made_of(
+define_parts(
     Precession,
     answer=(precession_rates, rate_accuracy),
     sections={
@@ -480,4 +480,4 @@ made_of(
     widest=16384,
 )
 
-precession = ask(Precession)
+precession = public_call(Precession)

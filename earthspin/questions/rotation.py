@@ -14,10 +14,10 @@ from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.inertia import polar_moment
@@ -37,7 +37,7 @@ from earthspin.motion.rotation import (
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
-    Moved,
+    AxisMotion,
     Pulls,
     figure_of,
     forces_of,
@@ -64,7 +64,7 @@ _LENGTH = 1e-6
 SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
-class Rotation(Moved, word="rotation", call="rotation", positional=("start", "stop", "step")):
+class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
     """Attitude, spin and angular momentum of a rigid body, nothing averaged (I.2, I.4, I.9.34).
 
     Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
@@ -570,11 +570,11 @@ def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, 
     return [name for name, would in moves.items() if would and name not in effects and perturbers]
 
 
-made_of(
+define_parts(
     Rotation,
     answer=(turning, rotation_accuracy),
     sections={"divergence": divergence, "neglected": neglected},
     parts=(places, sky, epochs, pulls, pulling, rotor, motion, parting),
 )
 
-rotation = ask(Rotation)
+rotation = public_call(Rotation)

@@ -14,10 +14,10 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.constants import DAY
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -407,7 +407,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     )
 
 
-made_of(
+define_parts(
     Wobble,
     answer=wobble_rungs,
     sections={
@@ -423,4 +423,4 @@ made_of(
     widest=1024,
 )
 
-wobble_ladder = ask(Wobble)
+wobble_ladder = public_call(Wobble)

@@ -207,7 +207,7 @@ def test_threads_read_and_write_netcdf(tmp_path: Path) -> None:
         from tests.force.test_two_at_once import small
         def work(number):
             path = Path(sys.argv[1], f"{number}.nc")
-            for turn in range(25):
+            for turn in range(75):
                 store.write(small(float(turn)), path)
                 assert store.open(path).identical(small(float(turn)))
             whole.append(number)
