@@ -8,7 +8,6 @@ import sys
 import textwrap
 import threading
 import time
-import time
 from pathlib import Path
 
 import numpy as np
