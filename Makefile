@@ -23,10 +23,9 @@ test: $(VENV)/.test
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -q -m slow --numprocesses=auto --dist=load
 
-# The oldest versions that pyproject.toml allows; what they themselves need is the newest. Tests
-# that need newer tables of polar motion or a newer netCDF4 are left out.
+# The oldest versions that pyproject.toml allows; what they themselves need is the newest.
 test-lowest: $(LOWEST)/.test
-	$(LOWEST)/bin/python -m pytest -q -m '$(VERSIONS) and not newest' --numprocesses=auto --dist=loadfile $(TESTS)
+	$(LOWEST)/bin/python -m pytest -q -m '$(VERSIONS)' --numprocesses=auto --dist=loadfile $(TESTS)
 
 # The newest Python and the newest of all that runs on it, sought again each time.
 test-newest: $(NEWEST)/bin/python

@@ -90,8 +90,8 @@ def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
     with _tables_at_hand(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what is wrong shows when it is brought to TDB
         utc = Time(value, scale="utc")
-    found = _days_from_time(utc, where, str(value).splitlines()[0])
-    return np.asarray(np.rint(found * MICROSECONDS_PER_DAY), dtype=np.int64)
+    days_tdb = _days_from_time(utc, where, str(value).splitlines()[0])
+    return np.asarray(np.rint(days_tdb * MICROSECONDS_PER_DAY), dtype=np.int64)
 
 
 def days(times: object, where: Where) -> FloatArray:
@@ -112,14 +112,14 @@ def days(times: object, where: Where) -> FloatArray:
         If one of them is no date, or there are none.
     """
     if is_time(times) or is_skyfield_time(times):
-        found = np.atleast_1d(_days_of(times, where))
+        days_tdb = np.atleast_1d(_days_of(times, where))
     else:
         counts = _counts(times, where)
         whole, rest = np.divmod(counts, MICROSECONDS_PER_DAY)
-        found = whole + rest / MICROSECONDS_PER_DAY
-    if found.ndim != 1 or found.size == 0:
-        raise where.error(f"shape {found.shape}", "give one or more times in one list")
-    return np.asarray(found, dtype=np.float64)
+        days_tdb = whole + rest / MICROSECONDS_PER_DAY
+    if days_tdb.ndim != 1 or days_tdb.size == 0:
+        raise where.error(f"shape {days_tdb.shape}", "give one or more times in one list")
+    return np.asarray(days_tdb, dtype=np.float64)
 
 
 def _counts(times: Any, where: Where) -> NDArray[np.int64]:
@@ -160,26 +160,26 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
         with _tables_at_hand(), warnings.catch_warnings():
             warnings.simplefilter("error")
             tdb = time.tdb
-            found = (tdb.jd1 - 2451545.0) + tdb.jd2
+            days_tdb = (tdb.jd1 - 2451545.0) + tdb.jd2
         # of the last day before it, the library does not warn
-        known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
+        is_known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
     except Exception:  # the library and ERFA have kinds of their own, warnings among them
-        known = False
-    if not known:
+        is_known = False
+    if not is_known:
         newer = f", or install newer tables ({TABLES})" if np.max(time.jd) > FIRST_UTC else ""
         problem = f"its scale, {time.scale}, is not known there; give TDB{newer}"
         raise where.error(shown or f"JD {np.ravel(time.jd)[0]}", problem) from None
-    return found
+    return days_tdb
 
 
 def _days_of(time: Any, where: Where) -> Any:
     """Days from J2000.0 TDB of a time of astropy's or Skyfield's."""
     if not is_skyfield_time(time):
         return _days_from_time(time, where)
-    found = (time.whole - 2451545.0) + time.tdb_fraction
-    if not np.all(np.isfinite(found)):
+    days_tdb = (time.whole - 2451545.0) + time.tdb_fraction
+    if not np.all(np.isfinite(days_tdb)):
         raise where.error("NaN", "NaN is no date")
-    return found
+    return days_tdb
 
 
 def is_skyfield_time(value: object) -> bool:
@@ -211,7 +211,7 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
 
 
 def first_and_last(
-    given: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
+    value: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
 ) -> tuple[_Time, _Time]:
     """Read two times, the earlier first.
 
@@ -220,19 +220,19 @@ def first_and_last(
     SceneError
         If they are not two, or in the wrong order.
     """
-    if is_skyfield_time(given) and given.shape:
-        given = list(given)
+    if is_skyfield_time(value) and value.shape:
+        value = list(value)
     pair = (
-        not is_skyfield_time(given)
-        and not isinstance(given, (str, Mapping, set))
-        and hasattr(given, "__len__")
+        not is_skyfield_time(value)
+        and not isinstance(value, (str, Mapping, set))
+        and hasattr(value, "__len__")
     )
-    if not pair or getattr(given, "ndim", 1) != 1 or len(given) != 2:
-        raise where.error(given, f"give {allowed}")
-    first, last = (read(time, where) for time in given)
+    if not pair or getattr(value, "ndim", 1) != 1 or len(value) != 2:
+        raise where.error(value, f"give {allowed}")
+    first, last = (read(time, where) for time in value)
     if last < first:
         problem = "it ends before it starts; put the earlier first"
-        raise where.error([str(time) for time in given], problem)
+        raise where.error([str(time) for time in value], problem)
     return first, last
 
 
@@ -252,12 +252,12 @@ class Span:
     words, hint = "two dates", "tuple[Date, Date] | SkyfieldTime"
 
     @classmethod
-    def read(cls, given: Any, where: Where) -> Span:
+    def read(cls, value: Any, where: Where) -> Span:
         """Read two dates; the earlier comes first."""
-        if isinstance(given, Span):
-            return given
+        if isinstance(value, Span):
+            return value
         first, last = first_and_last(
-            given, where, microseconds, "two dates, like ['2000-01-01', '2001-01-01']"
+            value, where, microseconds, "two dates, like ['2000-01-01', '2001-01-01']"
         )
         return cls(first, last)
 
@@ -321,11 +321,11 @@ class TimeList:
     words, hint = "a list of times", "Dates"
 
     @classmethod
-    def read(cls, given: object, where: Where) -> TimeList:
+    def read(cls, value: object, where: Where) -> TimeList:
         """Read times in any form that `days` takes."""
-        if isinstance(given, TimeList):
-            return given
-        listed = unpack(given, where) if isinstance(given, Mapping) else days(given, where).copy()
+        if isinstance(value, TimeList):
+            return value
+        listed = unpack(value, where) if isinstance(value, Mapping) else days(value, where).copy()
         if listed.ndim != 1:
             raise where.error(f"shape {listed.shape}", "give one or more times in one list")
         return cls(listed)
@@ -355,18 +355,18 @@ class Spacing(Number):
     unit: str = "s"
     example: str = "6 h"
 
-    def read(self, given: object, where: Where) -> float:
+    def read(self, value: object, where: Where) -> float:
         """Check and convert."""
         try:
-            value = super().read(given, where)
+            step = super().read(value, where)
         except SceneError as error:
             if "finite" not in str(error):
                 raise
-            value = float("nan")
-        if not 1e-6 <= value < LONGEST_STEP:
+            step = float("nan")
+        if not 1e-6 <= step < LONGEST_STEP:
             problem = "a step is greater than zero: a microsecond or more, less than 10000 years"
-            raise where.error(given, problem)
-        return value
+            raise where.error(value, problem)
+        return step
 
 
 #: A step between times, s.

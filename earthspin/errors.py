@@ -73,8 +73,8 @@ class SceneError(EarthspinError, ValueError):
     ) -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
         self.remedy = remedy
-        where = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
-        super().__init__(_sentence(f"{where} = {_shown(given)}", problem, remedy))
+        place = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
+        super().__init__(_sentence(f"{place} = {_shown(given)}", problem, remedy))
 
 
 @dataclass(frozen=True)

@@ -74,13 +74,13 @@ def ensemble(
     >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
     25712.1 +/- 0.016 years
     """
-    asked = asked_of_members(load_scene(question), members, seed, impossible=impossible)
+    request = asked_of_members(load_scene(question), members, seed, impossible=impossible)
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
-        raise asked.error("block", block, "give a whole number, 1 or more")
+        raise request.error("block", block, "give a whole number, 1 or more")
     if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
-    work = Ensemble(asked, block=block)
+    work = Ensemble(request, block=block)
     if path is None:
         return work.hold(client)
-    found = open_store(work.write(path, client))
-    return found.to_dataset() if isinstance(found, xr.DataTree) else found
+    answer = open_store(work.write(path, client))
+    return answer.to_dataset() if isinstance(answer, xr.DataTree) else answer

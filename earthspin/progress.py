@@ -76,15 +76,15 @@ def lines_to(stream: TextIO) -> Iterator[None]:
 
 
 def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[Advance]:
-    begun, done, told = time.monotonic(), already, -math.inf
+    begun, done, last = time.monotonic(), already, -math.inf
 
     def advance(amount: int) -> None:
-        nonlocal done, told
+        nonlocal done, last
         done += amount
         now = time.monotonic()
-        if now - told < EVERY and done < total:
+        if now - last < EVERY and done < total:
             return
-        told, rate = now, (done - already) / max(now - begun, 1e-9)
+        last, rate = now, (done - already) / max(now - begun, 1e-9)
         left = round((total - done) / rate, 1) if rate else None
         line = {"doing": label, "done": done, "of": total, "rate": round(rate, 3), "left": left}
         print(json.dumps(line), file=stream, flush=True)
@@ -94,34 +94,21 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
 
 
 def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
+    import rich.progress as columns
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        Task,
-        TextColumn,
-        TimeRemainingColumn,
-    )
     from rich.text import Text
 
-    class Rate(TextColumn):
+    class Rate(columns.TextColumn):
         """How much is done in a second."""
 
-        def render(self, task: Task) -> Text:
+        def render(self, task: columns.Task) -> Text:
             """Three digits, once there is something to divide."""
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 
-    bar = Progress(
-        "{task.description}",
-        BarColumn(),
-        MofNCompleteColumn(),
-        Rate(""),
-        TimeRemainingColumn(),
-        console=Console(stderr=True),
-        transient=True,
-    )
+    count, left = columns.MofNCompleteColumn(), columns.TimeRemainingColumn()
+    cells = ("{task.description}", columns.BarColumn(), count, Rate(""), left)
+    bar = columns.Progress(*cells, console=Console(stderr=True), transient=True)
     task = bar.add_task(label, total=total, completed=already)
     # A clock of its own, for a first step that lasts longer than anyone likes to wait.
     late = Timer(PATIENCE, bar.start)

@@ -183,8 +183,8 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     if not stored:
         return _changed(table, changes or {}, source, title, with_units)
     if isinstance(table.get("members"), str):
-        words = "a stored scene holds its members, not the path of a file"
-        raise SceneError("members", table["members"], words, source=source)
+        problem = "a stored scene holds its members, not the path of a file"
+        raise SceneError("members", table["members"], problem, source=source)
     question = _changed(table, changes or {}, source, title, with_units)
     for key, path, kind in files_of(question, changes or {}):
         _check_kind(key, path, kind, source)
@@ -193,7 +193,7 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 
 def _names(table: Mapping[str, Any]) -> set[str]:
     """Keys of a scene, and those of its tables of settings."""
-    return {*table} | {inner for of in table.values() if isinstance(of, Mapping) for inner in of}
+    return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
 
 
 def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -209,11 +209,7 @@ def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _changed(
-    table: dict[str, Any],
-    changes: Mapping[str, Any],
-    source: str,
-    title: str,
-    typed: set[str],
+    table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
     """Question of a scene's table with some keys changed; numbers of typed keys carry units."""
     for key, value in changes.items():
@@ -227,12 +223,12 @@ def _changed(
 def shipped_scenes() -> dict[str, str]:
     """Names of the shipped scenes, with the title of each."""
     folder = resources.files("earthspin") / "shipped"
-    found = {}
+    titles = {}
     for file in sorted(folder.iterdir(), key=lambda f: f.name.removesuffix(".toml")):
         if file.name.endswith(".toml"):
             table = tomllib.loads(file.read_text(encoding="utf-8"))
-            found[file.name.removesuffix(".toml")] = table.get("title", "")
-    return found
+            titles[file.name.removesuffix(".toml")] = table.get("title", "")
+    return titles
 
 
 def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
@@ -402,8 +398,8 @@ def series_length(question: Question) -> int:
 
 def members_of(question: Question) -> int:
     """How many bodies a question is about, labelled arrays counted."""
-    told = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
-    return members(one for several in told for one in several if isinstance(one, Body))
+    groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
+    return members(value for group in groups for value in group if isinstance(value, Body))
 
 
 def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
@@ -429,8 +425,8 @@ def chosen(question: Question) -> list[str]:
 
     Whether the numbers of the body and the kernel allow it shows when it runs.
     """
-    found = running.run_choosing(question)
-    first = (next(iter(c), None) if isinstance(c, list) else c for c in found)
+    choices = running.run_choosing(question)
+    first = (next(iter(c), None) if isinstance(c, list) else c for c in choices)
     return [choice.words if choice is not None else "the finest settings" for choice in first]
 
 
@@ -537,8 +533,8 @@ def _check_kind(key: str, path: Path, kind: type, source: str) -> None:
     except OSError as error:
         problem = f"it cannot be read: {error.strerror}"
     if problem:
-        words = f"{problem}, so the file that the stored scene names is not read"
-        raise SceneError(key, str(path), words, source=source)
+        message = f"{problem}, so the file that the stored scene names is not read"
+        raise SceneError(key, str(path), message, source=source)
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:

@@ -12,7 +12,7 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import NoneType, UnionType
@@ -21,8 +21,7 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.errors import EarthspinError, UnitsError, Where, nearest, one_line
-from earthspin.text import Text
+from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest, one_line
 
 FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -84,7 +83,7 @@ def by_name(kind: object) -> bool:
 # --- values with units -------------------------------------------------------------------------
 
 
-def quantity(value: Any, unit: str, what: object, example: str) -> Any:
+def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     """Convert a value with a unit to floats in `unit`.
 
     Parameters
@@ -94,7 +93,7 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
         `unit` already.
     unit : str
         The unit wanted, as astropy writes it.
-    what : Where or str
+    where : Where
         What is being read.
     example : str
         How it should look, for the message.
@@ -111,33 +110,33 @@ def quantity(value: Any, unit: str, what: object, example: str) -> Any:
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
-    wanted = _Wanted(unit, what, example)
-    if unit and getattr(what, "typed", False) and _is_bare(value):
-        raise _where(what).error(value, f"give it with its unit, like '{example}'")
+    target = _Target(unit, where, example)
+    if unit and where.typed and _is_bare(value):
+        raise where.error(value, f"give it with its unit, like '{example}'")
     try:
-        converted = _convert(value, wanted)
+        converted = _convert(value, target)
     except RecursionError:  # lists in lists in lists
-        raise wanted.wrong(value) from None
+        raise target.wrong(value) from None
     plain = getattr(converted, "values", converted)
     if np.size(plain) == 0:
-        raise _where(what).error(f"shape {np.shape(plain)}", "give one number or more")
+        raise where.error(f"shape {np.shape(plain)}", "give one number or more")
     if not np.all(np.isfinite(plain)):
-        raise _where(what).error(value, "give finite numbers")
+        raise where.error(value, "give finite numbers")
     return converted
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _Target:
     """What a value should be, and the error if it is not."""
 
     unit: str
-    what: object
+    where: Where
     example: str
 
-    def wrong(self, given: object) -> UnitsError:
-        return UnitsError(str(self.what), given, self.unit or "a pure number", self.example)
+    def wrong(self, value: object) -> UnitsError:
+        return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
-    def factor(self, given: object, unit: str) -> float:
+    def factor(self, value: object, unit: str) -> float:
         """Size of another unit in this one."""
         import astropy.units as u
 
@@ -148,41 +147,41 @@ class _Wanted:
                 warnings.simplefilter("ignore", u.UnitsWarning)
                 return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
         except (TypeError, ValueError, u.UnitConversionError):
-            raise self.wrong(given) from None
+            raise self.wrong(value) from None
 
 
-def _convert(value: Any, wanted: _Wanted) -> Any:
+def _convert(value: Any, target: _Target) -> Any:
     if isinstance(value, (bool, np.bool_)):
-        raise wanted.wrong(value)
+        raise target.wrong(value)
     if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
-        return _plain(value, wanted)
+        return _plain(value, target)
     if isinstance(value, str):
         if len(value) > LONGEST_QUANTITY:
-            raise wanted.wrong(value)
-        found = _NUMBER_AND_UNIT.fullmatch(value)
-        if found and found[2] in COMMON and COMMON[found[2]][0] == wanted.unit:
-            return float(found[1]) * COMMON[found[2]][1]
-        return _by_astropy(value, wanted)
+            raise target.wrong(value)
+        match = _NUMBER_AND_UNIT.fullmatch(value)
+        if match and match[2] in COMMON and COMMON[match[2]][0] == target.unit:
+            return float(match[1]) * COMMON[match[2]][1]
+        return _by_astropy(value, target)
     if isinstance(value, (dt.timedelta, np.timedelta64)):
-        return _length_of_time(value, wanted)
+        return _length_of_time(value, target)
     if is_masked(value):
-        raise _where(wanted.what).error("a masked value", "give numbers that are all known")
+        raise target.where.error("a masked value", "give numbers that are all known")
     if hasattr(value, "to_value"):
-        return _by_astropy(value, wanted)
+        return _by_astropy(value, target)
     if hasattr(value, "dims") and hasattr(value, "dtype"):
-        own = None if value.dtype.kind == "m" else value.attrs.get("units")
-        plain = _plain(value.values, wanted)  # one that says its units is converted
-        if own is None:
+        unit = None if value.dtype.kind == "m" else value.attrs.get("units")
+        plain = _plain(value.values, target)  # one that says its units is converted
+        if unit is None:
             return value.copy(data=plain)
-        converted = value.copy(data=plain * wanted.factor(own, own))
-        converted.attrs["units"] = wanted.unit or "1"
+        converted = value.copy(data=plain * target.factor(unit, unit))
+        converted.attrs["units"] = target.unit or "1"
         return converted
     if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
         try:
-            return np.stack([np.asarray(_convert(inner, wanted), dtype=float) for inner in value])
+            return np.stack([np.asarray(_convert(inner, target), dtype=float) for inner in value])
         except ValueError as error:
-            raise error if isinstance(error, EarthspinError) else wanted.wrong(value) from None
-    return _plain(value, wanted)
+            raise error if isinstance(error, EarthspinError) else target.wrong(value) from None
+    return _plain(value, target)
 
 
 def _is_bare(value: object) -> bool:
@@ -209,44 +208,44 @@ def _has_unit(value: object) -> bool:
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
 
-def _by_astropy(value: Any, wanted: _Wanted) -> Any:
+def _by_astropy(value: Any, target: _Target) -> Any:
     import astropy.units as u
 
     try:
         with warnings.catch_warnings():  # several slashes, which are read from left to right
             warnings.simplefilter("ignore", u.UnitsWarning)
             read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
-        if isinstance(value, str) and read.unit == u.dimensionless_unscaled and wanted.unit:
+        if isinstance(value, str) and read.unit == u.dimensionless_unscaled and target.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
-        converted = real_numbers(read.to_value(u.Unit(wanted.unit)))
+        converted = real_numbers(read.to_value(u.Unit(target.unit)))
     except (TypeError, ValueError, OverflowError, AttributeError, u.UnitConversionError):
-        raise wanted.wrong(value) from None
+        raise target.wrong(value) from None
     return float(converted) if converted.ndim == 0 else converted
 
 
-def _length_of_time(value: dt.timedelta | np.timedelta64, wanted: _Wanted) -> float:
+def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> float:
     if isinstance(value, dt.timedelta):
         seconds = value.total_seconds()
     elif np.isnat(value):
-        raise wanted.wrong(value)
+        raise target.wrong(value)
     else:
         try:
             seconds = float(value / np.timedelta64(1, "us")) * 1e-6
         except TypeError:  # a month or a year has no length in seconds
-            raise wanted.wrong(value) from None
-    return seconds if wanted.unit == "s" else seconds * wanted.factor(value, "s")
+            raise target.wrong(value) from None
+    return seconds if target.unit == "s" else seconds * target.factor(value, "s")
 
 
-def _plain(value: Any, wanted: _Wanted) -> Any:
+def _plain(value: Any, target: _Target) -> Any:
     """Numbers that are in the unit already."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "m" and wanted.unit == "s" and not np.isnat(array).any():
+        if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
             return array / np.timedelta64(1, "us") * 1e-6
         numbers = real_numbers(array)
     except Exception:  # whatever somebody's class says of being no array
-        raise wanted.wrong(value) from None
+        raise target.wrong(value) from None
     return float(numbers) if numbers.ndim == 0 else numbers
 
 
@@ -265,7 +264,7 @@ def real_numbers(value: Any) -> FloatArray:
     except Exception as error:  # uneven lists, and whatever somebody's class says
         raise ValueError(one_line(error)) from None
     if array.dtype.kind == "O":  # whole numbers that are too long for 64 bits, None
-        if any(isinstance(one, (str, bytes, bool, np.bool_)) for one in array.flat):
+        if any(isinstance(element, (str, bytes, bool, np.bool_)) for element in array.flat):
             raise ValueError("text or truth values; give numbers")
         try:
             return array.astype(np.float64)
@@ -274,10 +273,6 @@ def real_numbers(value: Any) -> FloatArray:
     if array.dtype.kind not in "fiu":
         raise ValueError(f"an array of {array.dtype}; give real numbers")
     return array.astype(np.float64, copy=False)
-
-
-def _where(what: object) -> Where:
-    return what if isinstance(what, Where) else Where(str(what))
 
 
 # --- kinds -------------------------------------------------------------------------------------
@@ -320,22 +315,22 @@ class Number:
         """What may be given."""
         return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
-    def read(self, given: object, where: Where) -> float:
+    def read(self, value: object, where: Where) -> float:
         """Check and convert."""
-        real = isinstance(given, (int, float)) and not hasattr(given, "to_value")
-        if (isinstance(given, str) and not self.text) or (real and not self.plain):
+        real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
+        if (isinstance(value, str) and not self.text) or (real and not self.plain):
             hint = (
                 f"give it with its unit, like '{self.example}'"
                 if self.unit
                 else (f"give a number without quotes, like {self.example}")
             )
-            raise where.error(given, hint)
-        value = quantity(given, self.unit, where, self.example)
-        if np.ndim(value) != 0:
-            raise where.error(given, f"give one number, {self.words}")
-        if not (self.low <= value <= self.high and value > self.above):
-            raise where.error(given, self._range())
-        return float(value)
+            raise where.error(value, hint)
+        number = quantity(value, self.unit, where, self.example)
+        if np.ndim(number) != 0:
+            raise where.error(value, f"give one number, {self.words}")
+        if not (self.low <= number <= self.high and number > self.above):
+            raise where.error(value, self._range())
+        return float(number)
 
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -379,19 +374,19 @@ class Numbers:
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
-    def read(self, given: object, where: Where) -> FloatArray:
+    def read(self, value: object, where: Where) -> FloatArray:
         """Check and convert; the array is the question's own and cannot be written to."""
-        if isinstance(given, Mapping):
-            own = str(given.get("unit", self.unit))
-            factor = _Wanted(self.unit, where, self.example).factor(own, own)
-            given = unpack(given, where) * factor
-        converted = quantity(_in_order(given, where), self.unit, where, self.example)
+        if isinstance(value, Mapping):
+            unit = str(value.get("unit", self.unit))
+            factor = _Target(self.unit, where, self.example).factor(unit, unit)
+            value = unpack(value, where) * factor
+        converted = quantity(_in_order(value, where), self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
         if values.ndim == len(self.shape) - 1 and not self.optional_row:
             values = values[np.newaxis]
-        wanted = self.shape[len(self.shape) - values.ndim :] if self.optional_row else self.shape
-        fits = len(wanted) == values.ndim and all(
-            size in (None, n) and n > 0 for size, n in zip(wanted, values.shape, strict=True)
+        shape = self.shape[len(self.shape) - values.ndim :] if self.optional_row else self.shape
+        fits = len(shape) == values.ndim and all(
+            size in (None, n) and n > 0 for size, n in zip(shape, values.shape, strict=True)
         )
         if not fits or values.ndim == 0:
             raise where.error(f"shape {values.shape}", f"give {self.words}")
@@ -411,19 +406,19 @@ def _with_unit(values: Any, unit: str) -> Any:
     return f"{values!r} {unit}"
 
 
-def _in_order(given: Any, where: Where) -> Any:
+def _in_order(value: Any, where: Where) -> Any:
     """A labelled array with its components last and in their order; other labels are refused."""
-    if hasattr(given, "iloc"):
-        labels = getattr(given, "columns", given.index)
+    if hasattr(value, "iloc"):
+        labels = getattr(value, "columns", value.index)
         if labels.dtype.kind not in "iu":
             raise where.error(list(labels), "labels are not read here; give the bare numbers")
-    if "component" not in getattr(given, "dims", ()):
-        return given
-    ordered = given.transpose(..., "component")
-    if "component" not in given.coords:
+    if "component" not in getattr(value, "dims", ()):
+        return value
+    ordered = value.transpose(..., "component")
+    if "component" not in value.coords:
         return ordered
-    if sorted(given.component.values.tolist()) != ["x", "y", "z"]:
-        raise where.error(given.component.values.tolist(), "give the components x, y and z")
+    if sorted(value.component.values.tolist()) != ["x", "y", "z"]:
+        raise where.error(value.component.values.tolist(), "give the components x, y and z")
     return ordered.sel(component=["x", "y", "z"])
 
 
@@ -465,13 +460,13 @@ class Whole:
         """What may be given."""
         return f"a whole number, {self.low} or more"
 
-    def read(self, given: object, where: Where) -> int:
+    def read(self, value: object, where: Where) -> int:
         """Check."""
-        if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
-            raise where.error(given, f"give {self.words}")
-        if not self.low <= given <= self.high:
-            raise where.error(given, f"give {self.words}, and at most {self.high}")
-        return int(given)
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+            raise where.error(value, f"give {self.words}")
+        if not self.low <= value <= self.high:
+            raise where.error(value, f"give {self.words}, and at most {self.high}")
+        return int(value)
 
     def write(self, value: int) -> Plain:
         """Give the number."""
@@ -484,10 +479,11 @@ class Word:
 
     Attributes
     ----------
-    allowed : tuple of str
+    allowed : collection of str
+        A mapping to which words are added later is read when it is needed.
     """
 
-    allowed: tuple[str, ...]
+    allowed: Collection[str]
 
     by_name: ClassVar[bool] = True
 
@@ -501,16 +497,33 @@ class Word:
         """What may be given."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
-    def read(self, given: object, where: Where) -> str:
+    def read(self, value: object, where: Where) -> str:
         """Check."""
-        if given is True:  # TOML, and a shell that takes the quotes away
-            given = "true"
-        if not isinstance(given, str) or given not in self.allowed:
-            raise where.error(given, nearest(given, self.allowed))
-        return given
+        if value is True:  # TOML, and a shell that takes the quotes away
+            value = "true"
+        if not isinstance(value, str) or value not in self.allowed:
+            raise where.error(value, nearest(value, self.allowed))
+        return value
 
     def write(self, value: str) -> Plain:
         """Give the word."""
+        return value
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text."""
+
+    words, hint = "a line of text", "str"
+
+    def read(self, value: object, where: Where) -> str:
+        """Check."""
+        if not isinstance(value, str) or not is_one_line(value):
+            raise where.error(value, f"it is {self.words}")
+        return value
+
+    def write(self, value: str) -> str:
+        """Give the text."""
         return value
 
 
@@ -521,11 +534,11 @@ class FilePath:
     words, hint = "the path of a file", "str | PathLike[str]"
     by_name: ClassVar[bool] = True
 
-    def read(self, given: object, where: Where) -> Path:
+    def read(self, value: object, where: Where) -> Path:
         """Check that it is a path; whether something is there shows when it is opened."""
-        if not isinstance(given, (str, Path)) or not str(given).strip():
-            raise where.error(given, f"it is {self.words}")
-        return Path(given)
+        if not isinstance(value, (str, Path)) or not str(value).strip():
+            raise where.error(value, f"it is {self.words}")
+        return Path(value)
 
     def write(self, value: Path) -> Plain:
         """Give the text."""
@@ -553,19 +566,19 @@ class Several:
         """What may be given."""
         return f"{self.of.words}; one or a list"
 
-    def read(self, given: object, where: Where) -> tuple[Any, ...]:
+    def read(self, value: object, where: Where) -> tuple[Any, ...]:
         """Check each."""
-        if isinstance(given, (set, frozenset)):
-            raise where.error(given, "a set has no order; give a list")
-        if isinstance(given, np.ndarray) and given.ndim:
-            given = list(given)
-        if not isinstance(given, (list, tuple)):
-            given = (given,)
-        return tuple(self.of.read(one, where) for one in given)
+        if isinstance(value, (set, frozenset)):
+            raise where.error(value, "a set has no order; give a list")
+        if isinstance(value, np.ndarray) and value.ndim:
+            value = list(value)
+        if not isinstance(value, (list, tuple)):
+            value = (value,)
+        return tuple(self.of.read(element, where) for element in value)
 
     def write(self, value: tuple[Any, ...]) -> Plain:
         """Give the list."""
-        return [self.of.write(one) for one in value]
+        return [self.of.write(element) for element in value]
 
 
 def kind_of(annotation: Any) -> Kind[Any]:
@@ -579,7 +592,7 @@ def kind_of(annotation: Any) -> Kind[Any]:
     if get_origin(annotation) is Annotated:
         return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))
     if get_origin(annotation) in (Union, UnionType):
-        (inner,) = (one for one in get_args(annotation) if one is not NoneType)
+        (inner,) = (option for option in get_args(annotation) if option is not NoneType)
         return kind_of(inner)
     if get_origin(annotation) is Literal:
         return Word(get_args(annotation))

@@ -26,12 +26,12 @@ _FAR_DATE = re.compile(r"([-+]?\d{1,7})-(\d\d)-(\d\d)")
 EXAMPLE = "-65 kyr"
 
 
-def seconds(given: Any, where: Where) -> float:
+def seconds(value: Any, where: Where) -> float:
     """Read one time: a duration from J2000.0 TDB, or a date.
 
     Parameters
     ----------
-    given : str, Quantity, timedelta, date, datetime64, Time
+    value : str, Quantity, timedelta, date, datetime64, Time
     where : Where
 
     Raises
@@ -39,27 +39,27 @@ def seconds(given: Any, where: Where) -> float:
     SceneError, UnitsError
         If it is neither.
     """
-    if isinstance(given, str):
-        date = _FAR_DATE.fullmatch(given.strip())
-        if date is None and re.match(r"\d{4}-\d\d", given.strip()):
-            return microseconds(given, where) * 1e-6
+    if isinstance(value, str):
+        date = _FAR_DATE.fullmatch(value.strip())
+        if date is None and re.match(r"\d{4}-\d\d", value.strip()):
+            return microseconds(value, where) * 1e-6
         if date is not None:
             year, month, day = map(int, date.groups())
             return DAY * _days_of_date(year, month, day, where)
-    elif isinstance(given, (int, float)) and not hasattr(given, "to_value"):
-        raise where.error(given, f"give it with its unit, like '{EXAMPLE}', or as a date")
+    elif isinstance(value, (int, float)) and not hasattr(value, "to_value"):
+        raise where.error(value, f"give it with its unit, like '{EXAMPLE}', or as a date")
     elif not (
-        (hasattr(given, "to_value") and not hasattr(given, "jd1"))
-        or hasattr(given, "total_seconds")
-        or isinstance(given, np.timedelta64)
+        (hasattr(value, "to_value") and not hasattr(value, "jd1"))
+        or hasattr(value, "total_seconds")
+        or isinstance(value, np.timedelta64)
     ):
-        return microseconds(given, where) * 1e-6
-    value = quantity(given, "s", where, EXAMPLE)
-    if np.ndim(value) != 0:
-        raise where.error(given, f"give one time, like '{EXAMPLE}'")
-    if abs(value) > FARTHEST:
-        raise where.error(given, "give at most 1 Gyr from J2000.0")
-    return float(value)
+        return microseconds(value, where) * 1e-6
+    duration = quantity(value, "s", where, EXAMPLE)
+    if np.ndim(duration) != 0:
+        raise where.error(value, f"give one time, like '{EXAMPLE}'")
+    if abs(duration) > FARTHEST:
+        raise where.error(value, "give at most 1 Gyr from J2000.0")
+    return float(duration)
 
 
 def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
@@ -69,11 +69,6 @@ def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
     except ValueError:
         raise where.error(f"{year}-{month:02}-{day:02}", "there is no such date") from None
     return int((date - J2000.astype("datetime64[D]")).astype(int)) - 0.5
-
-
-def _written(time: float) -> str:
-    """A time as `seconds` reads it back to the same bits."""
-    return f"{time!r} s"
 
 
 @dataclass(frozen=True)
@@ -92,16 +87,16 @@ class YearSpan:
     words, hint = "two times from J2000.0, or two dates", "tuple[Epoch, Epoch]"
 
     @classmethod
-    def read(cls, given: Any, where: Where) -> YearSpan:
+    def read(cls, value: Any, where: Where) -> YearSpan:
         """Read two times; the earlier comes first."""
-        if isinstance(given, YearSpan):
-            return given
-        first, last = first_and_last(given, where, seconds, "two times, like ['-1 Myr', '0 kyr']")
+        if isinstance(value, YearSpan):
+            return value
+        first, last = first_and_last(value, where, seconds, "two times, like ['-1 Myr', '0 kyr']")
         return cls(first, last)
 
     def write(self) -> Plain:
         """Give the two times in seconds, to the last bit."""
-        return [_written(self.first), _written(self.last)]
+        return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,20 +114,20 @@ class YearList:
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"
 
     @classmethod
-    def read(cls, given: Any, where: Where) -> YearList:
+    def read(cls, value: Any, where: Where) -> YearList:
         """Read durations in one Quantity or a list, or dates in any form that `dates` reads."""
-        if isinstance(given, YearList):
-            return given
-        if isinstance(given, Mapping):
-            return cls(unpack(given, where))
-        if isinstance(given, str):
-            given = [given]
-        if hasattr(given, "to_value") and not hasattr(given, "jd1"):
-            listed = np.atleast_1d(quantity(given, "s", where, EXAMPLE))
-        elif isinstance(given, (list, tuple)):
-            listed = np.array([seconds(time, where) for time in given], dtype=float)
+        if isinstance(value, YearList):
+            return value
+        if isinstance(value, Mapping):
+            return cls(unpack(value, where))
+        if isinstance(value, str):
+            value = [value]
+        if hasattr(value, "to_value") and not hasattr(value, "jd1"):
+            listed = np.atleast_1d(quantity(value, "s", where, EXAMPLE))
+        elif isinstance(value, (list, tuple)):
+            listed = np.array([seconds(time, where) for time in value], dtype=float)
         else:
-            listed = DAY * days(given, where)
+            listed = DAY * days(value, where)
         if listed.ndim != 1 or listed.size == 0:
             raise where.error(f"shape {listed.shape}", "give one or more times in one list")
         if np.max(np.abs(listed)) > FARTHEST:

@@ -26,15 +26,21 @@ BORDER = (
 
 
 def test_each_can_be_planted() -> None:
+    wrong = []
     for mutant in MUTANTS:
-        assert mutant.old != mutant.new, mutant.name
-        planted = mutant.planted_in((ROOT / mutant.file).read_text(encoding="utf-8"))
-        compile(planted, mutant.file, "exec")
-        assert mutant.tests, mutant.name
-        for tests in mutant.tests:
-            file, _, name = tests.partition("::")
-            text = (ROOT / file).read_text(encoding="utf-8")
-            assert not name or f"def {name.partition('[')[0]}(" in text, mutant.name
+        try:
+            planted = mutant.planted_in((ROOT / mutant.file).read_text(encoding="utf-8"))
+            compile(planted, mutant.file, "exec")
+        except (OSError, ValueError, SyntaxError) as error:
+            wrong.append(str(error))
+        for file, _, name in (tests.partition("::") for tests in mutant.tests):
+            if not (ROOT / file).exists() or (
+                name and f"def {name.partition('[')[0]}(" not in (ROOT / file).read_text("utf-8")
+            ):
+                wrong.append(f"mutant '{mutant.name}': no test {file}::{name}")
+        if mutant.old == mutant.new or not mutant.tests:
+            wrong.append(f"mutant '{mutant.name}' changes nothing, or names no test")
+    assert not wrong
     assert max(Counter(mutant.name for mutant in MUTANTS).values()) == 1
 
 

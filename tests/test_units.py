@@ -35,10 +35,12 @@ def test_what_is_no_duration(value: object) -> None:
 
 
 def test_arcsec_per_century_is_not_arcsec_per_cycle() -> None:
-    rate = units.quantity(5040.4 * u.arcsec / (100 * u.yr), "arcsec/yr", "rate", "50 arcsec/yr")
+    rate = units.quantity(
+        5040.4 * u.arcsec / (100 * u.yr), "arcsec/yr", Where("rate"), "50 arcsec/yr"
+    )
     assert np.isclose(rate, 50.404, rtol=1e-14, atol=0)
     with pytest.raises(UnitsError):
-        units.quantity("5040.4 arcsec/cy", "arcsec/yr", "rate", "50 arcsec/yr")
+        units.quantity("5040.4 arcsec/cy", "arcsec/yr", Where("rate"), "50 arcsec/yr")
 
 
 @pytest.mark.parametrize("unit", COMMON)
@@ -47,7 +49,7 @@ def test_common_units_are_astropys_bit_for_bit(unit: str, number: float) -> None
     measures, size = COMMON[unit]
     astropys = u.Quantity(f"{number!r} {unit}").to_value(u.Unit(measures))
     assert float(number) * size == astropys
-    read = units.quantity(f"{number!r} {unit}", measures, "it", f"1 {unit}")
+    read = units.quantity(f"{number!r} {unit}", measures, Where("it"), f"1 {unit}")
     assert read == astropys
     assert math.copysign(1.0, read) == math.copysign(1.0, astropys)
 
@@ -98,7 +100,10 @@ def test_what_is_no_number_of_seconds(value: object) -> None:
 
 
 def test_a_masked_array_that_hides_nothing_is_an_array() -> None:
-    assert units.quantity(np.ma.masked_array([1.0, 2.0]), "s", "it", "1 s").tolist() == [1.0, 2.0]
+    assert units.quantity(np.ma.masked_array([1.0, 2.0]), "s", Where("it"), "1 s").tolist() == [
+        1.0,
+        2.0,
+    ]
 
 
 def test_units_with_several_slashes_are_read_from_left_to_right_without_a_warning(
@@ -106,15 +111,15 @@ def test_units_with_several_slashes_are_read_from_left_to_right_without_a_warnin
 ) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert units.quantity("2 km/s/s", "m/s2", "it", "1 m/s2") == 2000.0
+        assert units.quantity("2 km/s/s", "m/s2", Where("it"), "1 m/s2") == 2000.0
         array = xr.DataArray([2.0], dims="draw", attrs={"units": "km/s/s"})
-        assert units.quantity(array, "m/s2", "it", "1 m/s2").values == [2000.0]
+        assert units.quantity(array, "m/s2", Where("it"), "1 m/s2").values == [2000.0]
     assert capfd.readouterr() == ("", "")
 
 
 def test_a_labelled_array_that_says_its_units_is_converted() -> None:
     hours = xr.DataArray([1.0, 2.0], {"draw": [7, 8]}, ("draw",), attrs={"units": "h"})
-    found = units.quantity(hours, "s", "it", "1 s")
+    found = units.quantity(hours, "s", Where("it"), "1 s")
     assert found.values.tolist() == [3600.0, 7200.0]
     assert found.draw.values.tolist() == [7, 8]
 

@@ -7,10 +7,10 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.units import FloatArray, Whole
 
@@ -63,6 +63,6 @@ def neglected() -> Neglected:
     return Neglected(what="a density that grows inwards")
 
 
-made_of(SurfaceGravity, answer=gravity, sections={"neglected": neglected}, parts=(surface,))
+define_parts(SurfaceGravity, answer=gravity, sections={"neglected": neglected}, parts=(surface,))
 
-surface_gravity = ask(SurfaceGravity)
+surface_gravity = public_call(SurfaceGravity)

@@ -19,17 +19,10 @@ from earthspin import constants as c
 from earthspin.bodies import sense
 from earthspin.bodies.figure import figure_of, moments_of
 from earthspin.bodies.from_mass import FromMass
-from earthspin.bodies.kinds import (
-    CitedPeriod,
-    Codes,
-    Magnitude,
-    Moments,
-    OwnPlace,
-    Uncertainties,
-)
+from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, OwnPlace, Uncertainties
 from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
 from earthspin.bodies.layered import UnderTheSurface
-from earthspin.bodies.orbit import Orbit, OrbitTable
+from earthspin.bodies.orbit import Orbit
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
@@ -37,7 +30,7 @@ from earthspin.sky.elements import Plane
 from earthspin.sky.pole_tables import Angles
 from earthspin.sky.poles import Direction, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
-from earthspin.text import Text
+from earthspin.units import Text
 
 #: What a table starts from that names every number of its body; and one whose figure follows from
 #: its layers.
@@ -149,7 +142,7 @@ class Body(FromMass):
     interior: Annotated[str | LayeredBody | None, UnderTheSurface()] = None
     observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
     position: Annotated[Any, OwnPlace()] = None
-    orbit: Annotated[Orbit | None, OrbitTable()] = None
+    orbit: Annotated[Orbit | None, Orbit] = None
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
@@ -173,10 +166,10 @@ class Body(FromMass):
     def __post_init__(self) -> None:
         self._read_units()
         sense.check_kinds(self._fields(), self.UNITS)
-        for name, of in (("pole", pole_of), ("orbit_pole", Direction.of)):
-            given = getattr(self, name)
-            if given is not None:
-                object.__setattr__(self, name, sense.as_direction(self.name, name, given, of))
+        for name, read in (("pole", pole_of), ("orbit_pole", Direction.of)):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, sense.as_direction(self.name, name, value, read))
         if self.position is not None:
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
@@ -185,22 +178,22 @@ class Body(FromMass):
         sense.check_numbers(self._fields(), self.UNITS)
 
     def _fields(self) -> dict[str, Any]:
-        return {one.name: getattr(self, one.name) for one in fields(self)}
+        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def _read_units(self) -> None:
         """Bring text, tables and Quantities to what is kept; plain numbers load nothing."""
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
-            pair = isinstance(value, (tuple, list)) and any(type(of) is str for of in value)
+            pair = isinstance(value, (tuple, list)) and str in map(type, value)
             table = isinstance(value, Mapping)
             array = hasattr(value, "to_value") or hasattr(value, "dims")
             if type(value) is str or pair or table or array:
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 
-    def _read_orbit(self, given: object) -> None:
+    def _read_orbit(self, value: object) -> None:
         """Read the elements; of what spins, take the normal of its orbit from them."""
-        orbit = Orbit.read(given, Where(f"{self.name}.orbit"))
+        orbit = Orbit.read(value, Where(f"{self.name}.orbit"))
         object.__setattr__(self, "orbit", orbit)
         if self.position is not None:
             raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
@@ -222,35 +215,35 @@ class Body(FromMass):
         return hash((self.name, self.naif))
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name} = {words}" for name, words in self._in_words() if name in _TOLD)
-        return f"<Body {self.name}: {told}>"
+        numbers = (f"{name} = {number}" for name, number in self._in_words() if name in _TOLD)
+        return f"<Body {self.name}: {', '.join(numbers)}>"
 
     def _repr_html_(self) -> str:
-        told = [(name, words, self._source(name)) for name, words in self._in_words()]
-        return card(self.name, told)
+        rows = [(name, words, self._source(name)) for name, words in self._in_words()]
+        return card(self.name, rows)
 
     def _source(self, name: str) -> str:
         """Where a number comes from; empty if it has been changed."""
-        own, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
-        if isinstance(own, c.Constant):
-            return own.source
-        return cited.source if cited is not None and is_same(cited.value, own) else ""
+        value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
+        if isinstance(value, c.Constant):
+            return value.source
+        return cited.source if cited is not None and is_same(cited.value, value) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
         """Every field that is set, with its unit."""
-        told = []
-        for one in fields(self):
-            value, unit = getattr(self, one.name), self.UNITS.get(one.name, "")
-            many = hasattr(value, "dims")
-            if value is None or one.name in _NOT_TOLD or (not many and value in ((), {}, "")):
+        rows = []
+        for name in self.KINDS:
+            value, unit = getattr(self, name), self.UNITS.get(name, "")
+            labelled = hasattr(value, "dims")
+            if value is None or name in _NOT_TOLD or (not labelled and value in ((), {}, "")):
                 continue
-            words = f"an array along {', '.join(map(str, value.dims))}" if many else f"{value}"
+            words = f"an array along {', '.join(map(str, value.dims))}" if labelled else f"{value}"
             if isinstance(value, c.Constant):
                 words, unit = f"{value.value} ± {value.uncertainty}", value.unit
-            elif one.name in self.relative_uncertainty and not many:
-                words += f" ± {abs(value) * self.relative_uncertainty[one.name]:.2g}"
-            told.append((one.name, f"{words} {unit}".rstrip()))
-        return told
+            elif name in self.relative_uncertainty and not labelled:
+                words += f" ± {abs(value) * self.relative_uncertainty[name]:.2g}"
+            rows.append((name, f"{words} {unit}".rstrip()))
+        return rows
 
     # --- from and to a scene -----------------------------------------------------------------
 
@@ -272,9 +265,9 @@ class Body(FromMass):
             for key, number in numbers.items()
             if number.uncertainty and number.unit != "rad"
         }
-        made = cls(name=name, relative_uncertainty=uncertainty, **values, **others)
-        BODIES[name], NUMBERS[name] = made, dict(numbers)
-        return made
+        world = cls(name=name, relative_uncertainty=uncertainty, **values, **others)
+        BODIES[name], NUMBERS[name] = world, dict(numbers)
+        return world
 
     @classmethod
     def read(cls, given: object, where: Where) -> Body:
@@ -314,8 +307,8 @@ class Body(FromMass):
 
     def write(self) -> Any:
         """Give the table of every number."""
-        given = {name: getattr(self, name) for name in self.KINDS}
-        table = {n: self.KINDS[n].write(value) for n, value in given.items() if value is not None}
+        values = {name: getattr(self, name) for name in self.KINDS}
+        table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table
 
     @property
@@ -324,17 +317,17 @@ class Body(FromMass):
         start = BODIES.get(self.name)
         if start is None or start is self:
             return ""
-        words = []
+        changes = []
         if self.position is not None:
-            words.append(f"position = {describe_position(self.position)}")
+            changes.append(f"position = {describe_position(self.position)}")
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value, before = getattr(self, name), getattr(start, name)
             if hasattr(value, "dims"):
-                words.append(f"{name} along {', '.join(map(str, value.dims))}")
+                changes.append(f"{name} along {', '.join(map(str, value.dims))}")
             elif value != before and not (name == "pole_uncertainty" and value is None):
                 unit = self.UNITS.get(name, "")
-                words.append(f"{name} = {value}{unit and ' '}{unit}")
-        return "; ".join(words)
+                changes.append(f"{name} = {value}{unit and ' '}{unit}")
+        return "; ".join(changes)
 
     # --- what follows from the fields --------------------------------------------------------
 
@@ -369,10 +362,7 @@ class Body(FromMass):
         """One standard deviation of C - A = J2 M a2, over its value; G is the worst known."""
         u = self.relative_uncertainty
         return math.hypot(
-            u.get("j2", 0.0),
-            u.get("gm", 0.0),
-            2 * u.get("radius", 0.0),
-            c.G.relative_uncertainty,
+            u.get("j2", 0.0), u.get("gm", 0.0), 2 * u.get("radius", 0.0), c.G.relative_uncertainty
         )
 
     def needed(self, name: str) -> Numeric:
@@ -418,8 +408,8 @@ class Body(FromMass):
 
     def magnitudes(self) -> dict[str, Magnitude]:
         """How each of its numbers is read, and its mass, by name; those that are set."""
-        known = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
-        return known | {"mass": _READ_AS["mass"]}
+        kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
+        return kinds | {"mass": _READ_AS["mass"]}
 
     @property
     def labelled(self) -> bool:
@@ -473,11 +463,11 @@ class Body(FromMass):
         # A changed number is the user's own: what was known about the old one no longer holds.
         if "pole" in changes:
             changes.setdefault("pole_uncertainty", None)
-        known = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
-        made = _replace(self, **({"relative_uncertainty": known} | changes))
+        uncertainties = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
+        changed = _replace(self, **({"relative_uncertainty": uncertainties} | changes))
         if "observed_wobble" in changes or not self._is_another(changes):
-            return made
-        return _replace(made, observed_wobble=None)
+            return changed
+        return _replace(changed, observed_wobble=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
         """What else changes, so that moments stay those of one body; takes `moments` away."""
@@ -567,18 +557,19 @@ def body(name: object, where: Where | None = None) -> Body:
     SceneError
         If the name is unknown; it names the nearest valid one.
     """
-    found = BODIES.get(name.lower()) if isinstance(name, str) else None
-    if found is None:
+    match = BODIES.get(name.lower()) if isinstance(name, str) else None
+    if match is None:
         raise (where or Where("body")).error(name, nearest(name, BODIES))
-    return found
+    return match
 
 
-def _placed(given: Any, where: Where) -> Body:
+def _placed(function: Any, where: Where) -> Body:
     """The named body that a vector function of Skyfield's leads to, placed by it."""
-    found = next((one for one in BODIES.values() if given.target in one.naif), None)
-    if found is None:
-        raise where.error(given, "its mass is not known; give Body(name=..., gm=..., position=...)")
-    return found.replace(position=given)
+    match = next((body for body in BODIES.values() if function.target in body.naif), None)
+    if match is None:
+        problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
+        raise where.error(function, problem)
+    return match.replace(position=function)
 
 
 def members(bodies: Iterable[Body]) -> int:
@@ -589,8 +580,8 @@ def members(bodies: Iterable[Body]) -> int:
     bodies : iterable of Body
     """
     along: dict[Any, int] = {}
-    for one in bodies:
-        for name in one.UNITS:
-            array = getattr(one, name)
+    for world in bodies:
+        for name in world.UNITS:
+            array = getattr(world, name)
             along |= {dim: array.sizes[dim] for dim in getattr(array, "dims", ())}
     return math.prod(along.values())

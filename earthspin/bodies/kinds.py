@@ -42,12 +42,12 @@ class Magnitude:
         """How one would write it in a scene, whatever the body."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
-    def read(self, given: object, where: Where) -> Any:
+    def read(self, value: object, where: Where) -> Any:
         """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""
-        if isinstance(given, Mapping):
-            return _labelled(given, where)
+        if isinstance(value, Mapping):
+            return _labelled(value, where)
 
-        return quantity(given, self.unit, where, self.text)
+        return quantity(value, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
         """Give a number with its unit; an array as a table of its bytes, dims and labels."""
@@ -63,11 +63,11 @@ class Moments:
 
     words, hint = "three moments, the polar one last", "Sequence[float | str]"
 
-    def read(self, given: object, where: Where) -> list[Any]:
+    def read(self, value: object, where: Where) -> list[Any]:
         """Read each."""
-        if not isinstance(given, (list, tuple)) or len(given) != 3:
-            raise where.error(given, "give three moments")
-        return [quantity(one, "kg m2", where, "8.03e37 kg m2") for one in given]
+        if not isinstance(value, (list, tuple)) or len(value) != 3:
+            raise where.error(value, "give three moments")
+        return [quantity(moment, "kg m2", where, "8.03e37 kg m2") for moment in value]
 
 
 @dataclass(frozen=True)
@@ -76,11 +76,11 @@ class Codes:
 
     words, hint = "whole numbers, like [499, 4]", "Sequence[int]"
 
-    def read(self, given: object, where: Where) -> tuple[int, ...]:
+    def read(self, value: object, where: Where) -> tuple[int, ...]:
         """Check that they are whole numbers."""
-        if not isinstance(given, (list, tuple)) or not all(type(code) is int for code in given):
-            raise where.error(given, "give a list of whole numbers, like [499, 4]")
-        return tuple(given)
+        if not isinstance(value, (list, tuple)) or not all(type(code) is int for code in value):
+            raise where.error(value, "give a list of whole numbers, like [499, 4]")
+        return tuple(value)
 
     def write(self, value: tuple[int, ...]) -> Plain:
         """Give the list."""
@@ -93,12 +93,12 @@ class Uncertainties:
 
     words, hint = "one standard deviation over value, by field", "Mapping[str, float]"
 
-    def read(self, given: object, where: Where) -> dict[str, float]:
+    def read(self, value: object, where: Where) -> dict[str, float]:
         """Read each; the body knows which names it has."""
-        if not isinstance(given, Mapping):
-            raise where.error(given, "give a table of one number for each field")
+        if not isinstance(value, Mapping):
+            raise where.error(value, "give a table of one number for each field")
 
-        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in given.items()}
+        return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
         """Give the table."""
@@ -123,11 +123,11 @@ class OneOf:
         """What may be given."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
-    def read(self, given: object, where: Where) -> str:
+    def read(self, value: object, where: Where) -> str:
         """Check."""
-        if not isinstance(given, str) or given not in self.allowed:
-            raise where.error(given, nearest(given, self.allowed))
-        return given
+        if not isinstance(value, str) or value not in self.allowed:
+            raise where.error(value, nearest(value, self.allowed))
+        return value
 
     def write(self, value: str) -> Plain:
         """Give the word."""
@@ -143,44 +143,38 @@ class CitedPeriod:
         "Mapping[str, object] | Constant",
     )
 
-    def read(self, given: object, where: Where) -> Constant:
+    def read(self, value: object, where: Where) -> Constant:
         """Take a constant, or a table of its fields."""
-        if isinstance(given, Constant):
-            return given
+        if isinstance(value, Constant):
+            return value
 
         try:
-            table: dict[str, Any] = {"uncertainty": None} | dict(given)  # type: ignore[call-overload]
+            table: dict[str, Any] = {"uncertainty": None} | dict(value)  # type: ignore[call-overload]
             for name in ("value", "uncertainty"):
                 if table[name] is not None:
                     table[name] = quantity(table[name], "", where.at(name), "433.0")
             if table.get("unit") != "d" or not table["value"] > 0:
-                raise where.error(given, "a period in days, unit = 'd', greater than zero")
+                raise where.error(value, "a period in days, unit = 'd', greater than zero")
             return Constant(**table)
         except (KeyError, TypeError, ValueError) as error:
             if isinstance(error, EarthspinError):
                 raise
-            words = ", ".join(one.name for one in fields(Constant))
-            raise where.error(given, f"give a table of {words}") from None
+            names = ", ".join(field.name for field in fields(Constant))
+            raise where.error(value, f"give a table of {names}") from None
 
     def write(self, value: Constant) -> Plain:
         """Give the table of what is known."""
-        return {name: known for name, known in asdict(value).items() if known not in (None, "")}
+        return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
-@dataclass(frozen=True)
 class OwnPlace:
     """What gives the place of a body, where a kernel does not."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"
 
-    def read(self, given: object, where: Where) -> Any:
-        """Take a vector function or trajectory, or a table that names segments of kernels."""
-        return read_position(given, where)
-
-    def write(self, value: Any) -> Plain:
-        """Name the segments, or say what it was."""
-        return write_position(value)
+    read = staticmethod(read_position)
+    write = staticmethod(write_position)
 
 
 def _labelled(table: Mapping[str, Any], where: Where) -> Any:
@@ -195,13 +189,13 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
     values = unpack(table, where)
     try:
-        labels = {
-            name: (
-                of["dims"],
-                unpack(of, where) if "float64" in of else np.asarray(of["values"], of["dtype"]),
+        labels = {}
+        for name, label in table.get("labels", {}).items():
+            floats = "float64" in label
+            content = (
+                unpack(label, where) if floats else np.asarray(label["values"], label["dtype"])
             )
-            for name, of in table.get("labels", {}).items()
-        }
+            labels[name] = (label["dims"], content)
         return xr.DataArray(values, labels, table["dims"])
     except (KeyError, TypeError, ValueError, AttributeError, xr.CoordinateValidationError):
         raise where.error("a table", "give an array with its dims and labels") from None
@@ -209,13 +203,13 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 def _labels_of(array: Any) -> dict[str, Any]:
     """Labels of an array, of whatever kind, as tables."""
-    told: dict[str, Any] = {}
-    for name, of in array.coords.items():
-        floats = of.dtype.kind == "f" and of.size
-        dates = of.dtype.kind == "M"
-        told[str(name)] = {"dims": list(map(str, of.dims)), "dtype": str(of.dtype)} | (
-            pack(of.values)
+    tables: dict[str, Any] = {}
+    for name, label in array.coords.items():
+        floats = label.dtype.kind == "f" and label.size
+        dates = label.dtype.kind == "M"
+        tables[str(name)] = {"dims": list(map(str, label.dims)), "dtype": str(label.dtype)} | (
+            pack(label.values)
             if floats
-            else {"values": (of.values.astype(str) if dates else of.values).tolist()}
+            else {"values": (label.values.astype(str) if dates else label.values).tolist()}
         )
-    return told
+    return tables

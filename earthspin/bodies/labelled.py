@@ -34,8 +34,8 @@ def is_close(value: Numeric | None, other: Numeric | None) -> bool:
     return all_of(are_close(value, other))
 
 
-def is_same(one: object, other: object) -> bool:
+def is_same(value: object, other: object) -> bool:
     """Whether two values are equal, arrays with their labels."""
-    if hasattr(one, "identical"):
-        return type(one) is type(other) and bool(one.identical(other))
-    return not hasattr(other, "identical") and one == other
+    if hasattr(value, "identical"):
+        return type(value) is type(other) and bool(value.identical(other))
+    return not hasattr(other, "identical") and value == other

@@ -11,8 +11,7 @@ from earthspin.errors import Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.interior.named import INTERIORS
 from earthspin.interior.samples import from_samples
-from earthspin.text import Text
-from earthspin.units import quantity, real_numbers
+from earthspin.units import Text, quantity, real_numbers
 
 #: Columns of samples with their units.
 COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q": ""}
@@ -29,25 +28,26 @@ class Layers:
     hint = "str | LayeredBody | Mapping[str, Any]"
     by_name = True
 
-    def read(self, given: object, where: Where) -> LayeredBody:
+    def read(self, value: object, where: Where) -> LayeredBody:
         """Read a name, a layered body, or a table."""
-        if isinstance(given, LayeredBody):
-            return given
-        if isinstance(given, str):
+        if isinstance(value, LayeredBody):
+            return value
+        if isinstance(value, str):
             named = {name: i.layers for name, i in INTERIORS.items() if i.layers is not None}
-            if given not in named:
-                raise where.error(given, nearest(given, named))
-            return named[given]
-        if not isinstance(given, Mapping):
-            raise where.error(given, f"give {self.words}")
-        if ("layers" in given) == ("samples" in given):
+            if value not in named:
+                raise where.error(value, nearest(value, named))
+            return named[value]
+        if not isinstance(value, Mapping):
+            raise where.error(value, f"give {self.words}")
+        if ("layers" in value) == ("samples" in value):
             raise where.error("a table", "give either layers or samples")
-        name, reference = str(given.get("name", "layers")), str(given.get("reference", ""))
+        name, reference = str(value.get("name", "layers")), str(value.get("reference", ""))
         where = Where(where.key, where.source)  # columns and coefficients are in SI units
-        if "samples" in given:
-            return _sampled(given["samples"], name, reference, where.at("samples"))
+        if "samples" in value:
+            return _sampled(value["samples"], name, reference, where.at("samples"))
         layers = tuple(
-            _layer(one, where.at(f"layers[{number}]")) for number, one in enumerate(given["layers"])
+            _layer(table, where.at(f"layers[{number}]"))
+            for number, table in enumerate(value["layers"])
         )
         tops = [layer.top for layer in layers]
         if not tops or any(top <= below for below, top in pairwise([0.0, *tops])):
@@ -72,36 +72,36 @@ class Layers:
         }
 
 
-def _layer(given: Any, where: Where) -> Layer:
+def _layer(table: Any, where: Where) -> Layer:
     """One layer of a table; a number stands for an even layer."""
-    if not isinstance(given, Mapping) or not {"top", "density", "vp"} <= set(given):
-        raise where.error(given, "give top, density, vp, and vs and shear_q if it is solid")
-    if unknown := set(given) - {"top", "density", "vp", "vs", "shear_q"}:
+    if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
+        raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
+    if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:
         raise where.error(min(unknown), "a layer has top, density, vp, vs and shear_q")
 
     def series(name: str, unit: str) -> tuple[float, ...]:
-        values = given.get(name, ())
-        several = values if isinstance(values, (list, tuple)) else (values,)
-        return tuple(float(quantity(v, unit, where.at(name), "1 " + unit)) for v in several)
+        values = table.get(name, ())
+        elements = values if isinstance(values, (list, tuple)) else (values,)
+        return tuple(float(quantity(v, unit, where.at(name), "1 " + unit)) for v in elements)
 
     vs = series("vs", "m/s")
     vs = vs if any(vs) else ()
     return Layer(
-        top=float(quantity(given["top"], "m", where.at("top"), "3480 km")),
+        top=float(quantity(table["top"], "m", where.at("top"), "3480 km")),
         density=series("density", "kg/m3"),
         vp=series("vp", "m/s"),
         vs=vs,
-        shear_q=series("shear_q", "")[0] if vs and "shear_q" in given else math.inf,
+        shear_q=series("shear_q", "")[0] if vs and "shear_q" in table else math.inf,
     )
 
 
-def _sampled(given: Any, name: str, reference: str, where: Where) -> LayeredBody:
+def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody:
     """Samples as a table of columns, or anything with columns of these names."""
     try:
         columns = {
-            column: real_numbers(given[column]).tolist()
+            column: real_numbers(table[column]).tolist()
             for column in COLUMNS
-            if column != "shear_q" or column in given
+            if column != "shear_q" or column in table
         }
         columns.setdefault("shear_q", [math.inf] * len(columns["radius"]))
         return from_samples(name, **columns, reference=reference)
@@ -120,13 +120,13 @@ class UnderTheSurface:
     )
     hint = Layers.hint
 
-    def read(self, given: object, where: Where) -> str | LayeredBody:
+    def read(self, value: object, where: Where) -> str | LayeredBody:
         """Read a name, a layered body, or a table."""
-        if isinstance(given, (LayeredBody, Mapping)):
-            return Layers().read(given, where)
-        if not isinstance(given, str):
-            raise where.error(given, f"give {self.words}")
-        return Text().read(given, where)
+        if isinstance(value, (LayeredBody, Mapping)):
+            return Layers().read(value, where)
+        if not isinstance(value, str):
+            raise where.error(value, f"give {self.words}")
+        return Text().read(value, where)
 
     def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
         """Give the name, or the table of layers."""

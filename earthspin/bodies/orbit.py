@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 from earthspin.bodies.kinds import Magnitude, OneOf, Plain
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where, nearest
-from earthspin.text import Text
+from earthspin.units import Text
 
 #: What the angles of an orbit may be counted from.
 PLANES = ("ecliptic", "equator", "orbit", "icrf")
@@ -23,13 +23,13 @@ class Epoch:
 
     words, hint = 'a date, like "2000-01-01T12:00"', "str | datetime | datetime64 | Time | float"
 
-    def read(self, given: object, where: Where) -> float:
+    def read(self, value: object, where: Where) -> float:
         """Read a date; a number is days from J2000.0 TDB."""
-        if isinstance(given, (int, float)) and not isinstance(given, bool):
-            if not abs(given) <= _LARGEST:
-                raise where.error(given, f"give a date, or at most {_LARGEST:g} days from J2000.0")
-            return float(given)
-        return microseconds(given, where) / MICROSECONDS_PER_DAY
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            if not abs(value) <= _LARGEST:
+                raise where.error(value, f"give a date, or at most {_LARGEST:g} days from J2000.0")
+            return float(value)
+        return microseconds(value, where) / MICROSECONDS_PER_DAY
 
     def write(self, value: float) -> Plain:
         """Give the days: a date would round them to the microsecond."""
@@ -108,12 +108,12 @@ class Orbit:
     hint: ClassVar[str] = "Orbit | Mapping[str, Any]"
 
     def __post_init__(self) -> None:
-        given = {one.name: getattr(self, one.name) for one in fields(self)}
-        for name, value in _checked(given, Where("orbit")).items():
+        elements = {f.name: getattr(self, f.name) for f in fields(self)}
+        for name, value in _checked(elements, Where("orbit")).items():
             object.__setattr__(self, name, value)
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Orbit:
+    def read(cls, value: object, where: Where) -> Orbit:
         """Read an orbit: itself, or a table of its elements.
 
         Raises
@@ -121,27 +121,27 @@ class Orbit:
         SceneError, UnitsError
             If an element is unknown or impossible.
         """
-        if isinstance(given, cls):
-            return given
-        if not isinstance(given, Mapping):
-            raise where.error(given, f"give {cls.words}")
-        for name in given:
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, Mapping):
+            raise where.error(value, f"give {cls.words}")
+        for name in value:
             if name not in _KINDS:
-                raise where.at(name).error(given[name], nearest(name, _KINDS))
-        return cls(**_checked(given, where))
+                raise where.at(name).error(value[name], nearest(name, _KINDS))
+        return cls(**_checked(value, where))
 
     def write(self) -> Plain:
         """Give the table of every element that is set."""
-        given = {name: getattr(self, name) for name in _KINDS}
-        return {n: _KINDS[n].write(v) for n, v in given.items() if v not in (None, "")}
+        elements = {name: getattr(self, name) for name in _KINDS}
+        return {n: _KINDS[n].write(v) for n, v in elements.items() if v not in (None, "")}
 
     def __str__(self) -> str:
-        told = (
+        elements = (
             f"{name} = {value}"
             for name, value in self.write().items()
             if name != "reference" and getattr(self, name) != _DEFAULTS[name]
         )
-        return ", ".join(told)
+        return ", ".join(elements)
 
 
 _KINDS: dict[str, Any] = {
@@ -149,7 +149,7 @@ _KINDS: dict[str, Any] = {
     for name, hint in get_type_hints(Orbit, include_extras=True).items()
     if get_origin(hint) is Annotated
 }
-_DEFAULTS = {one.name: one.default for one in fields(Orbit)}
+_DEFAULTS = {f.name: f.default for f in fields(Orbit)}
 
 #: Larger than all that is seen, and longer than its age: m, s.
 _LARGEST = 1e30
@@ -165,7 +165,7 @@ _RULES: dict[str, tuple[Callable[[float], bool], str]] = {
 }
 
 
-def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
+def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
     """Each element read and within its bounds.
 
     Raises
@@ -174,7 +174,7 @@ def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
         Naming the element.
     """
     read: dict[str, Any] = {}
-    for name, value in given.items():
+    for name, value in elements.items():
         if value is None:
             continue
         if hasattr(value, "dims") or isinstance(value, Mapping):
@@ -189,17 +189,3 @@ def _checked(given: Mapping[str, Any], where: Where) -> dict[str, Any]:
     if "a" not in read and "period" not in read:
         raise where.error(None, _ONE_OF)
     return read
-
-
-class OrbitTable:
-    """Kind of the orbit of a body."""
-
-    words, hint = Orbit.words, Orbit.hint
-
-    def read(self, given: object, where: Where) -> Orbit:
-        """Read it."""
-        return Orbit.read(given, where)
-
-    def write(self, value: Orbit) -> Plain:
-        """Give the table."""
-        return value.write()

@@ -55,10 +55,10 @@ def added_by(
         Of the planet, m3 s-2, m and s.
     """
     q = moment = 0.0
-    for one in satellites:
-        spread = one.gm.value / gm * (one.a.value / radius) ** 2
+    for satellite in satellites:
+        spread = satellite.gm.value / gm * (satellite.a.value / radius) ** 2
         q += spread / 2
-        moment += spread * abs(spin_period) / one.period.value
+        moment += spread * abs(spin_period) / satellite.period.value
     return q, moment
 
 
@@ -79,7 +79,7 @@ def carried(
         satellites, planet["gm"].value, planet["radius"].value, planet["spin_period"].value
     )
     j2, moment = planet["j2"], polar_moment.value + more
-    names = ", ".join(one.name for one in satellites)
+    names = ", ".join(satellite.name for satellite in satellites)
     u = polar_moment.relative_uncertainty * polar_moment.value / moment
     h = (j2.value + q) / moment
     source = f"{j2.source}; with {names} carried along ({JPL})"

@@ -100,8 +100,8 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         if field not in numbers:
             raise BodyError(name, "relative_uncertainty", field, nearest(field, numbers))
         if not 0 <= u < math.inf:
-            of = f"relative_uncertainty[{field!r}]"
-            raise BodyError(name, of, u, "it is zero or more, finite")
+            entry = f"relative_uncertainty[{field!r}]"
+            raise BodyError(name, entry, u, "it is zero or more, finite")
     j2, h = body["j2"], body["dynamical_flattening"]
     if j2 is not None and h is not None:
         _check_polar_moment(name, j2, h, body["triaxiality"])
@@ -133,13 +133,15 @@ def _check_words(body: Fields) -> None:
     if not isinstance(body["interior"], str | LayeredBody | None):
         allowed = "give the name of an interior, a LayeredBody, or a table of layers or samples"
         raise BodyError(name, "interior", body["interior"], allowed)
-    codes, wobble, of = body["naif"], body["observed_wobble"], body["relative_uncertainty"]
+    codes, wobble, table = body["naif"], body["observed_wobble"], body["relative_uncertainty"]
     if not isinstance(codes, tuple) or not all(type(code) is int for code in codes):
         raise BodyError(name, "naif", codes, "give a tuple of whole numbers")
     if not isinstance(wobble, Constant | None):
         raise BodyError(name, "observed_wobble", wobble, "give a Constant")
-    if not isinstance(of, Mapping) or not all(isinstance(u, (int, float)) for u in of.values()):
-        raise BodyError(name, "relative_uncertainty", of, "give a table of numbers")
+    if not isinstance(table, Mapping) or not all(
+        isinstance(u, int | float) for u in table.values()
+    ):
+        raise BodyError(name, "relative_uncertainty", table, "give a table of numbers")
 
 
 def _check_labels(name: str, numbers: Fields) -> None:
@@ -147,20 +149,20 @@ def _check_labels(name: str, numbers: Fields) -> None:
     along: dict[str, tuple[str, Any]] = {}
     for field, array in numbers.items():
         for dim in getattr(array, "dims", ()):
-            other, known = along.setdefault(dim, (field, array))
-            same = known.sizes[dim] == array.sizes[dim] and (
-                not (dim in known.coords and dim in array.coords)
-                or all_of(known.coords[dim].values == array.coords[dim].values)
+            other, first = along.setdefault(dim, (field, array))
+            same = first.sizes[dim] == array.sizes[dim] and (
+                not (dim in first.coords and dim in array.coords)
+                or all_of(first.coords[dim].values == array.coords[dim].values)
             )
             if not same:
                 differ = f"they differ from those of {other}"
                 raise BodyError(name, field, f"labels along '{dim}'", differ)
         for label in getattr(array, "coords", ()):
             kind = array.coords[label].dtype.kind
-            words = kind == "O" and all(
-                isinstance(one, str) for one in array.coords[label].values.ravel()
+            text = kind == "O" and all(
+                isinstance(element, str) for element in array.coords[label].values.ravel()
             )
-            if kind not in "fiubUM" and not words:
+            if kind not in "fiubUM" and not text:
                 allowed = "give numbers, dates or words"
                 raise BodyError(name, field, f"labels '{label}'", allowed)
 
@@ -183,9 +185,9 @@ def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) 
     try:
         return read(value)
     except (ValueError, TypeError):
-        words = " or ".join(f"'{word}'" for word in NAMED_POLES)
-        allowed = f"write {words} or right ascension and declination, -90 to 90 deg, in rad"
-        several = value if isinstance(value, (list, tuple)) else (value,)
-        if any(getattr(one, "ndim", 0) for one in several):
+        names = " or ".join(f"'{word}'" for word in NAMED_POLES)
+        allowed = f"write {names} or right ascension and declination, -90 to 90 deg, in rad"
+        angles = value if isinstance(value, (list, tuple)) else (value,)
+        if any(getattr(angle, "ndim", 0) for angle in angles):
             value, allowed = "an array", f"it is one direction: {allowed}"
         raise BodyError(name, field, value, allowed) from None

@@ -83,25 +83,25 @@ def _of(shape: Shape) -> Fields:
     }
 
 
-def _si(given: Any, unit: str, name: str, example: str) -> Any:
+def _si(value: Any, unit: str, name: str, example: str) -> Any:
     """Numbers in SI units: plain ones, Quantities, or text with units."""
-    return quantity(given, unit, Where(name), example)
+    return quantity(value, unit, Where(name), example)
 
 
-def _single(given: Any, unit: str, name: str, example: str) -> float:
+def _single(value: Any, unit: str, name: str, example: str) -> float:
     """One number in SI units, not zero."""
-    value = _si(given, unit, name, example)
-    if not isinstance(value, float) or value == 0:
-        raise Where(name).error(given, f"give one number other than zero, like '{example}'")
-    return value
+    number = _si(value, unit, name, example)
+    if not isinstance(number, float) or number == 0:
+        raise Where(name).error(value, f"give one number other than zero, like '{example}'")
+    return number
 
 
-def _optional(given: Any, unit: str, name: str, example: str) -> float | None:
+def _optional(value: Any, unit: str, name: str, example: str) -> float | None:
     """The same; None stays."""
-    return None if given is None else _single(given, unit, name, example)
+    return None if value is None else _single(value, unit, name, example)
 
 
-def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
+def _mesh(mesh: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
     """Vertices (m) and faces of a mesh: of a file, of trimesh's Trimesh, or a pair of arrays.
 
     Raises
@@ -116,15 +116,15 @@ def _mesh(given: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
     if not isinstance(unit, str):
         raise Where("unit").error(unit, "give a unit of length, like 'km'")
     scale = float(quantity(f"1 {unit}", "m", Where("unit"), "1 km"))
-    if isinstance(given, (str, os.PathLike)):
-        given = _read(Path(given))
-    if hasattr(given, "vertices") and hasattr(given, "faces"):
-        given = given.vertices, given.faces
-    if not isinstance(given, tuple) or len(given) != 2:
-        raise BodyError("mesh", "mesh", given, "give a file, a Trimesh, or (vertices, faces)")
-    if is_masked(given[1]):
+    if isinstance(mesh, (str, os.PathLike)):
+        mesh = _read(Path(mesh))
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        mesh = mesh.vertices, mesh.faces
+    if not isinstance(mesh, tuple) or len(mesh) != 2:
+        raise BodyError("mesh", "mesh", mesh, "give a file, a Trimesh, or (vertices, faces)")
+    if is_masked(mesh[1]):
         raise BodyError("mesh", "faces", "a masked value", "give numbers that are all known")
-    return scale * quantity(given[0], "", Where("vertices"), "0.5"), np.asarray(given[1])
+    return scale * quantity(mesh[0], "", Where("vertices"), "0.5"), np.asarray(mesh[1])
 
 
 def _read(file: Path) -> Any:
@@ -134,9 +134,9 @@ def _read(file: Path) -> Any:
     except ImportError:
         raise MissingExtraError("trimesh", "mesh", "a mesh from a file") from None
     kind = file.suffix.lstrip(".").lower()
-    known = sorted(trimesh.exchange.load.mesh_formats())
-    if kind not in known:
-        raise SeriesError(file, f"'.{kind}' is no format of a mesh", nearest(kind, known))
+    formats = sorted(trimesh.exchange.load.mesh_formats())
+    if kind not in formats:
+        raise SeriesError(file, f"'.{kind}' is no format of a mesh", nearest(kind, formats))
     if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
         raise SeriesError(file, problem)
     try:

@@ -13,12 +13,12 @@ def all_in_words() -> str:
     """A line for each body: what it can be asked about, and what is not known."""
     width = max(map(len, BODIES))
     lines = []
-    for name, one in BODIES.items():
-        missing = [field for field in _ASKED if getattr(one, field) is None]
-        known = "pulls and spins" if not missing else "pulls"
+    for name, world in BODIES.items():
+        missing = [field for field in _ASKED if getattr(world, field) is None]
+        status = "pulls and spins" if not missing else "pulls"
         if 0 < len(missing) < len(_ASKED) - 1:
-            known = f"pulls and spins; not known: {', '.join(missing)}"
-        lines.append(f"{name:<{width}}  {known}")
+            status = f"pulls and spins; not known: {', '.join(missing)}"
+        lines.append(f"{name:<{width}}  {status}")
     return "\n".join([*lines, "", "each number with its source: earthspin info bodies NAME"])
 
 
@@ -30,12 +30,12 @@ def in_words(name: str) -> str:
     SceneError
         If there is no such body.
     """
-    one = body(name, Where("bodies"))
-    lines = [f"{one.name}: {one.reference}"]
-    for field, number in NUMBERS.get(one.name, {}).items():
+    world = body(name, Where("bodies"))
+    lines = [f"{world.name}: {world.reference}"]
+    for field, number in NUMBERS.get(world.name, {}).items():
         error = f" ± {number.uncertainty:.2g}" if number.uncertainty else ""
         lines.append(f"  {field} = {number.value:.9g}{error} {number.unit}".rstrip())
         lines.append(f"      {number.source}")
-    if one.pole is not None:
-        lines.append(f"  pole: {one.pole}")
+    if world.pole is not None:
+        lines.append(f"  pole: {world.pole}")
     return "\n".join(lines)

@@ -127,7 +127,7 @@ class Answer:
         elif name in data.data_vars and "component" in data[name].dims:
             x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
         else:
-            vectors = [str(n) for n, of in data.data_vars.items() if "component" in of.dims]
+            vectors = [str(n) for n, array in data.data_vars.items() if "component" in array.dims]
             raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors) or 'none'}")
         if x.attrs.get("frame") != "GCRS":
             raise SceneError("to_skycoord", name, "it does not stand along the axes of the GCRS")
@@ -228,8 +228,8 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim in ("component", "quaternion", "axis")]
         for labels in product(*(array[dim].values for dim in along)):
-            one = array.sel(dict(zip(along, labels, strict=True)), drop=True)
-            columns["_".join([str(name), *map(str, labels)])] = one
+            column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
+            columns["_".join([str(name), *map(str, labels)])] = column
     return xr.Dataset(columns)
 
 
@@ -237,4 +237,4 @@ def _one_row(dataset: xr.Dataset) -> pd.DataFrame:
     """A table of one row, for an answer without labels."""
     import pandas as pd
 
-    return pd.DataFrame([{str(n): of.values.item() for n, of in dataset.data_vars.items()}])
+    return pd.DataFrame([{str(n): array.values.item() for n, array in dataset.data_vars.items()}])

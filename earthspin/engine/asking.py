@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ENDS = ("start", "stop")
 
 
-def ask(question: type[Question]) -> Callable[..., xr.Dataset]:
+def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     """Make the public call of a question: its keys are the arguments.
 
     Parameters
@@ -60,7 +60,7 @@ def _with_span(question: type[Question], given: dict[str, Any]) -> dict[str, Any
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
     """Arguments of the call in order; the two ends of a span have no key of their own."""
-    keys = {name: one for name, one in keys_of(question).items() if name != "title"}
+    keys = {name: entry for name, entry in keys_of(question).items() if name != "title"}
     ends = "start" in question.positional
     rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
     return {name: keys.get(name) for name in (*question.positional, *rest)}
@@ -69,12 +69,12 @@ def arguments_of(question: type[Question]) -> dict[str, Key | None]:
 def signature_of(question: type[Question]) -> inspect.Signature:
     """Signature of the public call."""
     parameters = []
-    for name, one in arguments_of(question).items():
+    for name, entry in arguments_of(question).items():
         free = name in question.positional
         place = inspect.Parameter.POSITIONAL_OR_KEYWORD if free else inspect.Parameter.KEYWORD_ONLY
         default: Any = None
-        if one is not None and not ("start" in question.positional and name == "step"):
-            default = inspect.Parameter.empty if one.required else _as_written(one.shown)
+        if entry is not None and not ("start" in question.positional and name == "step"):
+            default = inspect.Parameter.empty if entry.required else _as_written(entry.shown)
         parameters.append(inspect.Parameter(name, place, default=default))
     return inspect.Signature(parameters)
 
@@ -82,7 +82,7 @@ def signature_of(question: type[Question]) -> inspect.Signature:
 def _as_written(value: Any) -> Any:
     """A default as one would type it: bodies by their names."""
     if isinstance(value, tuple):
-        return tuple(_as_written(one) for one in value)
+        return tuple(_as_written(item) for item in value)
     return getattr(value, "name", value)
 
 
@@ -90,14 +90,14 @@ def docstring_of(question: type[Question]) -> str:
     """Docstring of the public call: that of the class, with a sentence for each argument."""
     head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
     lines = [head, "", "Parameters", "----------"]
-    for name, one in arguments_of(question).items():
-        if one is None:
+    for name, entry in arguments_of(question).items():
+        if entry is None:
             lines += [f"{name} : date", f"    {_END[name]}"]
             continue
-        optional = "" if one.required else ", optional"
-        default = f" Default: {one.default_words}." if one.default_words else ""
-        lines.append(f"{name} : {one.kind.words}{optional}")
-        sentence = f"{one.doc[:1].upper()}{one.doc[1:]}.{default}"
+        optional = "" if entry.required else ", optional"
+        default = f" Default: {entry.default_words}." if entry.default_words else ""
+        lines.append(f"{name} : {entry.kind.words}{optional}")
+        sentence = f"{entry.doc[:1].upper()}{entry.doc[1:]}.{default}"
         lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
     notes = ["", "Notes", "-----", *SOURCE_TEXT] if _NUMBERED.search(head + rest) else []
     before, heading, after = rest.rstrip().partition("\nExamples\n")
@@ -148,11 +148,11 @@ def script_of(question: type[Question]) -> str:
     used = {i for name in order for i in (*parts[name].needs, *parts[name].uses)}
     lines += [f"    {name} = question.{name}" for name in keys if name in used]
     for name in order:
-        one = parts[name]
-        inputs = [i for i in (*one.needs, *one.uses) if i in parts or i in keys]
+        part = parts[name]
+        inputs = [i for i in (*part.needs, *part.uses) if i in parts or i in keys]
         arguments = ", ".join(f"{i}={i}" for i in inputs)
-        laid = ".dataset()" if one.gives else ""
-        lines.append(f"    {name} = {one.__module__}.{name}({arguments}){laid}")
+        laid = ".dataset()" if part.gives else ""
+        lines.append(f"    {name} = {part.__module__}.{name}({arguments}){laid}")
     ends = {"answer": question.graph.answer} | question.graph.sections
     for section, names in ends.items():
         lines.append(f"    _{section} = {', '.join(names)}")

@@ -1,10 +1,10 @@
 """A question asked for many members: drawn, checked, made in blocks, laid along `member`.
 
-A question whose physics is arrays through and through says so (`made_of`, `together`); its members
-are computed side by side, and every other question member by member. Side by side, members stand in
-rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS) then
-rounds them alike, however many members there are, and a member is the same bits alone. Members that
-differ in words stand side by side with those of the same words.
+A question whose physics takes arrays throughout says so (`define_parts`, `together`); its members
+are computed side by side, and those of every other question one by one. Side by side, members stand
+in rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS)
+then rounds them alike, however many members there are, and a member is the same bits alone. Members
+that differ in words stand side by side with those of the same words.
 """
 
 from __future__ import annotations
@@ -22,14 +22,7 @@ from numpy.typing import NDArray
 from earthspin.engine import loop
 from earthspin.engine import run as running
 from earthspin.engine.given import MEMBER
-from earthspin.engine.inputs import (
-    Input,
-    along_members,
-    changed,
-    inputs_of,
-    one_member,
-    published,
-)
+from earthspin.engine.inputs import Input, along_members, changed, inputs_of, one_member, published
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
@@ -91,18 +84,18 @@ class Ensemble:
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
         if not self.inputs:
-            words = "no body of this question has a published uncertainty; say what differs"
-            raise where.error(None, words)
+            problem = "no body of this question has a published uncertainty; say what differs"
+            raise where.error(None, problem)
         n = count_of(members, distributions, where)
         self.which = np.array(members.only or range(n))
         numbers = {
-            name: of.values(self.inputs[name].kind, where.at(name))
-            for name, of in distributions.items()
+            name: distribution.values(self.inputs[name].kind, where.at(name))
+            for name, distribution in distributions.items()
         }
         self.values = draw(members, distributions, numbers, self.which, where)
         self.values |= {
-            name: self.inputs[name].checked(of, where.at(name))[self.which]
-            for name, of in members.values.items()
+            name: self.inputs[name].checked(values, where.at(name))[self.which]
+            for name, values in members.values.items()
         }
         self.dropped: list[int] = []
         self._leave_out_the_impossible(members.impossible == "drop", n)
@@ -111,7 +104,7 @@ class Ensemble:
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # known before it is sent
         here = ("variants", "nominal")
-        return {name: of for name, of in vars(self).items() if name not in here}
+        return {name: value for name, value in vars(self).items() if name not in here}
 
     # --- what there is to do ---------------------------------------------------------------------
 
@@ -123,18 +116,18 @@ class Ensemble:
     @cached_property
     def numbers(self) -> dict[str, Input]:
         """The inputs that are numbers; the others are words."""
-        return {name: one for name, one in self.inputs.items() if not one.named}
+        return {name: entry for name, entry in self.inputs.items() if not entry.named}
 
     @cached_property
     def variants(self) -> Variants:
         """The question, or one for all the words of a member."""
-        keys = tuple(one.key for one in self.inputs.values() if one.named)
-        return Variants(self.question, keys, {one.key for one in self.numbers.values()})
+        keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
+        return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def words(self, place: int) -> Words:
         """What is chosen for a member that is not a number."""
-        named = (name for name, one in self.inputs.items() if one.named)
-        return tuple(str(self.values[name][place]) for name in named)
+        names = (name for name, entry in self.inputs.items() if entry.named)
+        return tuple(str(self.values[name][place]) for name in names)
 
     @cached_property
     def every(self) -> dict[Words, IntArray]:
@@ -144,7 +137,7 @@ class Ensemble:
         places: dict[Words, list[int]] = {}
         for place in range(len(self.which)):
             places.setdefault(self.words(place), []).append(place)
-        return {words: np.array(of) for words, of in places.items()}
+        return {words: np.array(group) for words, group in places.items()}
 
     @cached_property
     def nominal(self) -> xr.Dataset:
@@ -158,7 +151,7 @@ class Ensemble:
         if not self.numbers:
             return rows * ROW or 1  # nothing is computed but the answer to each of their words
         together = self.question.graph.together
-        fit = all(one.key in together and one.labelled for one in self.numbers.values())
+        fit = all(entry.key in together and entry.labelled for entry in self.numbers.values())
         if not fit or getattr(self.question, "accuracy", None) is not None:
             return 1  # what is chosen for an accuracy is chosen for each alone
         return min(rows * ROW, self.question.graph.widest) or 1
@@ -192,8 +185,8 @@ class Ensemble:
         """
         size = self.nominal.nbytes * self.layout.size
         if size > LARGEST_IN_MEMORY:
-            words = f"they take about {size / 1e9:.3g} GB; write them to a store: give a path"
-            raise self.question.error("members", self.layout.size, words)
+            problem = f"they take about {size / 1e9:.3g} GB; write them to a store: give a path"
+            raise self.question.error("members", self.layout.size, problem)
         return loop.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
@@ -210,12 +203,12 @@ class Ensemble:
         numbers = [int(self.which[place]) for place in wrong]
         named = _named(numbers)
         if not drop or len(numbers) == len(self.which):
-            words = f"of {n} these cannot be: {next(iter(wrong.values()))}"
+            problem = f"of {n} these cannot be: {next(iter(wrong.values()))}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
-            raise self.question.error("members", named, words + remedy)
+            raise self.question.error("members", named, problem + remedy)
         kept = np.delete(np.arange(len(self.which)), list(wrong))
         self.which, self.dropped = self.which[kept], numbers
-        self.values = {name: of[kept] for name, of in self.values.items()}
+        self.values = {name: values[kept] for name, values in self.values.items()}
         del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
@@ -232,7 +225,7 @@ class Ensemble:
         self, question: Question, places: IntArray
     ) -> Iterator[tuple[int, EarthspinError]]:
         """The same of the members that share a question; at once where arrays tell."""
-        at_once = all(one.field and one.labelled for one in self.numbers.values())
+        at_once = all(entry.field and entry.labelled for entry in self.numbers.values())
         if at_once:
             try:
                 changed(question, self.numbers, along_members(self._of_numbers, places))
@@ -254,20 +247,20 @@ class Ensemble:
             SCENE: scene_text(self.asked_question),
         }
         if self.dropped:
-            told = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
-            attributes["members_dropped"] = told
+            count = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
+            attributes["members_dropped"] = count
         return self.variants.describe(self.make(0), self.every).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
-        made = self._one_by_one if self.width == 1 else self._side_by_side
-        places, pieces = zip(*made(first, last), strict=True)
-        laid = _laid([*pieces])
+        answers = self._one_by_one if self.width == 1 else self._side_by_side
+        places, pieces = zip(*answers(first, last), strict=True)
+        block = _laid([*pieces])
         order = np.argsort(np.concatenate(places))
         if (np.diff(order) != 1).any():
-            laid = laid.isel({MEMBER: order} if MEMBER in laid.dims else {})
-        return laid.assign_coords(self._labels(slice(first, last), laid))
+            block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
+        return block.assign_coords(self._labels(slice(first, last), block))
 
     def _one_by_one(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
         for place in range(first, last):
@@ -278,29 +271,31 @@ class Ensemble:
         for begin in range(first - first % ROW, last, self.width):
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
-            for words, every in self.every.items():
-                mine = every[np.searchsorted(every, max(begin, first)) :]
-                mine = mine[: np.searchsorted(mine, min(end, last))]
-                if not mine.size:
+            for words, all_places in self.every.items():
+                places = all_places[np.searchsorted(all_places, max(begin, first)) :]
+                places = places[: np.searchsorted(places, min(end, last))]
+                if not places.size:
                     continue
-                stand_in = np.where(np.isin(row, mine), row, mine[0])
+                stand_in = np.where(np.isin(row, places), row, places[0])
                 values = along_members(self._of_numbers, stand_in)
-                which = _named(self.which[mine].tolist())
+                which = _named(self.which[places].tolist())
                 try:
-                    made = self._answer(words, values, which)
+                    answer = self._answer(words, values, which)
                 except ApartError:
-                    yield from ((np.array([place]), self._single(place)) for place in mine)
+                    yield from ((np.array([place]), self._single(place)) for place in places)
                     continue
-                self._check_labels(made, which)
+                self._check_labels(answer, which)
                 if words:
-                    made = _for_each(made, len(row))
-                yield mine, made.isel({MEMBER: _short(mine - begin)} if MEMBER in made.dims else {})
+                    answer = _for_each(answer, len(row))
+                if MEMBER in answer.dims:
+                    answer = answer.isel({MEMBER: _short(places - begin)})
+                yield places, answer
 
     def _single(self, place: int) -> xr.Dataset:
         which = str(self.which[place])
-        made = self._answer(self.words(place), one_member(self._of_numbers, place), which)
-        self._check_labels(made, which)
-        return _for_each(made, 1)
+        answer = self._answer(self.words(place), one_member(self._of_numbers, place), which)
+        self._check_labels(answer, which)
+        return _for_each(answer, 1)
 
     def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """The numbers of one member, or of several with the same words."""
@@ -311,29 +306,29 @@ class Ensemble:
             error.args = (f"member {which}: {error}",)
             raise
 
-    def _check_labels(self, made: xr.Dataset, which: str) -> None:
+    def _check_labels(self, answer: xr.Dataset, which: str) -> None:
         for name, label in self.nominal.coords.items():
-            if name not in made.coords or not label.equals(made.coords[name]):
-                words = f"member {which} has other labels along '{name}'"
-                raise self.question.error("members", list(self.inputs), words)
+            if name not in answer.coords or not label.equals(answer.coords[name]):
+                problem = f"member {which} has other labels along '{name}'"
+                raise self.question.error("members", list(self.inputs), problem)
 
     @property
     def _of_numbers(self) -> dict[str, NDArray[Any]]:
         """Values of the inputs that are numbers."""
         return {name: self.values[name] for name in self.numbers}
 
-    def _labels(self, which: slice, laid: xr.Dataset) -> dict[str, Any]:
+    def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
         """Numbers of members, and their inputs; of what moves, as theta, the one that is given."""
         labels: dict[str, Any] = {
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
-        for name, one in self.inputs.items():
+        for name, entry in self.inputs.items():
             values = self.values[name][which]
-            dims = (MEMBER, *(f"{one.label}_{k}" for k in range(values.ndim - 1)))
-            attrs = {"long_name": f"{name} of the member", "units": one.unit or "1", "input": name}
-            if one.named:
-                del attrs["units"]
-            label = f"{one.label}_given" if one.label in laid.variables else one.label
+            dims = (MEMBER, *(f"{entry.label}_{k}" for k in range(values.ndim - 1)))
+            attrs = {"long_name": f"{name} of the member"}
+            attrs |= {} if entry.named else {"units": entry.unit or "1"}
+            attrs |= {"input": name}
+            label = f"{entry.label}_given" if entry.label in block.variables else entry.label
             labels[label] = (dims, values, attrs)
         return labels
 
@@ -350,25 +345,28 @@ def _short(places: IntArray) -> IntArray | slice:
     return slice(first, last + 1) if last - first + 1 == len(places) else places
 
 
-def _for_each(made: xr.Dataset, count: int) -> xr.Dataset:
+def _for_each(answer: xr.Dataset, count: int) -> xr.Dataset:
     """An answer whose every number stands along `member`, that of one for so many."""
-    numbers = {name: of for name, of in made.data_vars.items() if of.dtype.kind in "fiubM"}
-    alone = {name: of for name, of in numbers.items() if MEMBER not in of.dims}
-    return made.assign({name: of.expand_dims({MEMBER: count}) for name, of in alone.items()})
+    alone = {
+        name: variable.expand_dims({MEMBER: count})
+        for name, variable in answer.data_vars.items()
+        if variable.dtype.kind in "fiubM" and MEMBER not in variable.dims
+    }
+    return answer.assign(alone)
 
 
 def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
     """Pieces one after the other, `member` first; what no input touches stands once."""
     import xarray as xr
 
-    laid: dict[Any, Any] = {}
-    for name, of in pieces[0].data_vars.items():
-        laid[name] = of.variable
-        if MEMBER in of.dims:
+    variables: dict[Any, Any] = {}
+    for name, variable in pieces[0].data_vars.items():
+        variables[name] = variable.variable
+        if MEMBER in variable.dims:
             parts = [piece[name].variable.transpose(MEMBER, ...) for piece in pieces]
-            together = np.concatenate([part.values for part in parts])
-            laid[name] = xr.Variable(parts[0].dims, together, parts[0].attrs)
-    return xr.Dataset(laid, pieces[0].coords)
+            values = np.concatenate([part.values for part in parts])
+            variables[name] = xr.Variable(parts[0].dims, values, parts[0].attrs)
+    return xr.Dataset(variables, pieces[0].coords)
 
 
 def asked_of_members(
@@ -387,17 +385,17 @@ def asked_of_members(
     """
     own: Members | None = question.members
     if members is None and own is None:
-        words = "say how many members, or give a file or a table"
-        raise question.error("members", None, words)
+        problem = "say how many members, or give a file or a table"
+        raise question.error("members", None, problem)
     counted = isinstance(members, (int, np.integer)) and not isinstance(members, bool)
     if members is None:
-        asked = own
+        request = own
     else:
-        asked = Members.read(members, question.where("members"))
+        request = Members.read(members, question.where("members"))
         if own is not None and counted:
-            asked = replace(own, n=asked.n)
-    assert asked is not None
-    changes = {name: of for name, of in {"seed": seed, **more}.items() if of is not None}
+            request = replace(own, n=request.n)
+    assert request is not None
+    changes = {name: value for name, value in {"seed": seed, **more}.items() if value is not None}
     read = Members.read({"n": 1} | changes, question.where("members"))
     changes = {name: getattr(read, name) for name in changes}
-    return question.replace(members=replace(asked, **changes))
+    return question.replace(members=replace(request, **changes))

@@ -49,8 +49,8 @@ def read_file(path: Path) -> xr.Dataset:
             columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
             return xr.Dataset(columns)
         if path.suffix in (".nc", ".zarr"):
-            with xr.open_dataset(path, **({} if path.suffix == ".nc" else _ZARR)) as found:
-                return found.load()
+            with xr.open_dataset(path, **({} if path.suffix == ".nc" else _ZARR)) as dataset:
+                return dataset.load()
     except Exception as error:  # whatever the libraries say of a file that is none
         raise OutputError(path, f"it cannot be read: {error}") from None
     raise OutputError(path, "it is no file of members", "its name ends in .csv, .nc or .zarr")
@@ -62,17 +62,17 @@ _ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
 def of_dataset(given: Any, where: Where) -> dict[str, NDArray[Any]]:
     """Values by name, from a Dataset along `member`; those of an ensemble that was made, too."""
     values: dict[str, NDArray[Any]] = {}
-    for name, of in {**given.data_vars, **given.coords}.items():
-        if name == MEMBER or (name in given.coords and "input" not in of.attrs):
+    for name, array in {**given.data_vars, **given.coords}.items():
+        if name == MEMBER or (name in given.coords and "input" not in array.attrs):
             continue
         if name in given.data_vars and any("input" in c.attrs for c in given.coords.values()):
             continue  # an answer: its inputs are what is asked again
-        inner = where.at(str(of.attrs.get("input", name)))
-        if not of.dims or of.dims[0] != MEMBER:
+        inner = where.at(str(array.attrs.get("input", name)))
+        if not array.dims or array.dims[0] != MEMBER:
             words = f"its first dimension is '{MEMBER}'"
-            raise inner.error(f"dimensions {', '.join(map(str, of.dims)) or 'none'}", words)
-        values[str(of.attrs.get("input", name))] = _checked(of.values, inner)
-    if not values or not all(len(of) for of in values.values()):
+            raise inner.error(f"dimensions {', '.join(map(str, array.dims)) or 'none'}", words)
+        values[str(array.attrs.get("input", name))] = _checked(array.values, inner)
+    if not values or not all(len(array) for array in values.values()):
         raise where.error("a Dataset", f"it holds no member; give variables along '{MEMBER}'")
     return values
 
@@ -98,8 +98,8 @@ def _words(values: NDArray[Any], where: Where) -> NDArray[Any]:
     """Words along `member`, all of one width, as a store keeps them."""
     if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one word for each member")
-    for place, one in enumerate(values):
-        if not isinstance(one, str):
+    for place, word in enumerate(values):
+        if not isinstance(word, str):
             words = "give finite numbers, or a word for each member"
             raise where.error(f"member {place}", words)
     return values.astype(str)

@@ -99,30 +99,30 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
         If there is none of a name, which names the nearest; or a number belongs to something that
         is itself chosen.
     """
-    found = {name: _input(question, name, where) for name in names}
-    chosen = {one.key: one.name for one in found.values() if one.named}
-    for one in found.values():
-        if chosen.get(one.key, one.name) != one.name:
-            words = f"members differ in '{chosen[one.key]}' itself; leave out one of the two"
-            raise where.at(one.name).error("a number", words)
-    return found
+    inputs = {name: _input(question, name, where) for name in names}
+    chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
+    for entry in inputs.values():
+        if chosen.get(entry.key, entry.name) != entry.name:
+            problem = f"members differ in '{chosen[entry.key]}' itself; leave out one of the two"
+            raise where.at(entry.name).error("a number", problem)
+    return inputs
 
 
 def _input(question: Question, name: str, where: Where) -> Input:
-    every = {one.name: one for one in _every(question)}
+    inputs = {one.name: one for one in _every(question)}
     short = name.removeprefix(f"{question.table}.") if question.table else name
     for spelled in (name, short):
-        if spelled in every:
-            return replace(every[spelled], name=name)
-    raise where.error(name, nearest(name, every))
+        if spelled in inputs:
+            return replace(inputs[spelled], name=name)
+    raise where.error(name, nearest(name, inputs))
 
 
 def _every(question: Question) -> Iterator[Input]:
     """Every number of a question that is set, and every key that takes a name."""
-    for key, one in keys_of(question.__class__).items():
+    for key, entry in keys_of(question.__class__).items():
         value = getattr(question, key)
-        if by_name(one.kind) and key not in keys_of(Question):
-            yield Input(key, key, None, "", one.kind, False)
+        if by_name(entry.kind) and key not in keys_of(Question):
+            yield Input(key, key, None, "", entry.kind, False)
         if hasattr(value, "magnitudes"):
             for field, kind in value.magnitudes().items():
                 yield Input(f"{key}.{field}", key, None, field, kind, field in value.LABELLED)
@@ -131,13 +131,13 @@ def _every(question: Question) -> Iterator[Input]:
                 for field, kind in body.magnitudes().items():
                     name, labelled = f"{body.name}.{field}", field in body.LABELLED
                     yield Input(name, key, place, field, kind, labelled)
-        elif isinstance(one.kind, Number):
-            yield Input(key, key, None, "", one.kind, True)
+        elif isinstance(entry.kind, Number):
+            yield Input(key, key, None, "", entry.kind, True)
         elif hasattr(value, "numbers") or isinstance(value, np.ndarray):
-            list_kind: Any = one.kind
+            list_kind: Any = entry.kind
             kind = Number(list_kind.unit, list_kind.example)
             if isinstance(value, np.ndarray):
-                yield Input(key, key, None, "", one.kind, True)
+                yield Input(key, key, None, "", entry.kind, True)
             for place in range(np.size(getattr(value, "numbers", value))):
                 yield Input(f"{key}.{place}", key, place, "", kind, True)
 
@@ -148,15 +148,15 @@ def published(question: Question) -> dict[str, Distribution]:
     Of a body that only pulls, the mass alone counts. No correlation was published with any.
     """
     distributions: dict[str, Distribution] = {}
-    for one in _every(question):
-        body = getattr(question, one.key)
-        if one.element is not None and one.field:
-            body = body[one.element]
-        u = getattr(body, "relative_uncertainty", {}).get(one.field, 0.0)
-        counts = one.element is None or one.field == "gm"
-        if u and counts and np.ndim(getattr(body, one.field)) == 0:
-            value = float(getattr(body, one.field))
-            distributions[one.name] = Distribution("normal", (value, abs(value) * u))
+    for item in _every(question):
+        body = getattr(question, item.key)
+        if item.element is not None and item.field:
+            body = body[item.element]
+        u = getattr(body, "relative_uncertainty", {}).get(item.field, 0.0)
+        counts = item.element is None or item.field == "gm"
+        if u and counts and np.ndim(getattr(body, item.field)) == 0:
+            value = float(getattr(body, item.field))
+            distributions[item.name] = Distribution("normal", (value, abs(value) * u))
     return distributions
 
 
@@ -176,31 +176,31 @@ def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str
         If it cannot be, in one line.
     """
     changes: dict[str, Any] = {}
-    several = False
-    for name, one in inputs.items():
-        if one.field:
+    labelled = False
+    for name, entry in inputs.items():
+        if entry.field:
             continue
-        several = several or hasattr(values[name], "dims")
-        if one.element is None:
-            changes[one.key] = values[name]
+        labelled = labelled or hasattr(values[name], "dims")
+        if entry.element is None:
+            changes[entry.key] = values[name]
         else:
-            list_of = changes.get(one.key, getattr(question, one.key))
-            changes[one.key] = _with_number(list_of, one.element, values[name])
+            list_of = changes.get(entry.key, getattr(question, entry.key))
+            changes[entry.key] = _with_number(list_of, entry.element, values[name])
     changed = question.replace(**with_bodies(question, inputs, values))
-    return changed.holding(**changes) if several else changed.replace(**changes)
+    return changed.holding(**changes) if labelled else changed.replace(**changes)
 
 
-def _with_number(several: Any, place: int, value: Any) -> Any:
+def _with_number(sequence: Any, place: int, value: Any) -> Any:
     """A list of numbers with one of them changed, or changed to one for each member."""
-    if hasattr(several, "numbers"):
-        numbers = several.numbers
-        return replace(several, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
-    if hasattr(value, "dims") and not hasattr(several, "dims"):
-        several = _for_each(several, value.size)
-    several = several.copy()
+    if hasattr(sequence, "numbers"):
+        numbers = sequence.numbers
+        return replace(sequence, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
+    if hasattr(value, "dims") and not hasattr(sequence, "dims"):
+        sequence = _for_each(sequence, value.size)
+    sequence = sequence.copy()
     rows = value.size if hasattr(value, "dims") else 1
-    getattr(several, "values", several).reshape(rows, -1)[:, place] = value
-    return several
+    getattr(sequence, "values", sequence).reshape(rows, -1)[:, place] = value
+    return sequence
 
 
 def _for_each(values: FloatArray, count: int) -> xr.DataArray:
@@ -228,16 +228,16 @@ def with_bodies(
         If such a body cannot exist.
     """
     fields: dict[tuple[str, int | None], dict[str, Any]] = {}
-    for name, one in inputs.items():
-        if one.field:
-            fields.setdefault((one.key, one.element), {})[one.field] = values[name]
+    for name, entry in inputs.items():
+        if entry.field:
+            fields.setdefault((entry.key, entry.element), {})[entry.field] = values[name]
     changes: dict[str, Any] = {}
-    for (key, element), of in fields.items():
+    for (key, element), new_values in fields.items():
         value = changes.get(key, getattr(question, key))
         if element is None:
-            changes[key] = value.replace(**of)
+            changes[key] = value.replace(**new_values)
         else:
-            new = value[element].replace(**of)
+            new = value[element].replace(**new_values)
             changes[key] = (*value[:element], new, *value[element + 1 :])
     return changes
 
@@ -247,11 +247,16 @@ def along_members(values: Mapping[str, Any], which: Any) -> dict[str, Any]:
     import xarray as xr
 
     return {
-        name: xr.DataArray(of[which], dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(of.ndim - 1))))
-        for name, of in values.items()
+        name: xr.DataArray(
+            array[which], dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(array.ndim - 1)))
+        )
+        for name, array in values.items()
     }
 
 
 def one_member(values: Mapping[str, Any], number: int) -> dict[str, Any]:
     """Values of one member."""
-    return {name: of[number].item() if of.ndim == 1 else of[number] for name, of in values.items()}
+    return {
+        name: array[number].item() if array.ndim == 1 else array[number]
+        for name, array in values.items()
+    }

@@ -1,15 +1,14 @@
 """Datasets: what each variable is called, measured in, and laid out along.
 
-A part declares a schema and gives values in SI; they become labelled arrays here, in the
-units of the schema and with the attributes that the CF conventions ask for. Plain floats
-only: a Quantity would lose its unit on disk.
+Values in SI become labelled arrays here, in the units of a schema and with the attributes that the
+CF conventions ask for. Plain floats only: a Quantity would lose its unit on disk.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
@@ -111,7 +110,6 @@ def build(
     schema: Schema,
     values: Mapping[str, Any],
     coords: Mapping[str, Any] | None = None,
-    frame: str | None = None,
     no_error: str = "",
 ) -> xr.Dataset:
     """Label the values that a part gave.
@@ -125,8 +123,6 @@ def build(
         the declared dimensions.
     coords : mapping, optional
         Labels by dimension.
-    frame : str, optional
-        Axes of the variables that have the dimension `component`.
     no_error : str
         Why errors are not given where they are NaN; empty if all are given.
 
@@ -163,8 +159,6 @@ def build(
                     f"{declared.long_name} has no value here; check the body's numbers"
                 )
             attributes["no_error"] = no_error
-        if frame and "component" in laid.dims:
-            attributes["frame"] = frame
         arrays[name] = xr.Variable(laid.dims, data, attributes)
     return xr.Dataset(arrays, coords=labels)
 
@@ -202,71 +196,3 @@ def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]
     if variable.no_error:
         attributes["no_error"] = variable.no_error
     return attributes | dict(variable.attrs)
-
-
-def covered_by(error: str, schema: Schema) -> dict[str, Variable]:
-    """Say that one variable holds the error of all that have none of their own.
-
-    Parameters
-    ----------
-    error : str
-        Its name.
-    schema : Schema
-    """
-    bare = _without_error(schema)
-    return {n: replace(of, error=error) if n in bare else of for n, of in schema.items()}
-
-
-def without_error(why: str, schema: Schema) -> dict[str, Variable]:
-    """Say why what has no error carries none.
-
-    Parameters
-    ----------
-    why : str
-    schema : Schema
-    """
-    bare = _without_error(schema)
-    return {n: replace(of, no_error=why) if n in bare else of for n, of in schema.items()}
-
-
-def _without_error(schema: Schema) -> set[str]:
-    """Numbers of a schema of whose error nothing is said yet."""
-    return {
-        name
-        for name, of in schema.items()
-        if of.units
-        and "_error" not in name
-        and f"{name}_error" not in schema
-        and not (of.error or of.no_error)
-    }
-
-
-def with_error(
-    name: str, variable: Variable, *, split: bool = False, dims: tuple[str, ...] | None = None
-) -> dict[str, Variable]:
-    """Declare a variable together with its 95 % half-width.
-
-    Parameters
-    ----------
-    name : str
-    variable : Variable
-    split : bool
-        Also declare the shares of the method and of the inputs.
-    dims : tuple of str, optional
-        Dimensions of the error, where it is one bound for a whole axis.
-    """
-    along = variable.dims if dims is None else dims
-    declared = {
-        name: variable,
-        f"{name}_error": Variable(
-            along, variable.units, f"95 % half-width of the {variable.long_name}"
-        ),
-    }
-    if split:
-        for share, words in (("method", "averaging and sampling"), ("input", "given numbers")):
-            declared[f"{name}_error_{share}"] = Variable(
-                along,
-                variable.units,
-                f"95 % half-width of the {variable.long_name} from {words}",
-            )
-    return declared

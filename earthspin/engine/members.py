@@ -53,12 +53,12 @@ class Distribution:
     numbers: tuple[Any, ...]
 
     @classmethod
-    def read(cls, given: Mapping[str, Any], where: Where) -> Distribution:
+    def read(cls, value: Mapping[str, Any], where: Where) -> Distribution:
         """Read a table like ``{ normal = [0.00327, 2e-9] }``."""
-        if len(given) != 1 or next(iter(given)) not in _SHAPES:
+        if len(value) != 1 or next(iter(value)) not in _SHAPES:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
-            raise where.error(dict(given), problem)
-        ((shape, numbers),) = given.items()
+            raise where.error(dict(value), problem)
+        ((shape, numbers),) = value.items()
         numbers = numbers.tolist() if isinstance(numbers, np.ndarray) else numbers
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
         if many == 0 or (shape in ("normal", "uniform") and many != 2):
@@ -69,20 +69,20 @@ class Distribution:
         """Its numbers as the input is kept, or its words, checked."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
-                words = f"{self.shape} is of numbers; of words and names give choice or grid"
-                raise where.error(list(self.numbers), words)
+                problem = f"{self.shape} is of numbers; of words and names give choice or grid"
+                raise where.error(list(self.numbers), problem)
             return texts(self.numbers, kind, where)
-        read = [kind.read(number, where) for number in self.numbers]
-        if any(np.ndim(one) for one in read):
+        numbers = [kind.read(number, where) for number in self.numbers]
+        if any(map(np.ndim, numbers)):
             raise where.error(self.numbers, "give single numbers")
-        if self.shape == "normal" and not read[1] >= 0:
+        if self.shape == "normal" and not numbers[1] >= 0:
             raise where.error(self.numbers, "a standard deviation is zero or more")
-        if self.shape == "uniform" and not read[0] <= read[1]:
+        if self.shape == "uniform" and not numbers[0] <= numbers[1]:
             raise where.error(self.numbers, "the lowest value comes first")
-        return tuple(map(float, read))
+        return tuple(map(float, numbers))
 
 
-def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
+def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     """Words of an input that is no number, as they were given, each checked.
 
     Raises
@@ -90,13 +90,13 @@ def texts(several: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     EarthspinError
         If the input does not take one, or it is told by more than text.
     """
-    found = tuple(several)
-    for one in found:
-        kind.read(one, where)
-        if not isinstance(one, str):
-            words = "members are labelled by text: give a name, or the path of a file it is in"
-            raise where.error(type(one).__name__, words)
-    return found
+    names = tuple(values)
+    for word in names:
+        kind.read(word, where)
+        if not isinstance(word, str):
+            problem = "members are labelled by text: give a name, or the path of a file it is in"
+            raise where.error(type(word).__name__, problem)
+    return names
 
 
 def _plain(number: Any) -> Any:
@@ -109,10 +109,7 @@ def _plain(number: Any) -> Any:
 
 
 def drawn(
-    distribution: str,
-    numbers: tuple[Any, ...],
-    normal: FloatArray,
-    place: FloatArray,
+    distribution: str, numbers: tuple[Any, ...], normal: FloatArray, place: FloatArray
 ) -> NDArray[Any]:
     """Turn standard normal numbers into those of a distribution.
 
@@ -131,15 +128,15 @@ def drawn(
     """
     from scipy.special import ndtr
 
-    several = np.array(numbers)
+    values = np.array(numbers)
     if distribution == "normal":
         return np.asarray(numbers[0] + numbers[1] * normal)
     share = ndtr(normal)
     if distribution == "uniform":
         return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
     if distribution == "choice":
-        place = np.minimum((share * several.size).astype(int), several.size - 1)
-    return np.asarray(several[place])
+        place = np.minimum((share * values.size).astype(int), values.size - 1)
+    return np.asarray(values[place])
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
@@ -156,11 +153,11 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
     -------
     ndarray, shape (n, inputs)
     """
-    found = np.empty((len(members), inputs))
-    for row, member in zip(found, members.tolist(), strict=True):
+    normal = np.empty((len(members), inputs))
+    for row, member in zip(normal, members.tolist(), strict=True):
         sequence = np.random.SeedSequence(seed, spawn_key=(member,))
         np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
-    return found
+    return normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,7 +197,7 @@ class Members:
     # --- as a scene ------------------------------------------------------------------------------
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Members:
+    def read(cls, value: object, where: Where) -> Members:
         """Read how many, a table, a Dataset, or the path of a file with one.
 
         Raises
@@ -208,26 +205,26 @@ class Members:
         SceneError
             If it is none of these, a name or a number is wrong, or there is no member.
         """
-        if isinstance(given, Members):
-            return given
-        if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
-            return cls(n=_whole(given, where, 1), published=True)
-        if isinstance(given, (str, os.PathLike)):
-            given = read_file(Path(given))
-        if hasattr(given, "data_vars"):
-            return cls(values=of_dataset(given, where))
-        if not isinstance(given, Mapping):
-            raise where.error(given, f"give {cls.words}")
-        return cls._of_table(given, where)
+        if isinstance(value, Members):
+            return value
+        if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
+            return cls(n=_whole(value, where, 1), published=True)
+        if isinstance(value, (str, os.PathLike)):
+            value = read_file(Path(value))
+        if hasattr(value, "data_vars"):
+            return cls(values=of_dataset(value, where))
+        if not isinstance(value, Mapping):
+            raise where.error(value, f"give {cls.words}")
+        return cls._of_table(value, where)
 
     @classmethod
     def _of_table(cls, table: Mapping[str, Any], where: Where) -> Members:
-        settings = {name: of for name, of in table.items() if name in _SETTINGS}
-        inputs = {name: of for name, of in table.items() if name not in _SETTINGS}
-        for name, of in inputs.items():
-            if not isinstance(of, Mapping):
-                words = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
-                raise where.at(name).error(of, words)
+        settings = {name: entry for name, entry in table.items() if name in _SETTINGS}
+        inputs = {name: entry for name, entry in table.items() if name not in _SETTINGS}
+        for name, entry in inputs.items():
+            if not isinstance(entry, Mapping):
+                problem = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
+                raise where.at(name).error(entry, problem)
         uncertainty = settings.get("uncertainty")
         if not (uncertainty is None or _is_word(uncertainty, ("sample",))):
             raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
@@ -249,71 +246,73 @@ class Members:
             only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
-            values={name: from_scene(of, where.at(name)) for name, of in values.items()},
+            values={name: from_scene(entry, where.at(name)) for name, entry in values.items()},
         )
 
     def write(self) -> dict[str, Any]:
         """Give the table, with every number."""
-        told: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
+        table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         if self.n is not None:
-            told["n"] = self.n
+            table["n"] = self.n
         if self.published:
-            told["uncertainty"] = "sample"
+            table["uncertainty"] = "sample"
         if self.only:
-            told["only"] = list(self.only)
+            table["only"] = list(self.only)
         if self.correlations:
-            told["correlations"] = [list(one) for one in self.correlations]
-        told |= {name: {of.shape: list(of.numbers)} for name, of in self.distributions.items()}
+            table["correlations"] = [list(correlation) for correlation in self.correlations]
+        table |= {
+            name: {entry.shape: list(entry.numbers)} for name, entry in self.distributions.items()
+        }
         if self.values:
-            told["values"] = {
-                name: of.tolist() if of.dtype.kind == "U" else pack(of)
-                for name, of in self.values.items()
+            table["values"] = {
+                name: entry.tolist() if entry.dtype.kind == "U" else pack(entry)
+                for name, entry in self.values.items()
             }
-        return told
+        return table
 
 
-def _is_word(given: object, allowed: tuple[str, ...]) -> bool:
-    return isinstance(given, str) and given in allowed
+def _is_word(value: object, allowed: tuple[str, ...]) -> bool:
+    return isinstance(value, str) and value in allowed
 
 
-def _whole(given: Any, where: Where, low: int, high: int = MOST) -> int:
-    if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
-        raise where.error(given, "give a whole number")
-    if not low <= int(given) <= high:
-        raise where.error(given, f"it lies between {low} and {high}")
-    return int(given)
+def _whole(value: Any, where: Where, low: int, high: int = MOST) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise where.error(value, "give a whole number")
+    if not low <= int(value) <= high:
+        raise where.error(value, f"it lies between {low} and {high}")
+    return int(value)
 
 
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
     """Distributions by name; TOML makes tables within tables of names with points."""
-    for name, of in table.items():
+    for name, entry in table.items():
         if (
-            isinstance(of, Mapping)
-            and of
-            and not set(of) & set(_SHAPES)
-            and all(isinstance(inner, Mapping) for inner in of.values())
+            isinstance(entry, Mapping)
+            and entry
+            and not set(entry) & set(_SHAPES)
+            and all(isinstance(inner, Mapping) for inner in entry.values())
         ):
-            yield from _distributions(of, where, f"{before}{name}.")
-        elif isinstance(of, Mapping):
-            yield f"{before}{name}", Distribution.read(of, where.at(f"{before}{name}"))
+            yield from _distributions(entry, where, f"{before}{name}.")
+        elif isinstance(entry, Mapping):
+            yield f"{before}{name}", Distribution.read(entry, where.at(f"{before}{name}"))
         else:
-            raise where.at(f"{before}{name}").error(of, "give a table like normal = [1, 2]")
+            raise where.at(f"{before}{name}").error(entry, "give a table like normal = [1, 2]")
 
 
-def _correlations(given: Any, where: Where) -> Iterator[tuple[str, str, float]]:
-    for one in given:
+def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
+    for row in rows:
         try:
-            first, second, size = one
+            first, second, size = row
         except (TypeError, ValueError):
             first = second = size = None
         if not (isinstance(first, str) and isinstance(second, str) and first != second):
             problem = 'give two names and a number: ["a", "b", 0.5]'
-            raise where.at("correlations").error(one, problem)
+            raise where.at("correlations").error(row, problem)
         if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
             problem = "a correlation lies between -1 and 1, both excluded"
-            raise where.at("correlations").error(one, problem)
+            raise where.at("correlations").error(row, problem)
         yield first, second, float(size)
 
 
@@ -328,13 +327,13 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
     SceneError
         If they do not, or nothing says it.
     """
-    grid = math.prod(len(of.numbers) for of in inputs.values() if of.shape == "grid")
-    gridded = any(of.shape == "grid" for of in inputs.values())
-    told = {"n": members.n} if members.n is not None else {}
-    told |= {name: len(of) for name, of in members.values.items()}
-    if len(set(told.values())) > 1:
-        raise where.error(told, "these are not equally many")
-    n = next(iter(told.values()), grid if gridded else None)
+    grid = math.prod(len(entry.numbers) for entry in inputs.values() if entry.shape == "grid")
+    gridded = any(entry.shape == "grid" for entry in inputs.values())
+    counts = {"n": members.n} if members.n is not None else {}
+    counts |= {name: len(entry) for name, entry in members.values.items()}
+    if len(set(counts.values())) > 1:
+        raise where.error(counts, "these are not equally many")
+    n = next(iter(counts.values()), grid if gridded else None)
     if n is None:
         raise where.at("n").error(None, "say how many members are drawn")
     if gridded and n % grid:
@@ -373,21 +372,21 @@ def draw(
     normal = standard_normal(members.seed, which, len(names))
     if members.correlations:
         normal = _mixed(normal, _root(members, names, where))
-    place, found = which.astype(int), {}
+    place, values = which.astype(int), {}
     for column, name in enumerate(names):
         shape, size = inputs[name].shape, len(inputs[name].numbers)
-        found[name] = drawn(shape, numbers[name], normal[:, column], place % size)
+        values[name] = drawn(shape, numbers[name], normal[:, column], place % size)
         if shape == "grid":
             place = place // size
-    return found
+    return values
 
 
 def _mixed(normal: FloatArray, root: FloatArray) -> FloatArray:
     """Each row times the root, summed number by number: a BLAS rounds a row alone otherwise."""
-    found = np.zeros_like(normal)
+    mixed = np.zeros_like(normal)
     for column, weights in zip(normal.T, root.T, strict=True):
-        found += np.multiply.outer(column, weights)
-    return found
+        mixed += np.multiply.outer(column, weights)
+    return mixed
 
 
 def _root(members: Members, names: list[str], where: Where) -> FloatArray:
@@ -402,6 +401,6 @@ def _root(members: Members, names: list[str], where: Where) -> FloatArray:
     try:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError:
-        told = [list(one) for one in members.correlations]
+        rows = [list(row) for row in members.correlations]
         problem = "no numbers are correlated so; the matrix is not positive"
-        raise where.at("correlations").error(told, problem) from None
+        raise where.at("correlations").error(rows, problem) from None

@@ -74,8 +74,8 @@ class Neglected:
         names = list(effects) or by_size
         import numpy as np
 
-        told = {"references": self.source, "of_unknown_size": self.unknown}
-        attrs = tuple((name, words) for name, words in told.items() if words)
+        notes = {"references": self.source, "of_unknown_size": self.unknown}
+        attrs = tuple((name, words) for name, words in notes.items() if words)
         schema = {
             "neglected_effect": Variable(("effect",), self.unit, self.what, attrs, no_error=BOUND)
         }

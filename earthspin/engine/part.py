@@ -61,13 +61,12 @@ class Part(Generic[P, R]):
     def __init__(
         self,
         function: Callable[P, R],
-        gives: Schema,
         unless: tuple[Reason, ...],
         chooses: bool,
         tells: Teller | None = None,
     ) -> None:
-        self.function, self.gives, self.unless, self.chooses = function, gives, unless, chooses
-        self.tells = tells
+        self.function, self.unless, self.chooses, self.tells = function, unless, chooses, tells
+        self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
         self.__doc__, self.__module__ = function.__doc__, function.__module__
@@ -118,7 +117,6 @@ def part(function: Callable[P, R], /) -> Part[P, R]: ...
 @overload
 def part(
     *,
-    gives: Schema = ...,
     unless: Reason | tuple[Reason, ...] = ...,
     chooses: bool = ...,
     tells: Teller | None = ...,
@@ -127,7 +125,6 @@ def part(
     function: Callable[P, R] | None = None,
     /,
     *,
-    gives: Schema | None = None,
     unless: Reason | tuple[Reason, ...] = (),
     chooses: bool = False,
     tells: Teller | None = None,
@@ -138,8 +135,6 @@ def part(
     ----------
     function : callable
         Its parameters name keys of the question and other parts.
-    gives : Schema, optional
-        The variables of the Dataset that it returns.
     unless : callable or tuple of them
         Reasons for leaving it out, by keys of the question.
     chooses : bool
@@ -150,7 +145,7 @@ def part(
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     def made(function: Callable[P, R]) -> Part[P, R]:
-        return Part(function, gives or _schema_of(function), reasons, chooses, tells)
+        return Part(function, reasons, chooses, tells)
 
     return made if function is None else made(function)
 

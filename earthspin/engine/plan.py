@@ -67,7 +67,8 @@ class Plan:
         """The plan as a table: what runs first, then what is left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
         rows = [
-            Row(one.title, status, one.told(keys), self.seconds.get(one.name)) for one in self.parts
+            Row(part.title, status, part.told(keys), self.seconds.get(part.name))
+            for part in self.parts
         ]
         if IMPORTS in self.seconds:
             words = "modules loaded on first use, once in each process"
@@ -129,9 +130,9 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         """Choose a part and all that it stands on, or note why it is left out."""
         if name in chosen or name in reasons:
             return name in chosen
-        one = graph.parts[name]
-        why = one.reason(keys)
-        for other in one.needs if why is None else ():
+        part = graph.parts[name]
+        why = part.reason(keys)
+        for other in part.needs if why is None else ():
             if other in graph.parts and not choose(other):
                 title = graph.parts[other].title
                 why = f"it needs {title}, which is left out: {reasons[other]}"
@@ -139,63 +140,65 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         if why is not None:
             reasons[name] = why
             return False
-        offered = [other for other in one.uses if other in graph.parts]
+        offered = [other for other in part.uses if other in graph.parts]
         used = [other for other in offered if choose(other)]
-        if offered and not used and not one.needs:
+        if offered and not used and not part.needs:
             # it stands on one of several, and none of them is there
-            several = (f"no {graph.parts[of].title}: {reasons[of]}" for of in offered)
-            reasons[name] = "; ".join(several)
+            lacking = (
+                f"no {graph.parts[name_used].title}: {reasons[name_used]}" for name_used in offered
+            )
+            reasons[name] = "; ".join(lacking)
             return False
-        chosen[name] = (*(other for other in one.needs if other in graph.parts), *used)
+        chosen[name] = (*(other for other in part.needs if other in graph.parts), *used)
         return True
 
-    given = [name for name in graph.answer if choose(name)]
-    if graph.answer[0] not in given:
+    answer = [name for name in graph.answer if choose(name)]
+    if graph.answer[0] not in answer:
         why = reasons[graph.answer[0]]
         raise question.error("compute", question.word, f"nothing to do: {why}")
     for name in graph.sections[NEGLECTED]:
         choose(name)
     wanted = _wanted(question, sections)
-    kept = []
+    applicable = []
     for section in wanted:
-        told = [name for name in graph.sections[section] if choose(name)]
-        if told:
-            kept.append(section)
+        names = [name for name in graph.sections[section] if choose(name)]
+        if names:
+            applicable.append(section)
         elif sections != ALL:
             why = reasons[graph.sections[section][0]]
             raise SceneError("sections", section, f"it does not apply: {why}")
     order = tuple(graph.parts[name] for name in TopologicalSorter(chosen).static_order())
     left_out = {
-        one.title: reasons.get(name) or one.reason(keys) or NOT_ASKED
-        for name, one in graph.parts.items()
+        part.title: reasons.get(name) or part.reason(keys) or NOT_ASKED
+        for name, part in graph.parts.items()
         if name not in chosen
     }
-    return Plan(question, order, tuple(kept), left_out)
+    return Plan(question, order, tuple(applicable), left_out)
 
 
 def _wanted(question: Question, sections: str | Iterable[str]) -> list[str]:
     """Names of sections, each once, in the order of the question."""
-    every = question.graph.sections
+    known = question.graph.sections
     if isinstance(sections, str) and sections == ALL:
-        return list(every)
+        return list(known)
     try:
         named = [sections] if isinstance(sections, str) else [*sections]
     except Exception:  # whatever it is, it is no list
         raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
     for name in named:
-        if not isinstance(name, str) or name not in every:
-            raise SceneError("sections", name, nearest(name, [*every, ALL]))
-    return [name for name in every if name in named]
+        if not isinstance(name, str) or name not in known:
+            raise SceneError("sections", name, nearest(name, [*known, ALL]))
+    return [name for name in known if name in named]
 
 
 def _refuse_taken_dimensions(question: Question) -> None:
     """Refuse labelled arrays of a body along a dimension that results have already."""
-    every = question.graph.parts.values()
-    taken = {dim for one in every for declared in one.gives.values() for dim in declared.dims}
-    taken |= {name for one in every for name in one.gives}
+    parts = question.graph.parts.values()
+    taken = {dim for part in parts for declared in part.gives.values() for dim in declared.dims}
+    taken |= {name for part in parts for name in part.gives}
     for name, value in question.keys().items():
-        for inner, of in getattr(value, "__dict__", {}).items():
-            clash = taken & {*getattr(of, "dims", ()), *getattr(of, "coords", ())}
+        for inner, number in getattr(value, "__dict__", {}).items():
+            clash = taken & {*getattr(number, "dims", ()), *getattr(number, "coords", ())}
             if clash:
                 raise question.error(
                     f"{name}.{inner}",

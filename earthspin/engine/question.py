@@ -99,7 +99,7 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
 def plain_words(value: Any) -> str:
     """Write a value on one line: bodies by their names."""
     if isinstance(value, (tuple, list)):
-        return ", ".join(plain_words(one) for one in value)
+        return ", ".join(plain_words(item) for item in value)
     return str(getattr(value, "name", value))
 
 
@@ -178,17 +178,17 @@ class Question:
         chosen = {name: value for name, value in given.items() if value is not None}
         object.__setattr__(self, "given", frozenset({*chosen, *known}))
         object.__setattr__(self, "read_from", source)
-        for name, one in keys.items():
-            shown = f"{self.table}.{name}" if one.setting and in_scene else name
+        for name, entry in keys.items():
+            shown = f"{self.table}.{name}" if entry.setting and in_scene else name
             where = Where(shown, source, name in typed)
             if name in chosen:
-                value = _read(one.kind, chosen[name], where)
+                value = _read(entry.kind, chosen[name], where)
             elif name in known:
                 value = known[name]
-            elif one.required:
-                raise where.error(None, f"give it: {one.doc} ({one.kind.words})")
+            elif entry.required:
+                raise where.error(None, f"give it: {entry.doc} ({entry.kind.words})")
             else:
-                value = one.default
+                value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
         self._check_exclusive()
@@ -252,10 +252,12 @@ class Question:
             if cls.table and name == cls.table:
                 if not isinstance(value, Mapping):
                     raise SceneError(name, value, f"it is a table: [{name}]", source=source)
-                own = {n for n, one in keys.items() if one.setting}
-                for inner, of in value.items():
+                own = {n for n, known in keys.items() if known.setting}
+                for inner, entry in value.items():
                     if inner not in own:
-                        raise SceneError(f"{name}.{inner}", of, nearest(inner, own), source=source)
+                        raise SceneError(
+                            f"{name}.{inner}", entry, nearest(inner, own), source=source
+                        )
                 flat |= value
             elif name in keys and keys[name].setting:
                 raise SceneError(
@@ -263,9 +265,9 @@ class Question:
                 )
             else:
                 flat[name] = value
-        made = cls.__new__(cls)
-        made._fill(flat, source, in_scene=True, typed=typed)
-        return made
+        question = cls.__new__(cls)
+        question._fill(flat, source, in_scene=True, typed=typed)
+        return question
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Give the scene as a table: every key with every number, as TOML holds it.
@@ -278,10 +280,10 @@ class Question:
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
         idle = set(keys_of(type(self))) - self.given if given else self._idle()
-        for name, one in keys_of(type(self)).items():
+        for name, entry in keys_of(type(self)).items():
             value = getattr(self, name)
             if value is not None and name not in idle:
-                (own if one.setting else table)[name] = one.kind.write(value)
+                (own if entry.setting else table)[name] = entry.kind.write(value)
         return table | ({self.table: own} if own else {})
 
     def _idle(self) -> set[str]:
@@ -297,11 +299,11 @@ class Question:
 
     def replace(self, **changes: Any) -> Self:
         """Return the question with some keys changed, checked again."""
-        kept = {name: getattr(self, name) for name in self.given if name not in changes}
-        made = type(self).__new__(type(self))
+        before = {name: getattr(self, name) for name in self.given if name not in changes}
+        question = type(self).__new__(type(self))
         changes = {"title": self.title} | changes
-        made._fill(changes, self.read_from, in_scene=False, known=kept)
-        return made
+        question._fill(changes, self.read_from, in_scene=False, known=before)
+        return question
 
     def holding(self, **several: Any) -> Self:
         """Return the question with numbers of many members in some keys, checked one by one before.
@@ -309,18 +311,23 @@ class Question:
         Parameters
         ----------
         **several
-            As the parts of a question take them that says so (`made_of`, `together`).
+            As the parts of a question take them that says so (`define_parts`, `together`).
         """
-        kept = {name: getattr(self, name) for name in self.given} | several
-        made = type(self).__new__(type(self))
-        made._fill({"title": self.title}, self.read_from, in_scene=False, known=kept)
-        return made
+        before = {name: getattr(self, name) for name in self.given} | several
+        question = type(self).__new__(type(self))
+        question._fill({"title": self.title}, self.read_from, in_scene=False, known=before)
+        return question
 
     def _repr_html_(self) -> str:
         """Every key with its value, the given ones marked, and what it means."""
         rows = [
-            (name, _shown(value, one.kind), "given" if name in self.given else "default", one.doc)
-            for name, one in keys_of(type(self)).items()
+            (
+                name,
+                _shown(value, entry.kind),
+                "given" if name in self.given else "default",
+                entry.doc,
+            )
+            for name, entry in keys_of(type(self)).items()
             if (value := getattr(self, name)) is not None and name != "title"
         ]
         return card(
@@ -330,8 +337,8 @@ class Question:
 
     def __repr__(self) -> str:
         shown = [
-            f"{name}={_shown(getattr(self, name), one.kind)!r}"
-            for name, one in keys_of(type(self)).items()
+            f"{name}={_shown(getattr(self, name), entry.kind)!r}"
+            for name, entry in keys_of(type(self)).items()
             if name in self.given and getattr(self, name) is not None
         ]
         return f"{type(self).__name__}({', '.join(shown)})"
@@ -350,14 +357,14 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 def _read_keys(question: type[Question]) -> dict[str, Key]:
     hints = get_type_hints(question, include_extras=True)
     return {
-        one.name: Key(
-            name=one.name,
-            kind=kind_of(hints[one.name]),
-            doc=one.metadata["doc"],
-            shown=one.default,
-            setting=one.metadata["setting"],
+        entry.name: Key(
+            name=entry.name,
+            kind=kind_of(hints[entry.name]),
+            doc=entry.metadata["doc"],
+            shown=entry.default,
+            setting=entry.metadata["setting"],
         )
-        for one in fields(question)  # type: ignore[arg-type]
+        for entry in fields(question)  # type: ignore[arg-type]
     }
 
 
@@ -401,7 +408,7 @@ class Graph:
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]
 
 
-def made_of(
+def define_parts(
     question: type[Question],
     *,
     answer: Parts,
@@ -436,26 +443,33 @@ def made_of(
         use what the question is without, or it does not say what it neglects.
     """
     ends = _several(answer)
-    told = {name: _several(of) for name, of in sections.items()}
-    every = [*parts, *ends, *(one for of in told.values() for one in of)]
-    named = {one.name: one for one in every}
+    in_sections = {name: _several(several_parts) for name, several_parts in sections.items()}
+    all_parts = [
+        *parts,
+        *ends,
+        *(part for several_parts in in_sections.values() for part in several_parts),
+    ]
+    named = {part.name: part for part in all_parts}
     names, keys = set(named), set(keys_of(question))
-    if len({id(one) for one in every}) != len(named) or names & keys:
+    if len({id(part) for part in all_parts}) != len(named) or names & keys:
         raise TypeError(f"{question.__name__}: a name stands for two things")
-    used = {use for one in every for use in one.uses}
+    used = {use for part in all_parts for use in part.uses}
     for name in without:
         if name in names | keys or name not in used:
             raise TypeError(f"{question.__name__}: it cannot be without '{name}'")
-    for one in every:
-        for parameter in (*one.needs, *one.uses):
+    for part in all_parts:
+        for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK, *without}:
-                raise TypeError(f"{question.__name__}: {one.name} asks for '{parameter}'")
+                raise TypeError(f"{question.__name__}: {part.name} asks for '{parameter}'")
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
     question.graph = Graph(
         named,
-        tuple(one.name for one in ends),
-        {name: tuple(one.name for one in of) for name, of in told.items()},
+        tuple(part.name for part in ends),
+        {
+            name: tuple(part.name for part in several_parts)
+            for name, several_parts in in_sections.items()
+        },
         without,
         together,
         widest,
@@ -473,14 +487,14 @@ def describe_keys(question: type[Question]) -> str:
     """List the keys of a question: what may be given, the default, and a sentence."""
     lines = []
     for in_table in (False, True):
-        chosen = [one for one in keys_of(question).values() if one.setting is in_table]
+        chosen = [entry for entry in keys_of(question).values() if entry.setting is in_table]
         if chosen and in_table:
             lines += ["", f"[{question.table}]"]
-        for one in chosen:
-            default = f" (default: {one.default_words})" if one.default_words else ""
-            default = " (must be given)" if one.required else default
-            lines.append(f"{one.name}: {one.kind.words}")
+        for entry in chosen:
+            default = f" (default: {entry.default_words})" if entry.default_words else ""
+            default = " (must be given)" if entry.required else default
+            lines.append(f"{entry.name}: {entry.kind.words}")
             lines += textwrap.wrap(
-                f"{one.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
+                f"{entry.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
             )
     return "\n".join(lines)

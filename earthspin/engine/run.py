@@ -213,18 +213,19 @@ def _attributes(done: Run) -> dict[str, str]:
     }
     references: list[str] = []
     for name, value in question.keys().items():
-        several = value if isinstance(value, tuple) else (value,)
-        if several and all(hasattr(one, "reference") for one in several):
-            references += [one.reference for one in several if one.reference]
-        if several and all(hasattr(one, "changes") for one in several):
-            attributes[name] = " ".join(one.name for one in several)
-            changed = [one for one in several if getattr(one, "changes", "")]
+        bodies = value if isinstance(value, tuple) else (value,)
+        if bodies and all(hasattr(body, "reference") for body in bodies):
+            references += [body.reference for body in bodies if body.reference]
+        if bodies and all(hasattr(body, "changes") for body in bodies):
+            attributes[name] = " ".join(body.name for body in bodies)
+            changed = [body for body in bodies if getattr(body, "changes", "")]
             if changed:
                 words = [
-                    one.changes if one is value else f"{one.name}: {one.changes}" for one in changed
+                    body.changes if body is value else f"{body.name}: {body.changes}"
+                    for body in changed
                 ]
                 attributes[f"{name}_changes"] = "; ".join(words)
-        elif isinstance(value, tuple) and value and all(isinstance(one, str) for one in value):
+        elif isinstance(value, tuple) and value and all(isinstance(body, str) for body in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
     attributes |= done.provenance
@@ -251,10 +252,12 @@ _PACKED = "earthspin: packed array {}"
 def _without_bytes(value: Any, packed: list[str]) -> Any:
     """A table whose packed arrays are set aside: their letters need no escaping."""
     if isinstance(value, list):
-        return [_without_bytes(one, packed) for one in value]
+        return [_without_bytes(item, packed) for item in value]
     if not isinstance(value, dict):
         return value
-    short = {name: _without_bytes(one, packed) for name, one in value.items() if name != "float64"}
+    short = {
+        name: _without_bytes(item, packed) for name, item in value.items() if name != "float64"
+    }
     if "float64" in value:
         packed.append(value["float64"])
         short["float64"] = _PACKED.format(len(packed) - 1)

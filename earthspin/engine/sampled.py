@@ -51,22 +51,22 @@ def with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
             continue
         values = sample[name]
         if MEMBER not in values.dims:
-            found, off = np.zeros(answer[name].shape), 0.0
+            width, shift = np.zeros(answer[name].shape), 0.0
         else:
             low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
-            found = (high - low) / 2
-            off = float(np.max(np.abs(middle - answer[name].values)))
+            width = (high - low) / 2
+            shift = float(np.max(np.abs(middle - answer[name].values)))
         units = answer[name].attrs.get("units", "1")
-        apart = float(np.max(np.abs(linear.values - found), initial=0.0))
+        difference = float(np.max(np.abs(linear.values - width), initial=0.0))
         attrs = {
             "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
             f"{count} members",
             "units": units,
             "members": count,
-            "difference_from_linear": f"{apart:.3g} {units} at most from {linear.name}",
-            "middle_of_the_sample": f"{off:.3g} {units} at most from {name}",
+            "difference_from_linear": f"{difference:.3g} {units} at most from {linear.name}",
+            "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
-        beside[f"{name}_error_sampled"] = (answer[name].dims, found, attrs)
+        beside[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
-    told = {"sampled": f"{count} members in {inputs}"}
-    return answer.assign(beside).assign_attrs(told)
+    summary = {"sampled": f"{count} members in {inputs}"}
+    return answer.assign(beside).assign_attrs(summary)

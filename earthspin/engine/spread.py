@@ -39,13 +39,13 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
         wanted = np.empty(0)
     if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
         raise SceneError("quantiles", shares, "give numbers between 0 and 1")
-    found = {}
-    for name, of in _members(answer, "quantiles").items():
-        values = sampling.quantiles(of.values.astype(float), wanted)
-        found[name] = (("quantile", *of.dims[1:]), values, of.attrs)
-    told = {"long_name": "share of the members below", "units": "1"}
-    labels = {"quantile": ("quantile", wanted, told)} | _other_labels(answer)
-    return xr.Dataset(found, labels, dict(answer.attrs))
+    variables = {}
+    for name, array in _members(answer, "quantiles").items():
+        values = sampling.quantiles(array.values.astype(float), wanted)
+        variables[name] = (("quantile", *array.dims[1:]), values, array.attrs)
+    attrs = {"long_name": "share of the members below", "units": "1"}
+    labels = {"quantile": ("quantile", wanted, attrs)} | _other_labels(answer)
+    return xr.Dataset(variables, labels, dict(answer.attrs))
 
 
 def sensitivity(answer: xr.Dataset) -> xr.Dataset:
@@ -64,49 +64,53 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
         If it is no ensemble, or has too few members: two more than there are inputs, an input in
         words counting for as many as there are of these, less one.
     """
-    outputs = {n: of for n, of in _members(answer, "sensitivity").items() if "_error" not in n}
+    outputs = {
+        n: array for n, array in _members(answer, "sensitivity").items() if "_error" not in n
+    }
     columns, count, needed = inputs_of(answer), answer.sizes[MEMBER], members_needed(answer)
     if count < needed:
         words = f"{len(columns)} inputs take at least {needed} members"
         raise SceneError("sensitivity", f"{count} members", words)
-    classes = [of for of in columns.values() if of.dtype.kind == "U"]
-    numbers = [of for of in columns.values() if of.dtype.kind != "U"]
+    classes = [array for array in columns.values() if array.dtype.kind == "U"]
+    numbers = [array for array in columns.values() if array.dtype.kind != "U"]
     inputs = np.stack(numbers, axis=1) if numbers else np.empty((count, 0))
     no_slope = {"no_slope": "of words there is none"} if classes else {}
-    found: dict[str, Any] = {}
-    for name, of in outputs.items():
-        told = sampling.shares_of_variance(inputs, of.values.astype(float), classes)
-        what, rest = of.attrs.get("long_name", name), of.dims[1:]
-        slope_units = f"{of.attrs.get('units', '1')} per unit of the input"
+    variables: dict[str, Any] = {}
+    for name, array in outputs.items():
+        shares = sampling.shares_of_variance(inputs, array.values.astype(float), classes)
+        what, rest = array.attrs.get("long_name", name), array.dims[1:]
+        slope_units = f"{array.attrs.get('units', '1')} per unit of the input"
         for ending, values, dims, words, units in (
-            ("slope", told.slope, ("input", *rest), "change per unit of the input", slope_units),
-            ("share", told.share, ("input", *rest), "share of the variance", "1"),
-            ("unexplained", told.unexplained, rest, "share that straight lines leave", "1"),
+            ("slope", shares.slope, ("input", *rest), "change per unit of the input", slope_units),
+            ("share", shares.share, ("input", *rest), "share of the variance", "1"),
+            ("unexplained", shares.unexplained, rest, "share that straight lines leave", "1"),
         ):
             attrs = {"long_name": f"{words}, of the {what}", "units": units}
             attrs |= no_slope if ending == "slope" else {}
-            found[f"{name}_{ending}"] = (dims, values, attrs)
+            variables[f"{name}_{ending}"] = (dims, values, attrs)
     labels = {"input": ("input", [*columns], {"long_name": "what differs"})}
-    return xr.Dataset(found, labels | _other_labels(answer), dict(answer.attrs))
+    return xr.Dataset(variables, labels | _other_labels(answer), dict(answer.attrs))
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
     """What differs among members, by name: a column for each number, then words."""
-    given = [of for of in answer.coords.values() if "input" in of.attrs]
+    inputs = [array for array in answer.coords.values() if "input" in array.attrs]
     numbers = {
-        f"{of.attrs['input']}{'' if of.ndim == 1 else f'.{k}'}": column
-        for of in given
-        if of.dtype.kind in "fiu"
-        for k, column in enumerate(of.values.reshape(of.sizes[MEMBER], -1).T)
+        f"{array.attrs['input']}{'' if array.ndim == 1 else f'.{k}'}": column
+        for array in inputs
+        if array.dtype.kind in "fiu"
+        for k, column in enumerate(array.values.reshape(array.sizes[MEMBER], -1).T)
     }
-    words = {str(of.attrs["input"]): of for of in given if of.dtype.kind not in "fiu"}
-    return numbers | {name: of.values.astype(str) for name, of in words.items()}
+    words = {str(array.attrs["input"]): array for array in inputs if array.dtype.kind not in "fiu"}
+    return numbers | {name: array.values.astype(str) for name, array in words.items()}
 
 
 def members_needed(answer: xr.Dataset) -> int:
     """Fewest members of an ensemble from which shares of its inputs follow."""
     columns = inputs_of(answer).values()
-    return 2 + sum(len(np.unique(of)) - 1 if of.dtype.kind == "U" else 1 for of in columns)
+    return 2 + sum(
+        len(np.unique(column)) - 1 if column.dtype.kind == "U" else 1 for column in columns
+    )
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
@@ -115,11 +119,11 @@ def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
         words = "it is no ensemble; earthspin.ensemble makes one"
         raise SceneError(what, answer.attrs.get("title", "a Dataset"), words)
     return {
-        str(name): of.transpose(MEMBER, ...)
-        for name, of in answer.data_vars.items()
-        if MEMBER in of.dims and of.dtype.kind in "fiu"
+        str(name): array.transpose(MEMBER, ...)
+        for name, array in answer.data_vars.items()
+        if MEMBER in array.dims and array.dtype.kind in "fiu"
     }
 
 
 def _other_labels(answer: xr.Dataset) -> dict[Any, Any]:
-    return {name: of for name, of in answer.coords.items() if MEMBER not in of.dims}
+    return {name: array for name, array in answer.coords.items() if MEMBER not in array.dims}

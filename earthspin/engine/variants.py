@@ -98,9 +98,9 @@ class Variants:
     def provenance(self, every: Iterable[Words]) -> dict[str, str]:
         """Where the numbers of each come from, by name and words."""
         return {
-            f"{name} of {', '.join(words)}" if words else name: of
+            f"{name} of {', '.join(words)}" if words else name: source
             for words in every
-            for name, of in self._description(words).provenance.items()
+            for name, source in self._description(words).provenance.items()
         }
 
     def attributes(self, every: Iterable[Words]) -> dict[str, Any]:
@@ -109,22 +109,28 @@ class Variants:
 
     def describe(self, answer: xr.Dataset, every: Iterable[Words]) -> xr.Dataset:
         """Give variables the attributes of all; where they differ, each with its words."""
-        told = {words: self._description(words).of_variables for words in every}
+        attributes = {words: self._description(words).of_variables for words in every}
         described = answer.copy()
         for name in described.variables:
-            own = {words: of[str(name)] for words, of in told.items() if str(name) in of}
-            if len(own) > 1:
-                described[name].attrs = _joined(own)
+            differing = {
+                words: variables[str(name)]
+                for words, variables in attributes.items()
+                if str(name) in variables
+            }
+            if len(differing) > 1:
+                described[name].attrs = _joined(differing)
         return described
 
 
-def _joined(told: Mapping[Words, Mapping[str, Any]]) -> dict[str, Any]:
+def _joined(attributes: Mapping[Words, Mapping[str, Any]]) -> dict[str, Any]:
     """Attributes that all share; of words that differ all, and of numbers that do none."""
     joined: dict[str, Any] = {}
-    for name in dict.fromkeys(name for of in told.values() for name in of):
-        values = {words: of[name] for words, of in told.items() if name in of}
-        if len(values) == len(told) and len(set(map(repr, values.values()))) == 1:
+    for name in dict.fromkeys(name for entry in attributes.values() for name in entry):
+        values = {words: entry[name] for words, entry in attributes.items() if name in entry}
+        if len(values) == len(attributes) and len(set(map(repr, values.values()))) == 1:
             joined[name] = next(iter(values.values()))
-        elif all(isinstance(one, str) for one in values.values()):
-            joined[name] = "; ".join(f"{', '.join(words)}: {one}" for words, one in values.items())
+        elif all(isinstance(value, str) for value in values.values()):
+            joined[name] = "; ".join(
+                f"{', '.join(words)}: {value}" for words, value in values.items()
+            )
     return joined

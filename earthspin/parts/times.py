@@ -14,7 +14,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, in_bytes
-from earthspin.parts.sky import Pulled
+from earthspin.parts.sky import PerturbedBody
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
 from earthspin.units import FloatArray, Numbers
 
@@ -25,7 +25,7 @@ Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 DATES = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
 
 
-class Series(Pulled):
+class Series(PerturbedBody):
     """Keys of every question that is answered at many dates."""
 
     exclusive = (("times",), ("span", "step"))

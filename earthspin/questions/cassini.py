@@ -11,12 +11,12 @@ import numpy as np
 from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
 from earthspin.bodies.limits import refuse_break_up, refuse_fast_axis
 from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
-from earthspin.bodies.orbit import Orbit, OrbitTable
+from earthspin.bodies.orbit import Orbit
 from earthspin.constants import NORMAL_95
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.parts.elements import refuse_overlap, size_and_motion
@@ -55,7 +55,7 @@ class CassiniStates(
     views, page = "cassini_states", "frames"
 
     body: Body = key(MOON, doc="body whose axis it is")
-    orbit: Annotated[Orbit | None, OrbitTable()] = key(
+    orbit: Annotated[Orbit | None, Orbit] = key(
         None,
         doc="its orbit, with a period of the node; if not given, the body's own, or the mean one "
         "of a moon and of Mercury",
@@ -201,11 +201,11 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     )
 
 
-made_of(
+define_parts(
     CassiniStates,
     answer=states,
     sections={"neglected": neglected},
     parts=(own_orbit, locking),
 )
 
-cassini_states = ask(CassiniStates)
+cassini_states = public_call(CassiniStates)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.limits import refuse_break_up
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
@@ -60,7 +60,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
 class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
     """Compliances, ellipticities and coupling numbers of a body."""
 
-    number_value: Value = number("1", "number of the body, in units of its moments")
+    number_value: Value = number("1", "number of the body, in units of its moments", short="value")
     number: Labels = labels()
 
 
@@ -98,6 +98,7 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
         "d",
         "period of a free mode of the elastic body: of a nutation in space, negative if "
         "retrograde; else in the body",
+        short="period",
     )
     free_mode: Labels = labels()
 
@@ -120,11 +121,11 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity in the answers, about one per cent")
 
 
-made_of(
+define_parts(
     Compliances,
     answer=numbers,
     sections={"published": published, "modes": modes, "neglected": neglected},
     parts=(layers,),
 )
 
-compliances = ask(Compliances)
+compliances = public_call(Compliances)

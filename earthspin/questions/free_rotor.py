@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.choosing.promises import Report
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
 from earthspin.parts.reasons import no_accuracy
@@ -137,7 +137,9 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
         "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
     )
     attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
-    energy: Value = number("J", "kinetic energy of rotation", along=("time",))
+    energy: Value = number(
+        "J", "kinetic energy of rotation", along=("time",), short="kinetic energy"
+    )
     relative_error: Value = number(
         "1",
         "95 % half-width of each quantity relative to its largest value, for exact inputs",
@@ -193,9 +195,14 @@ class Poinsot(
         "path of the angular velocity in the body",
         along=("polhode_point", "component"),
     )
-    polhode_period: Value = number("s", "period of the polhode", along=())
+    polhode_period: Value = number(
+        "s", "period of the polhode", along=(), short="period of the polhode"
+    )
     invariable_plane_distance: Value = number(
-        "rad/s", "distance of the invariable plane from the centre, 2T/L", along=()
+        "rad/s",
+        "distance of the invariable plane from the centre, 2T/L",
+        along=(),
+        short="distance of the invariable plane",
     )
     herpolhode: Value = number(
         "rad/s",
@@ -257,7 +264,7 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 
-made_of(
+define_parts(
     FreeRotor,
     answer=(free_rotation, rotation_accuracy),
     sections={"poinsot": poinsot, "neglected": neglected},
@@ -266,4 +273,4 @@ made_of(
     widest=4096,
 )
 
-free_rotor = ask(FreeRotor)
+free_rotor = public_call(FreeRotor)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import Where
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
@@ -22,7 +22,7 @@ from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.sky import Pulled, Sky, Stretch, places, sky
+from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
 from earthspin.secular.angles import equator_and_equinox, leaning
@@ -45,7 +45,9 @@ Factor = Annotated[float, Number("", "1.0", low=-10.0, high=10.0)]
 Shift = Annotated[float, Number("rad", "0.1 deg")]
 
 
-class LongTerm(Pulled, word="long-term", call="long_term", positional=("start", "stop", "step")):
+class LongTerm(
+    PerturbedBody, word="long-term", call="long_term", positional=("start", "stop", "step")
+):
     """Obliquity, precession and eccentricity from the averaged torque on a changing orbit.
 
     The spin axis starts at J2000.0 from the mean pole of the body, without nutation. Errors need
@@ -188,7 +190,7 @@ def numbers(
     return SideBySide.of(
         **{
             name: of_one(mean_rates.rate.value, place)
-            for place, name in enumerate(mean_rates.labels)
+            for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
         published=_published() * as_published,
@@ -355,7 +357,7 @@ class LongTermSeries(FromStart, along=("epoch",)):
         along=("perturber", "epoch"),
     )
     precession_period: Pair = measured(
-        "yr", "period of one full turn at that rate", along=("perturber", "epoch")
+        "yr", "period of one full turn at that rate", along=("perturber", "epoch"), short="period"
     )
     epoch: Labels = labels("Julian years from J2000.0 (TDB)", "yr")
     component: Labels = labels(default=["x", "y", "z"])
@@ -380,7 +382,7 @@ def series(
     accuracy: float | None,
 ) -> LongTermSeries:
     """Angles, eccentricity, poles and rates at every epoch, each with its error."""
-    mine, lay = readings.mine, numbers.lay
+    nominal, lay = readings.mine, numbers.lay
     pole_error = readings.direction_half_width("pole")
     refuse_unkept(
         accuracy,
@@ -390,19 +392,19 @@ def series(
     )
     with_moon = solved.setting.strength.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
-    rate = np.stack([mine.values[name] for name in names], axis=-2)
+    rate = np.stack([nominal.values[name] for name in names], axis=-2)
     error = np.stack([readings.half_width(name) for name in names], axis=-2)
     window = np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR
 
     return (
         LongTermSeries(
             **{
-                name: numbers.lay_pair(mine.values[name], readings.half_width(name), "epoch")
+                name: numbers.lay_pair(nominal.values[name], readings.half_width(name), "epoch")
                 for name in _READ
             },
-            pole=lay(np.moveaxis(mine.pole, 0, -1), "epoch", "component"),
+            pole=lay(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
             pole_error=lay(pole_error, "epoch"),
-            ecliptic_pole=lay(mine.normal.T, "epoch", "component"),
+            ecliptic_pole=lay(nominal.normal.T, "epoch", "component"),
             ecliptic_pole_error=lay(readings.direction_half_width("normal"), "epoch"),
             precession_rate=numbers.lay_pair(rate, error, "perturber", "epoch"),
             precession_period=numbers.lay_pair(
@@ -511,7 +513,7 @@ def neglected() -> Neglected:
     )
 
 
-made_of(
+define_parts(
     LongTerm,
     answer=(series, long_term_accuracy),
     sections={"budget": budget, "matrices": matrices, "neglected": neglected},
@@ -527,4 +529,4 @@ made_of(
     widest=64,
 )  # fmt: skip
 
-long_term = ask(LongTerm)
+long_term = public_call(LongTerm)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of
+from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.layers import LayeredBody
@@ -82,9 +82,11 @@ def _numbers(response: Yielding) -> NDArray[np.complex128]:
 class Love(Variables, along=("love",), no_error=FROM_LAYERS):
     """Love numbers at one period."""
 
-    love_number: Value = number("1", "Love number of degree two")
+    love_number: Value = number("1", "Love number of degree two", short="real part")
     love_number_imaginary: Value = number(
-        "1", "imaginary part of the Love number, negative where the body lags"
+        "1",
+        "imaginary part of the Love number, negative where the body lags",
+        short="imaginary part",
     )
     love: Labels = labels(default=list(_FIELDS))
 
@@ -153,11 +155,11 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-made_of(
+define_parts(
     LoveNumbers,
     answer=love,
     sections={"published": published, "by_period": by_period, "neglected": neglected},
     parts=(layers,),
 )
 
-love_numbers = ask(LoveNumbers)
+love_numbers = public_call(LoveNumbers)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of, setting
+from earthspin.engine.question import define_parts, key, setting
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -30,15 +30,15 @@ from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.rotation import mode_period
 from earthspin.nutation import ladder
 from earthspin.parts.path import (
-    Analysed,
+    PoleComparison,
     iau_nutation,
     path_over,
     pole_analysis,
     residual_error,
-    rigid,
+    steady_figure,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import Moved, Pulls, pulls
+from earthspin.parts.pulls import AxisMotion, Pulls, pulls
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
@@ -49,7 +49,7 @@ LARGEST = 12
 
 
 class NutationLadder(
-    Moved,
+    AxisMotion,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -114,7 +114,7 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 
 @dataclass(frozen=True)
-class Left:
+class RungResiduals:
     """What is left of each model against IAU 2000A, a constant and a rate removed.
 
     Attributes
@@ -138,21 +138,21 @@ class Left:
 
 @part
 def left(
-    pole_analysis: Analysed,
+    pole_analysis: PoleComparison,
     models: Prediction,
     pulls: Pulls,
     epochs: TimeGrid | TimeList,
     body: Body,
     effects: tuple[str, ...],
-) -> Left:
+) -> RungResiduals:
     """Computed pole with the response of each rung minus the IAU's, in time."""
     from earthspin.nutation.nutation import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(body, pulls, rigid(effects), done.start, ends)
-    own = complex_nutation(iau.nutation_of(done.pole(path, days), days))
+    path = path_over(body, pulls, effects, done.start, ends)
+    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
@@ -167,7 +167,7 @@ def left(
             angles = np.stack([eta.real, eta.imag], axis=1)
             series[name] = without_line(days / DAYS_PER_CENTURY, angles)
             advance(1)
-    return Left(days, series, residual_error(done, body, theirs))
+    return RungResiduals(days, series, residual_error(done, body, theirs))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -180,15 +180,17 @@ _ADDS = "what the model adds, or what it is"
 class RungSizes(Variables, along=("rung",), error="rms_error"):
     """Differences from IAU 2000A, rung by rung."""
 
-    rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
-    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    rms_dpsi_sineps: Value = number(
+        "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
+    )
+    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     rms_error: Value = number("mas", _RMS_ERROR, along=())
-    adds: Value = words(_ADDS)
+    adds: Value = words(_ADDS, short="what it adds")
     rung: Labels = labels()
 
 
 @part
-def rung_sizes(left: Left, models: Prediction) -> RungSizes:
+def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
     """What is left against IAU 2000A, rung by rung."""
     names = models.ladder
     longitude, obliquity = left.rms(names)
@@ -204,15 +206,17 @@ def rung_sizes(left: Left, models: Prediction) -> RungSizes:
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     """Differences from IAU 2000A of the models beside the ladder."""
 
-    model_rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
-    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    model_rms_dpsi_sineps: Value = number(
+        "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
+    )
+    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     model_rms_error: Value = number("mas", _RMS_ERROR, along=())
-    model_adds: Value = words(_ADDS)
+    model_adds: Value = words(_ADDS, short="what it adds")
     model: Labels = labels()
 
 
 @part
-def beside(left: Left) -> ModelSizes:
+def beside(left: RungResiduals) -> ModelSizes:
     """The same of two models beside the ladder."""
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
@@ -250,7 +254,7 @@ class Terms(Variables, along=("term",)):
 
 
 @part
-def terms(pole_analysis: Analysed, models: Prediction) -> Terms:
+def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     """The largest circular terms of each rung, in phase and out of phase."""
     from earthspin.nutation.neighbours import amplitude_error
     from earthspin.nutation.nutation import phases, term_names
@@ -276,15 +280,18 @@ def terms(pole_analysis: Analysed, models: Prediction) -> Terms:
 class Modes(Variables, along=("mode",)):
     """Free modes of the rungs."""
 
-    mode_rung: Value = words("rung that has the mode")
-    mode_name: Value = words("name of the mode")
+    mode_rung: Value = words("rung that has the mode", short="rung")
+    mode_name: Value = words("name of the mode", short="mode")
     mode_period: Pair = measured(
-        "d", "period: of a nutation in space, negative if retrograde; else in the body"
+        "d",
+        "period: of a nutation in space, negative if retrograde; else in the body",
+        short="period",
     )
     mode_quality: Value = number(
         "1",
         "quality factor of the mode; infinite where nothing is lost",
         no_error="it follows from published quality factors, which have none",
+        short="Q",
     )
     mode: Labels = labels()
 
@@ -349,7 +356,7 @@ class Residuals(Dated, along=("time", "rung"), error="residual_error"):
 
 
 @part
-def residuals(left: Left, models: Prediction) -> Residuals:
+def residuals(left: RungResiduals, models: Prediction) -> Residuals:
     """Predicted pole minus the IAU's in time, rung by rung."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
     return Residuals(
@@ -368,7 +375,7 @@ class Compliances(
 ):
     """Compliances of the elastic body."""
 
-    compliance: Value = number("1", "answer of a part to a wobble of size 1")
+    compliance: Value = number("1", "answer of a part to a wobble of size 1", short="value")
     compliance_name: Labels = labels()
 
 
@@ -388,7 +395,7 @@ def neglected() -> Neglected:
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 
-made_of(
+define_parts(
     NutationLadder,
     answer=rung_sizes,
     sections={
@@ -403,4 +410,4 @@ made_of(
     parts=(places, sky, pulls, epochs, pole_analysis, models, left),
 )
 
-nutation_ladder = ask(NutationLadder)
+nutation_ladder = public_call(NutationLadder)

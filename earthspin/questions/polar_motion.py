@@ -14,18 +14,17 @@ from numpy.typing import NDArray
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.labels import si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
-from earthspin.text import Text
 from earthspin.units import (
     Days,
     FilePath,
@@ -33,6 +32,7 @@ from earthspin.units import (
     Number,
     Numbers,
     Several,
+    Text,
     Word,
     kind_of,
 )
@@ -175,11 +175,9 @@ class FreeWobble(
 ):
     """The free wobble in a polar motion, and the annual wobble and mean pole beside it."""
 
-    chandler_period: Pair = measured("d", "period of the free wobble", along=())
+    chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
     chandler_amplitude: Pair = measured(
-        "mas",
-        "amplitude of the free wobble",
-        cell_methods="middle: mean (one beat of the wobbles)",
+        "mas", "amplitude of the free wobble", cell_methods="middle: mean (one beat of the wobbles)"
     )
     chandler_phase: Value = number(
         "deg", "phase of the free wobble against a steady one of its period"
@@ -353,14 +351,14 @@ def neglected() -> Neglected:
     )
 
 
-made_of(
+define_parts(
     PolarMotion,
     answer=observed_pole,
     sections={"chandler": chandler, "spectrum": spectrum, "neglected": neglected},
     parts=(pole_table,),
 )
 
-polar_motion = ask(PolarMotion)
+polar_motion = public_call(PolarMotion)
 
 
 # --- calls on labelled series --------------------------------------------------------------------

@@ -10,17 +10,17 @@ from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
-from earthspin.motion.axes import AXES
+from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
-    Largest,
+    LargestError,
     Shift,
     Turns,
     axis_path,
@@ -33,7 +33,7 @@ from earthspin.parts.path import (
     turns_of,
 )
 from earthspin.parts.predicted import SOURCES, no_layers, prediction
-from earthspin.parts.pulls import Moved, Pulls, pulls, start_error, start_note
+from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
 from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
@@ -42,10 +42,8 @@ from earthspin.units import AngleError, FloatArray
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.motion.axes import AxisPath
 
-
-class Pole(Moved, word="pole", call="pole", positional=("start", "stop", "step")):
+class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the axes under the torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
@@ -176,7 +174,7 @@ def axes(
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
-    largest_error: Largest | None = None,
+    largest_error: LargestError | None = None,
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
@@ -293,7 +291,7 @@ class DirectionAccuracy(Report, units="uas", error_of="in direction"):
 
 @part(unless=no_accuracy)
 def pole_accuracy(
-    axes: xr.Dataset, largest_error: Largest, accuracy: float | None
+    axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
     """Accuracy of the pole: asked, estimated, and the method chosen."""
     by = axes.direction_error.attrs
@@ -316,14 +314,14 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
         return Neglected({"start": half}, "mas", what)
     reach = max(abs(day) for day in epochs.span())
     return Neglected(
-        {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},
+        {name: effect.size_at(reach) for name, effect in EFFECTS.items() if name not in effects},
         "mas",
         "largest change of direction that the model leaves out",
         SOURCE,
     )
 
 
-made_of(
+define_parts(
     Pole,
     answer=(axes, response_error, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
@@ -334,4 +332,4 @@ made_of(
     ),
 )  # fmt: skip
 
-pole = ask(Pole)
+pole = public_call(Pole)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,10 +10,10 @@ from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -28,6 +26,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
+from earthspin.numerics.estimate import Estimate
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
@@ -41,22 +40,19 @@ from earthspin.parts.reasons import (
     not_sun_and_moon,
     not_the_iaus_earth,
 )
-from earthspin.parts.sky import SOURCE_DOC, Pulled, Sky, Stretch, places, sky, stretch
+from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
 from earthspin.units import Relative
 
-if TYPE_CHECKING:
-    from earthspin.numerics.estimate import Estimate
-
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
 MODELS = ("mccullough", "homogeneous", "measured")
 
 
-class Precession(Pulled, word="precession", call="precession"):
+class Precession(PerturbedBody, word="precession", call="precession"):
     """Rate and period of precession from torques averaged over orbits (I.8).
 
     Returns
@@ -114,13 +110,13 @@ def _check_accuracy(asked: float | None, rate: Estimate) -> None:
         return
     if not all_of(of_all(rate.value) != 0):
         raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, given, best = (
+    method, by_input, best = (
         float((of_all(share) / abs(of_all(rate.value))).max())
         for share in (rate.method, rate.given, rate.error)
     )
     remedy = (
-        f"the given numbers are known to {given:.2g}: give the body a better known H"
-        if given > method
+        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
+        if by_input > method
         else f"the average is known to {method:.2g}: give a longer span"
     )
     refuse_unkept(asked, best, "1", remedy)
@@ -136,9 +132,12 @@ class Rates(Variables, along=("perturber",)):
         "arcsec/yr",
         "rate of precession in longitude along the fixed orbit",
         split=True,
+        short="rate",
         cell_methods=_OVER_WINDOW,
     )
-    precession_period: Pair = measured("yr", "period of one full turn of precession")
+    precession_period: Pair = measured(
+        "yr", "period of one full turn of precession", short="period"
+    )
     rate_ratio: Value = number(
         "1",
         "ratio of the rate to that of the first perturber",
@@ -168,17 +167,17 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         mean_torque=mean_rates.torque,
         obliquity=mean_torques.obliquity,
         reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
-        perturber=mean_rates.labels,
+        perturber=mean_torques.labels,
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         precession_rate={
             "window": mean_torques.over,
             "pole": str(body.needed("pole")),
             "plane": _plane(body),
         },
         precession_rate_error={
-            "method": mean_rates.method,
-            "evaluations": mean_rates.evaluations,
+            "method": mean_torques.method,
+            "evaluations": mean_torques.evaluations,
         },
     )
 
@@ -202,8 +201,8 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy
     return RateAccuracy(
         error_asked=accuracy,
         error_estimated=float((error / abs(rate)).max()),
-        method_chosen=mean_rates.method,
-        evaluations=mean_rates.evaluations,
+        method_chosen=mean_rates.means.method,
+        evaluations=mean_rates.means.evaluations,
     )
 
 
@@ -214,9 +213,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     """Rate against the length of the averaging window."""
 
     rate_by_window: Value = number(
-        "arcsec/yr",
-        "rate of precession by all perturbers",
-        along=("window", "window_cycles"),
+        "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
     window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
     window: Labels = labels()
@@ -258,11 +255,15 @@ def no_figure(body: Body) -> str | None:
 class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
     """Models of the figure, and what follows from them."""
 
-    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", along=("earth_model",))
-    period_by_model: Value = number(
-        "yr", "period of one full turn of precession", along=("earth_model",)
+    h_by_model: Value = number(
+        "1", "dynamical flattening (C - A)/C", along=("earth_model",), short="H = (C-A)/C"
     )
-    wobble_by_model: Value = number("d", "period of the rigid free wobble", along=("earth_model",))
+    period_by_model: Value = number(
+        "yr", "period of one full turn of precession", along=("earth_model",), short="precession"
+    )
+    wobble_by_model: Value = number(
+        "d", "period of the rigid free wobble", along=("earth_model",), short="wobble"
+    )
     moment_difference: Value = number("kg m2", "C - A from J2")
     polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
     j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
@@ -331,7 +332,9 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
         "arcsec/yr",
         "general precession in longitude: motion of the equinox along the moving ecliptic",
     )
-    general_precession_period: Pair = measured("yr", "period of one full turn of the equinox")
+    general_precession_period: Pair = measured(
+        "yr", "period of one full turn of the equinox", short="period"
+    )
     time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
     tropical_year: Value = number("d", "tropical year, the period of the seasons")
     time_per_day_of_drift: Value = number(
@@ -373,7 +376,7 @@ def seasons(
             year, calendar.GREGORIAN_YEAR
         ),
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         general_precession={
             "effects": f"torques of Sun and Moon alone; no published effects apply: {another}"
             if another
@@ -407,14 +410,16 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
         closure=(closure(rate, iau_rate), error),
-    ).with_attributes(no_error=mean_rates.no_error)
+    ).with_attributes(no_error=mean_torques.no_error)
 
 
 class Standstills(Variables, along=("standstill",)):
     """Standstills of the Moon."""
 
-    standstill_kind: Value = words("major or minor")
-    standstill_declination: Pair = measured("deg", "extreme declination, mean equator of date")
+    standstill_kind: Value = words("major or minor", short="kind")
+    standstill_declination: Pair = measured(
+        "deg", "extreme declination, mean equator of date", short="extreme declination"
+    )
     standstill: Labels = labels("day of the extreme declination (TDB)")
 
 
@@ -463,7 +468,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     )
 
 
-made_of(
+define_parts(
     Precession,
     answer=(precession_rates, rate_accuracy),
     sections={
@@ -480,4 +485,4 @@ made_of(
     widest=16384,
 )
 
-precession = ask(Precession)
+precession = public_call(Precession)

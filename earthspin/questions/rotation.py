@@ -14,10 +14,10 @@ from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.inertia import polar_moment
@@ -37,7 +37,7 @@ from earthspin.motion.rotation import (
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
-    Moved,
+    AxisMotion,
     Pulls,
     figure_of,
     forces_of,
@@ -64,7 +64,7 @@ _LENGTH = 1e-6
 SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
-class Rotation(Moved, word="rotation", call="rotation", positional=("start", "stop", "step")):
+class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
     """Attitude, spin and angular momentum of a rigid body, nothing averaged (I.2, I.4, I.9.34).
 
     Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
@@ -357,6 +357,7 @@ class Attitudes(Dated, along=("time", "component")):
         "unit quaternion, body to ICRF",
         along=("time", "quaternion"),
         error="attitude_error",
+        short="quaternion, body to ICRF",
     )
     attitude_error: Value = _error("deg", "the angle of the attitude")
     attitude_error_method: Value = _share("deg", "attitude", "method")
@@ -366,6 +367,7 @@ class Attitudes(Dated, along=("time", "component")):
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
+        short="spin in the body",
     )
     omega_error: Value = _error("rad/s", "the angular velocity")
     omega_error_method: Value = _share("rad/s", "omega", "method")
@@ -570,11 +572,11 @@ def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, 
     return [name for name, would in moves.items() if would and name not in effects and perturbers]
 
 
-made_of(
+define_parts(
     Rotation,
     answer=(turning, rotation_accuracy),
     sections={"divergence": divergence, "neglected": neglected},
     parts=(places, sky, epochs, pulls, pulling, rotor, motion, parting),
 )
 
-rotation = ask(Rotation)
+rotation = public_call(Rotation)

@@ -8,10 +8,10 @@ import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.choosing.promises import Report
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
@@ -140,7 +140,7 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
     )
 
 
-made_of(
+define_parts(
     Spheroid,
     answer=(field, field_accuracy),
     sections={"neglected": neglected},
@@ -148,4 +148,4 @@ made_of(
     widest=16_384,
 )
 
-spheroid_field = ask(Spheroid)
+spheroid_field = public_call(Spheroid)

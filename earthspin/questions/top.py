@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.choosing.promises import Report
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
@@ -148,9 +148,14 @@ class Motion(FromStart, error="relative_error"):
     )
     pattern: Value = words("wave, cusp, loop, steady or sleeping", along=())
     nutation_period: Value = number(
-        "s", "period of the nutation, the oscillation of theta", along=()
+        "s",
+        "period of the nutation, the oscillation of theta",
+        along=(),
+        short="period of nutation",
     )
-    mean_precession_rate: Value = number("rad/s", "mean rate of phi", along=())
+    mean_precession_rate: Value = number(
+        "rad/s", "mean rate of phi", along=(), short="mean precession"
+    )
     relative_error: Value = number(
         "1",
         "95 % half-width of theta relative to itself, of the others relative to their largest "
@@ -247,7 +252,7 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 
-made_of(
+define_parts(
     Top,
     answer=(euler_angles, top_accuracy),
     sections={"turning": turning, "potential": potential, "neglected": neglected},
@@ -256,4 +261,4 @@ made_of(
     widest=4096,
 )
 
-heavy_top = ask(Top)
+heavy_top = public_call(Top)

@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.choosing.choice import Choice
+from earthspin.choosing.nutation import NutationNodes
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import key, made_of
+from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
@@ -28,8 +30,6 @@ from earthspin.units import AngleError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.choosing.choice import Choice
-    from earthspin.choosing.nutation import NutationNodes
     from earthspin.sky.iau import Nutation
 
 
@@ -233,7 +233,7 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 
-made_of(
+define_parts(
     Torque,
     answer=(torques, series_accuracy),
     sections={"neglected": neglected},
@@ -242,4 +242,4 @@ made_of(
     widest=256,
 )
 
-torque_series = ask(Torque)
+torque_series = public_call(Torque)

@@ -14,10 +14,10 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.constants import DAY
-from earthspin.engine.asking import ask
+from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, made_of, setting
+from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -180,7 +180,9 @@ class Rungs(
 
     period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
     period_sidereal: Value = number(
-        "1", "period of the free wobble in turns of the body, its sidereal days"
+        "1",
+        "period of the free wobble in turns of the body, its sidereal days",
+        short="sidereal days",
     )
     factor: Value = number("1", "ratio of the period to that of the rung before")
     quality_factor: Value = number(
@@ -188,6 +190,7 @@ class Rungs(
         "quality factor of the free wobble",
         comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
         "so the anelastic rung is a check of consistency, not a prediction",
+        short="Q",
     )
     rung_formula: Value = words("formula for the turns of the body per wobble, with its source")
 
@@ -407,7 +410,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     )
 
 
-made_of(
+define_parts(
     Wobble,
     answer=wobble_rungs,
     sections={
@@ -423,4 +426,4 @@ made_of(
     widest=1024,
 )
 
-wobble_ladder = ask(Wobble)
+wobble_ladder = public_call(Wobble)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import SeriesError, nearest
-from earthspin.sky.columns import check_calendar, is_number, lines_of, numbers, refuse_text_between
+from earthspin.sky.columns import check_calendar, lines_of, numbers, refuse_text_between, rows_of
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -119,11 +119,11 @@ def read_angular_momentum(
         If a file cannot be used; it names the line.
     """
     files = _files(paths, components)
-    joined = [_joined(of) for of in files.values()]
+    joined = [_joined(group) for group in files.values()]
     parts = [part.daily() for part in joined] if daily else joined
     first, last = max(p.mjd[0] for p in parts), min(p.mjd[-1] for p in parts)
     together = [_between(part, first, last) for part in parts]
-    mjd, names = together[0].mjd, ", ".join(str(of[0]) for of in files.values())
+    mjd, names = together[0].mjd, ", ".join(str(group[0]) for group in files.values())
     if any(p.mjd.size != mjd.size or np.any(abs(p.mjd - mjd) > SAME_TIME) for p in together):
         raise SeriesError(names, "the components have different dates", "average them: daily=True")
     if mjd.size < 2:
@@ -141,30 +141,31 @@ def _files(
     paths: str | Path | Sequence[str | Path], components: Iterable[str] | None
 ) -> dict[str, list[Path]]:
     """Files of each component."""
-    given = [paths] if isinstance(paths, (str, Path)) else list(paths)
-    found: dict[str, list[Path]] = {}
-    for path in map(Path, given):
+    folders = [paths] if isinstance(paths, (str, Path)) else list(paths)
+    names = ", ".join(map(str, folders))
+    files: dict[str, list[Path]] = {}
+    for path in map(Path, folders):
         # os.path.isdir is false for a name that is too long, where Path.is_dir raises an error
         for file in sorted(path.iterdir()) if os.path.isdir(path) else [path]:
             # SLAM holds no other; AAM is looked for in the name alone, not in the folder's.
             name = next((word for word in COMPONENTS if word in file.name.upper()), "")
-            found.setdefault(name, []).append(file)
-    if not found:
-        raise SeriesError(", ".join(map(str, given)), "there is no file")
+            files.setdefault(name, []).append(file)
+    if not files:
+        raise SeriesError(names, "there is no file")
     if components is None:
-        if len(found) > 1 and "" in found:
+        if len(files) > 1 and "" in files:
             problem = "its name does not tell its component"
-            raise SeriesError(found[""][0], problem, f"names hold one of {', '.join(COMPONENTS)}")
-        return found
-    wanted = list(components)
-    if not wanted:
-        words = f"give one or more of {', '.join(COMPONENTS)}"
-        raise SeriesError(", ".join(map(str, given)), "no component is named", words)
-    for word in wanted:
-        if word not in found:
-            remedy = nearest(word, found) if any(found) else "names of files do not tell components"
-            raise SeriesError(", ".join(map(str, given)), f"there is no component {word!r}", remedy)
-    return {word: found[word] for word in wanted}
+            raise SeriesError(files[""][0], problem, f"names hold one of {', '.join(COMPONENTS)}")
+        return files
+    chosen = list(components)
+    if not chosen:
+        remedy = f"give one or more of {', '.join(COMPONENTS)}"
+        raise SeriesError(names, "no component is named", remedy)
+    for word in chosen:
+        if word not in files:
+            remedy = nearest(word, files) if any(files) else "names of files do not tell components"
+            raise SeriesError(names, f"there is no component {word!r}", remedy)
+    return {word: files[word] for word in chosen}
 
 
 def _joined(files: list[Path]) -> AngularMomentum:
@@ -172,26 +173,26 @@ def _joined(files: list[Path]) -> AngularMomentum:
     rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
-    kept = rows[:1]
+    unique = rows[:1]
     for row in rows[1:]:
-        last = kept[-1]
+        last = unique[-1]
         if row.mjd > last.mjd + SAME_TIME:
-            kept.append(row)
+            unique.append(row)
         elif (row.mass, row.motion) != (last.mass, last.motion):
             problem = (
                 f"MJD {row.mjd:.3f} stands twice, in line {last.line} of '{last.file.name}' with "
                 "other numbers"
             )
             raise SeriesError(row.file, problem, "keep one of them", row.line)
-    mjd = np.array([row.mjd for row in kept])
+    mjd = np.array([row.mjd for row in unique])
     steps = np.diff(mjd)
     uneven = abs(steps - np.median(steps)) > SAME_TIME
     if np.any(uneven):
-        bad = kept[int(np.argmax(uneven)) + 1]
+        bad = unique[int(np.argmax(uneven)) + 1]
         problem = f"the step changes before MJD {bad.mjd:.3f}"
         raise SeriesError(bad.file, problem, "even steps are needed; is a file missing?", bad.line)
     return AngularMomentum(
-        mjd, np.array([row.mass for row in kept]), np.array([row.motion for row in kept])
+        mjd, np.array([row.mass for row in unique]), np.array([row.motion for row in unique])
     )
 
 
@@ -199,10 +200,7 @@ def _rows(file: Path) -> Iterable[_Row]:
     """Rows of one file; lines above them that do not start with a number are comments."""
     last, lines = -math.inf, lines_of(file)
     refuse_text_between(file, lines)
-    for number, line in enumerate(lines, start=1):
-        words = line.split()
-        if not words or not is_number(words[0]):
-            continue
+    for number, words in rows_of(lines):
         if len(words) not in (8, 11):
             problem = f"{len(words)} columns"
             raise SeriesError(file, problem, "8 or 11 are expected; is it cut off?", line=number)
@@ -214,8 +212,8 @@ def _rows(file: Path) -> Iterable[_Row]:
         last = mjd
         terms = numbers(file, number, words[5:])
         mass, motion = complex(*terms[:2]), complex(*terms[3:5])
-        for one in (mass, motion):
-            if not abs(one) <= LARGEST:
-                problem = f"excitation {one:.3g} is no such number"
+        for chi in (mass, motion):
+            if not abs(chi) <= LARGEST:
+                problem = f"excitation {chi:.3g} is no such number"
                 raise SeriesError(file, problem, "radians are wanted", line=number)
         yield _Row(file, number, mjd, mass, motion)

@@ -96,11 +96,11 @@ class Table(NamedTuple):
         ndarray, shape (3, n)
             In the unit of the coefficients.
         """
-        found = np.empty((3, days.size))
+        sums = np.empty((3, days.size))
         for first in range(0, days.size, BLOCK):
             block = slice(first, first + BLOCK)
-            found[:, block] = self.at(Epochs(days[block]))
-        return found
+            sums[:, block] = self.at(Epochs(days[block]))
+        return sums
 
     def at(self, epochs: Epochs) -> FloatArray:
         """Sum the series at times that other tables are summed at as well, shape (3, n)."""
@@ -189,12 +189,12 @@ class _InAnyOrder(NamedTuple):
 
     def sums(self, series: FloatArray) -> FloatArray:
         """Sums of the series of records, shape (3, n)."""
-        found = np.empty((3, self.place.size))
+        sums = np.empty((3, self.place.size))
         for first in range(0, self.place.size, _BLOCK_OF_ANY):
             some = slice(first, first + _BLOCK_OF_ANY)
             coefficients = _coefficients(series[self.record[some]])
-            found[:, some] = _clenshaw(coefficients, self.place[some])
-        return found
+            sums[:, some] = _clenshaw(coefficients, self.place[some])
+        return sums
 
 
 def _coefficients(series: FloatArray) -> FloatArray:

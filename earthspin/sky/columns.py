@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import hashlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
@@ -60,6 +60,14 @@ def is_number(word: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
+    """Lines that begin with a number: which line, from 1, and its words."""
+    for number, line in enumerate(lines, start=1):
+        words = line.split()
+        if words and is_number(words[0]):
+            yield number, words
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:

@@ -25,6 +25,7 @@ from earthspin.sky.columns import (
     is_number,
     lines_of,
     numbers,
+    rows_of,
     starts_with_number,
     text_between,
 )
@@ -108,8 +109,7 @@ class PoleSeries:
             )
             raise SeriesError(self.name, problem, "choose a span inside it")
         return replace(
-            self,
-            **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)},
+            self, **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)}
         )
 
 
@@ -167,10 +167,7 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
 def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
     """C04: the date, with the hour (20 C04) or without (14 C04 and before), then MJD, x, y."""
     columns = 0
-    for number, line in enumerate(lines, start=1):
-        words = line.split()
-        if not words or not is_number(words[0]):
-            continue
+    for number, words in rows_of(lines):
         columns = columns or len(words)
         if len(words) != columns or columns not in _C04_LAYOUTS:
             allowed = " or ".join(map(str, _C04_LAYOUTS))
@@ -192,10 +189,7 @@ def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
     with decimals, x, its error, y, its error.
     """
     columns = 0
-    for number, line in enumerate(lines, start=1):
-        words = line.split()
-        if not words or not is_number(words[0]):
-            continue
+    for number, words in rows_of(lines):
         columns = columns or len(words)
         if len(words) != columns or columns < 5:
             problem = f"{len(words)} columns"
@@ -272,15 +266,15 @@ def _kind(file: Path, lines: list[str]) -> str:
 
 def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
     """Leave out lines of text between rows, and rows without a position; these become gaps."""
-    kept = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
-    lost = sorted([*text, *({row.line for row in rows} - {row.line for row in kept})])
+    complete = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
+    lost = sorted([*text, *({row.line for row in rows} - {row.line for row in complete})])
     if lost:
-        if len(lost) > max(1, LOST * (len(kept) + len(lost))):
-            problem = f"{len(lost)} of {len(kept) + len(lost)} rows hold no numbers"
+        if len(lost) > max(1, LOST * (len(complete) + len(lost))):
+            problem = f"{len(lost)} of {len(complete) + len(lost)} rows hold no numbers"
             remedy = f"at most {LOST:.0%} are left out; is the file damaged?"
             raise SeriesError(file, problem, remedy, lost[0])
         repairs.append(f"{len(lost)} rows without numbers left out, the first in line {lost[0]}")
-    return kept
+    return complete
 
 
 def _check_dates(file: Path, rows: list[_Row]) -> None:
@@ -312,7 +306,7 @@ def _check_jumps(file: Path, rows: list[_Row]) -> None:
     for last, row in pairwise(rows):
         x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
         days = row.mjd - last.mjd
-        scatter = sum(error for one in (last, row) for error in one.values[2:] if error > 0)
+        scatter = sum(error for error in (*last.values[2:], *row.values[2:]) if error > 0)
         if max(x, y) > JUMP + FASTEST * days + 3 * scatter:
             problem = f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d"
             remedy = f"it moves by less than {FASTEST:g} arcsec a day; is a digit wrong?"
@@ -324,16 +318,18 @@ def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
     ordered = sorted(rows, key=lambda row: row.mjd)
     if ordered != rows:
         repairs.append("rows sorted by date")
-    kept = ordered[:1]
+    unique = ordered[:1]
     for row in ordered[1:]:
-        if row.mjd > kept[-1].mjd + 1e-6:
-            kept.append(row)
-        elif row.values != kept[-1].values:
-            problem = f"MJD {row.mjd:.2f} stands twice, in line {kept[-1].line} with other numbers"
+        if row.mjd > unique[-1].mjd + 1e-6:
+            unique.append(row)
+        elif row.values != unique[-1].values:
+            problem = (
+                f"MJD {row.mjd:.2f} stands twice, in line {unique[-1].line} with other numbers"
+            )
             raise SeriesError(file, problem, "keep one of them", row.line)
-    if len(kept) < len(ordered):
-        repairs.append(f"{len(ordered) - len(kept)} repeated rows left out")
-    return kept
+    if len(unique) < len(ordered):
+        repairs.append(f"{len(ordered) - len(unique)} repeated rows left out")
+    return unique
 
 
 def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSeries:

@@ -97,8 +97,8 @@ class Ephemeris:
 
     def _check_bodies(self) -> None:
         """Sun, Moon and planets must be where they can be, as far as all of them are covered."""
-        known = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
-        reached = {code for code in known if self._reaches_root(code)}
+        bodies = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
+        reached = {code for code in bodies if self._reaches_root(code)}
         if not reached:
             return
         along: dict[Step, FloatArray] = {}
@@ -146,13 +146,13 @@ class Ephemeris:
         KernelError
             If it holds none of them.
         """
-        wanted = tuple(codes)
-        for code in wanted:
+        candidates = tuple(codes)
+        for code in candidates:
             if code in self.targets:
                 return code
         raise KernelError(
             self.path,
-            f"it does not hold '{name}' (NAIF {', '.join(map(str, wanted)) or 'code unknown'})",
+            f"it does not hold '{name}' (NAIF {', '.join(map(str, candidates)) or 'code unknown'})",
             f"it holds {', '.join(map(str, sorted(self.targets)))}",
         )
 
@@ -202,13 +202,13 @@ class Ephemeris:
         """
         self.check_times(days, {*targets.values(), centre})
         self.check_records(days, {*targets.values(), centre})
-        found = {label: np.empty((days.size, 3)) for label in targets}
+        positions = {label: np.empty((days.size, 3)) for label in targets}
         for first in range(0, days.size, BLOCK):
             block = slice(first, first + BLOCK)
             epochs, steps = Epochs(days[block]), dict[Step, FloatArray]()
             for label, place in targets.items():
-                found[label][block] = self._difference(place, centre, epochs, steps).T
-        return found
+                positions[label][block] = self._difference(place, centre, epochs, steps).T
+        return positions
 
     def _difference(
         self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]

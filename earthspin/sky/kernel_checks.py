@@ -69,12 +69,12 @@ def check_summaries(daf: Any, path: Path) -> None:
     KernelError
         If one names an earlier one, or itself, as the next.
     """
-    number, seen = daf.fward, set()
+    number, visited = daf.fward, set()
     while number:
-        if number in seen:
+        if number in visited:
             problem = f"its list of segments comes back to record {number} and never ends"
             raise KernelError(path, problem, AGAIN)
-        seen.add(number)
+        visited.add(number)
         following, _, count = daf.summary_control_struct.unpack(daf.read_record(number)[:24])
         if not 0 <= count <= daf.summaries_per_record:
             raise KernelError(path, f"record {number} claims to list {count:g} segments", AGAIN)
@@ -230,9 +230,9 @@ class Records:
             last = [np.abs(series[:, :, -2:]).max(axis=(1, 2)) for series in (before, after)]
         return gaps, np.maximum(sizes, np.finfo(float).tiny), np.minimum(*last)
 
-    def _series(self, which: IntArray) -> FloatArray:
+    def _series(self, records: IntArray) -> FloatArray:
         """Series of position of some records, shape (n, 3, terms)."""
-        series = self._words[which, 2 : 2 + 3 * self.terms].astype(float, copy=False)
+        series = self._words[records, 2 : 2 + 3 * self.terms].astype(float, copy=False)
         return series.reshape(-1, 3, self.terms)
 
 
@@ -272,7 +272,7 @@ _STENCIL = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # second derivative
 
 def check_bodies(
     place: Callable[[int, FloatArray], FloatArray],
-    held: Iterable[int],
+    codes: Iterable[int],
     coverage: tuple[float, float],
     path: Path,
 ) -> None:
@@ -282,7 +282,7 @@ def check_bodies(
     ----------
     place : callable
         From code and days, shape (n,), to metres from the solar-system barycentre, shape (n, 3).
-    held : iterable of int
+    codes : iterable of int
         Codes that can be placed over the coverage.
     coverage : tuple of float
         First and last day from J2000.0 TDB; eight epochs within are looked at.
@@ -295,13 +295,13 @@ def check_bodies(
         If one of them is too near or too far, or its acceleration is not what the others' pull
         gives, by more than 1e-3: it hangs on the wrong centre, or is not what its code says.
     """
-    held = set(held)
+    codes = set(codes)
     first, last = coverage
     if last - first < 8 * _STEP:
         return
     epochs = np.linspace(first + 2 * _STEP, last - 2 * _STEP, _EPOCHS)
     days = (epochs[:, None] + _STEP * np.arange(-2, 3)).ravel()
-    positions = {code: place(code, days).reshape(_EPOCHS, 5, 3) for code in held}
+    positions = {code: place(code, days).reshape(_EPOCHS, 5, 3) for code in codes}
     with np.errstate(all="ignore"):  # what is damaged may overflow
         for name, vectors, centre, low, high in _distances(positions):
             distance = _size(vectors)

@@ -83,9 +83,9 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
         the same centre, or of all.
     """
     pair = sorted((_barycentre(centre), _barycentre(target)))
-    found = DIFFERENCES.get((pair[0], pair[1]))
-    if found is not None:
-        return found
+    entries = DIFFERENCES.get((pair[0], pair[1]))
+    if entries is not None:
+        return entries
     near = [size for codes, size in DIFFERENCES.items() if _barycentre(centre) in codes]
     mas, metres = zip(*(near or DIFFERENCES.values()), strict=True)
     return max(mas), max(metres)

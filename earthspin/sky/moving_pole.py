@@ -190,23 +190,23 @@ class MovingPole:
         SceneError, UnitsError
             If a key is unknown or missing, or a value is no angle or rate.
         """
-        every = (*_NAMES, *_RATES, *_SWINGS)
+        names = (*_NAMES, *_RATES, *_SWINGS)
         for name in table:
-            if name not in every:
-                raise where.at(name).error(table[name], nearest(name, every))
-        read: dict[str, Any] = {}
+            if name not in names:
+                raise where.at(name).error(table[name], nearest(name, names))
+        fields: dict[str, Any] = {}
         for name in _NAMES:
             if name not in table:
                 raise where.at(name).error(None, f"give it, like {name} = '52.9 deg'")
-            read[name] = float(quantity(table[name], "rad", where.at(name), "52.9 deg"))
-        if abs(read["declination"]) > math.pi / 2:
+            fields[name] = float(quantity(table[name], "rad", where.at(name), "52.9 deg"))
+        if abs(fields["declination"]) > math.pi / 2:
             raise where.at("declination").error(table["declination"], "it is -90 to 90 deg")
         for name in _RATES:
             rate = quantity(table.get(name, 0.0), "rad/s", where.at(name), "-1e-12 rad/s")
-            read[name] = float(rate)
+            fields[name] = float(rate)
         for name in _SWINGS:
-            read[name] = tuple(_swing(one, where.at(name)) for one in table.get(name, ()))
-        return cls(**read)
+            fields[name] = tuple(_swing(row, where.at(name)) for row in table.get(name, ()))
+        return cls(**fields)
 
     def write(self) -> dict[str, Any]:
         """Give the table of its numbers."""
@@ -221,11 +221,10 @@ class MovingPole:
         }
 
 
-def _swing(given: object, where: Where) -> Swing:
+def _swing(row: object, where: Where) -> Swing:
     """Size, phase and rate of one term."""
-    if not isinstance(given, (list, tuple)) or len(given) != 3:
-        raise where.error(given, "give size, phase and rate of each term")
+    if not isinstance(row, (list, tuple)) or len(row) != 3:
+        raise where.error(row, "give size, phase and rate of each term")
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")
-    return Swing(
-        *(float(quantity(*of)) for of in zip(given, units, (where,) * 3, examples, strict=True))
-    )
+    terms = zip(row, units, examples, strict=True)
+    return Swing(*(float(quantity(term, unit, where, example)) for term, unit, example in terms))

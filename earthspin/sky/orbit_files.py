@@ -182,15 +182,15 @@ def read_orbit(
     if not isinstance(body, str):
         raise where.at("body").error(body, "give the name of a body, like 'mars'")
     if hasattr(path, "columns") and hasattr(path, "iloc"):
-        given = _Rows.of_frame(path)
+        rows = _Rows.of_frame(path)
     elif not isinstance(path, (str, os.PathLike)) or not os.fspath(path).strip():
         raise where.at("path").error(path, "give the path of a file, or a DataFrame")
     elif Path(path).suffix == ".npz":
         return _load(Path(path))
     else:
-        given = _Rows.of_text(Path(path))
-    table = _table(given, body, axes, frame, time, angles)
-    return table if given.source == _FRAME else replace(table, sha256=checksum(Path(path)))
+        rows = _Rows.of_text(Path(path))
+    table = _table(rows, body, axes, frame, time, angles)
+    return table if rows.source == _FRAME else replace(table, sha256=checksum(Path(path)))
 
 
 def _axes(frame: object, where: Where) -> FloatArray:
@@ -331,34 +331,34 @@ class _Rows:
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
     """Places of the columns that are needed, by the names used here."""
-    found = {}
+    places = {}
     for name, words in NAMES.items():
-        exact = [at for at, given in enumerate(names) if given in words]
-        loose = [at for at, given in enumerate(names) if given.lower() in words]
+        exact = [at for at, column in enumerate(names) if column in words]
+        loose = [at for at, column in enumerate(names) if column.lower() in words]
         if exact or loose:
-            found[name] = (exact or loose)[0]
-    if found.get("node") == found.get("argument") and "node" in found:
-        del found["argument"]
-    if set(LA2010) <= set(found):
-        return {name: found[name] for name in LA2010}
-    perihelion = next((name for name in ("varpi", "argument") if name in found), "varpi")
-    wanted = ("t", "e", "inc", perihelion, "node")
-    missing = [NAMES[name][0] for name in wanted if name not in found]
+            places[name] = (exact or loose)[0]
+    if places.get("node") == places.get("argument") and "node" in places:
+        del places["argument"]
+    if set(LA2010) <= set(places):
+        return {name: places[name] for name in LA2010}
+    perihelion = next((name for name in ("varpi", "argument") if name in places), "varpi")
+    needed = ("t", "e", "inc", perihelion, "node")
+    missing = [NAMES[name][0] for name in needed if name not in places]
     if missing:
         problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
         raise SeriesError(source, problem, "give t, e, inc, varpi, Omega, or t, k, h, q, p")
-    return {name: found[name] for name in wanted}
+    return {name: places[name] for name in needed}
 
 
 def _table(
-    given: _Rows,
+    unordered: _Rows,
     body: str,
     axes: FloatArray,
     frame: object,
     time: str | None,
     angles: str | None,
 ) -> OrbitTable:
-    rows = given.in_order()
+    rows = unordered.in_order()
     of_la2010 = "k" in rows.columns
     times = _seconds(rows, time or ("kyr" if of_la2010 else "d"))
     n, e = (_from_sines if of_la2010 else _from_elements)(rows, angles)
@@ -374,9 +374,9 @@ def _table(
         raise rows.error("the orbit tips over by more than 60 degrees", "give a shorter part")
     first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
     first /= np.linalg.norm(first)
-    own = np.stack([first, np.cross(third, first), third])
+    basis = np.stack([first, np.cross(third, first), third])
     name = rows.source if rows.source == _FRAME else Path(str(rows.source)).name
-    return fitted(body, times, n, e, own, f"{name}, {'given axes' if frame is axes else frame}")
+    return fitted(body, times, n, e, basis, f"{name}, {'given axes' if frame is axes else frame}")
 
 
 def _seconds(rows: _Rows, unit: str) -> FloatArray:
@@ -440,12 +440,14 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 def _turning(rows: _Rows) -> list[FloatArray]:
     """Columns that go round."""
-    return [of for name, of in rows.columns.items() if name in ("varpi", "argument", "node")]
+    return [
+        column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
+    ]
 
 
 def _unit_of(rows: _Rows) -> str:
     """Unit of the angles by their size."""
-    largest = max(float(np.max(np.abs(of))) for of in _turning(rows))
+    largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
         return "deg"
     if largest <= 2 * math.pi * (1 + 1e-6):
@@ -456,8 +458,8 @@ def _unit_of(rows: _Rows) -> str:
 
 def _check_unit(rows: _Rows, angles: str | None) -> None:
     """Refuse a unit that what was read does not allow."""
-    largest = max(float(np.max(np.abs(of))) for of in _turning(rows))
-    jump = max(float(np.max(np.abs(np.diff(of)))) for of in _turning(rows))
+    largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
+    jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
     steep = float(np.max(rows.columns["inc"]))
     if angles == "rad" and (steep > math.pi or 180 < jump <= 360.001):
         problem = f"angles reach {max(largest, steep):g}: these are degrees, not radians"
@@ -468,27 +470,27 @@ def _check_unit(rows: _Rows, angles: str | None) -> None:
 
 
 def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> None:
-    for words, of in (("the orbit's plane", normal), ("its perihelion", eccentricity)):
-        moved = np.linalg.norm(np.diff(of, axis=0), axis=1)
-        if moved.max() > LARGEST_MOVE:
-            problem = f"{words} jumps by {moved.max():.2g} from one row to the next"
+    for name, vectors in (("the orbit's plane", normal), ("its perihelion", eccentricity)):
+        moves = np.linalg.norm(np.diff(vectors, axis=0), axis=1)
+        if moves.max() > LARGEST_MOVE:
+            problem = f"{name} jumps by {moves.max():.2g} from one row to the next"
             remedy = "are time or angles in other units? angles = 'deg' or 'rad'"
-            raise rows.error(problem, remedy, int(np.argmax(moved)) + 1)
+            raise rows.error(problem, remedy, int(np.argmax(moves)) + 1)
 
 
 def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
     """At J2000.0 the Earth goes round in the ecliptic; if not, say in which axes it would."""
 
-    def lean(of: FloatArray) -> float:
-        n = normal @ of
+    def lean(frame_axes: FloatArray) -> float:
+        n = normal @ frame_axes
         return math.acos(min(float(n @ _ecliptic()[2] / np.linalg.norm(n)), 1.0))
 
     if lean(axes) <= NEAR_ECLIPTIC:
         return
     fits = [word for word in FRAMES if lean(axes_of(word)) <= NEAR_ECLIPTIC]
-    told = frame if isinstance(frame, str) else "the axes given"
+    name = frame if isinstance(frame, str) else "the axes given"
     raise rows.error(
-        f"in {told} the Earth's orbit leans {math.degrees(lean(axes)):.2g} deg on the ecliptic at "
+        f"in {name} the Earth's orbit leans {math.degrees(lean(axes)):.2g} deg on the ecliptic at "
         "J2000.0",
         f"it fits frame = '{fits[0]}'" if fits else "other axes or angles? or another body: body =",
     )

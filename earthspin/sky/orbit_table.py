@@ -132,13 +132,13 @@ class OrbitTable:
         first, last = self.coverage
         low, high = float(np.min(times)), float(np.max(times))
         if not (first <= low and high <= last):
-            asked, coverage = ((_words(low), _words(high)), (_words(first), _words(last)))
-            raise CoverageError(f"orbit of {self.name}", asked, coverage, "table")
+            requested, coverage = ((_words(low), _words(high)), (_words(first), _words(last)))
+            raise CoverageError(f"orbit of {self.name}", requested, coverage, "table")
 
     def error(self, times: FloatArray) -> FloatArray:
         """95 % half-widths of normal (rad) and eccentricity vector at times in s, shape (2, n)."""
         middle = (self.edges[:-1] + self.edges[1:]) / 2
-        return np.stack([np.interp(times, middle, of) for of in self.errors])
+        return np.stack([np.interp(times, middle, widths) for widths in self.errors])
 
     def at(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Unit normal, eccentricity vector and rate of the normal (s-1) in the GCRS, (3, n) each.
@@ -204,10 +204,10 @@ class OrbitTable:
 @lru_cache(maxsize=SETS_REMEMBERED)
 def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The orbit at times, as arrays that cannot be written to."""
-    found = table._evaluated(np.frombuffer(times))
-    for values in found:
+    arrays = table._evaluated(np.frombuffer(times))
+    for values in arrays:
         values.flags.writeable = False
-    return found
+    return arrays
 
 
 def _words(time: float) -> str:
@@ -270,21 +270,20 @@ def _left_out(
 ) -> FloatArray:
     """Twice the scatter of samples about the series, window by window, shape (2, w)."""
     n, e, _ = table.at(times)
-    many = len(table.edges) - 1
-    window = np.clip(np.searchsorted(table.edges, times) - 1, 0, many - 1)
-    count = np.maximum(np.bincount(window, minlength=many), 1)
-    squares = (
-        np.sum((of.T - given) ** 2, axis=1) for of, given in ((n, normal), (e, eccentricity))
-    )
-    return np.stack([2 * np.sqrt(np.bincount(window, of, many) / count) for of in squares])
+    windows = len(table.edges) - 1
+    window = np.clip(np.searchsorted(table.edges, times) - 1, 0, windows - 1)
+    count = np.maximum(np.bincount(window, minlength=windows), 1)
+    residuals = (n.T - normal, e.T - eccentricity)
+    squares = (np.bincount(window, np.sum(r**2, axis=1), windows) for r in residuals)
+    return np.stack([2 * np.sqrt(square / count) for square in squares])
 
 
-def _to_meet(ends: FloatArray, wanted: FloatArray) -> FloatArray:
+def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
     """What the last two terms add so that a series ends on its samples, and meets the next one.
 
     They are 1 at the end, plus and minus 1 at the start, and small in between.
     """
-    before, after = wanted - ends
+    before, after = samples - ends
     return np.stack([(after + before) / 2, (after - before) / 2])
 
 

@@ -17,18 +17,18 @@ class Angles:
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'
 
-    def read(self, given: object, where: Where) -> object:
+    def read(self, value: object, where: Where) -> object:
         """Read two angles, in radians if they have no unit; a name is left to the body."""
-        if isinstance(given, str) or hasattr(given, "of_the_iau"):
-            return given
-        if isinstance(given, Mapping):
-            return MovingPole.read(given, where)
-        several = given if isinstance(given, (list, tuple)) else (given,)
-        if any(getattr(one, "ndim", 0) or isinstance(one, (list, tuple)) for one in several):
+        if isinstance(value, str) or hasattr(value, "of_the_iau"):
+            return value
+        if isinstance(value, Mapping):
+            return MovingPole.read(value, where)
+        angles = value if isinstance(value, (list, tuple)) else (value,)
+        if any(getattr(a, "ndim", 0) or isinstance(a, (list, tuple)) for a in angles):
             raise where.error("an array", f"it is one direction: give {self.words}")
-        if not isinstance(given, (list, tuple)) or len(given) != 2:
-            raise where.error(given, f"give {self.words}")
-        return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in given)
+        if not isinstance(value, (list, tuple)) or len(value) != 2:
+            raise where.error(value, f"give {self.words}")
+        return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
     def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
         """Give the name, two angles, or the table of a pole that moves."""

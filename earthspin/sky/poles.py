@@ -233,7 +233,7 @@ IAU_2006 = IAU2006Pole()
 NAMED_POLES: dict[str, Pole] = {str(IAU_2006): IAU_2006}
 
 
-def pole_of(given: object) -> Pole:
+def pole_of(value: object) -> Pole:
     """Take a pole: itself, its name, or a pair of angles in radians.
 
     Raises
@@ -241,8 +241,8 @@ def pole_of(given: object) -> Pole:
     ValueError
         If it is none of them.
     """
-    if isinstance(given, str):
-        if given not in NAMED_POLES:
-            raise ValueError(given)
-        return NAMED_POLES[given]
-    return given if hasattr(given, "of_the_iau") else FixedPole.of(given)  # type: ignore[return-value]
+    if isinstance(value, str):
+        if value not in NAMED_POLES:
+            raise ValueError(value)
+        return NAMED_POLES[value]
+    return value if hasattr(value, "of_the_iau") else FixedPole.of(value)  # type: ignore[return-value]

@@ -141,7 +141,7 @@ def words(place: object) -> str:
     return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
 
 
-def checked(found: FloatArray, place: Place, days: FloatArray) -> FloatArray:
+def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
     """Positions of a place, if they are one finite vector for each time.
 
     Raises
@@ -150,7 +150,7 @@ def checked(found: FloatArray, place: Place, days: FloatArray) -> FloatArray:
         Naming the first day on which they are not.
     """
     try:
-        values = real_numbers(found)
+        values = real_numbers(positions)
     except (TypeError, ValueError) as error:
         raise UndefinedError(f"{words(place)} gives positions that are {one_line(error)}") from None
     if values.shape != (days.size, 3):

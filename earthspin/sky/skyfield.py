@@ -112,12 +112,12 @@ class Skyfield:
         """
         self.check_times(days, {*targets.values(), centre})
         self.file.check_records(days, {*targets.values(), centre})
-        found = {name: np.empty((days.size, 3)) for name in targets}
+        positions = {name: np.empty((days.size, 3)) for name in targets}
         for block, t in blocks_of_times(days):
             for name, place in targets.items():
-                there = at(self._seen_from(place, centre), t).position.m.T
-                found[name][block] = checked(there, place, days[block])
-        return found
+                vectors = at(self._seen_from(place, centre), t).position.m.T
+                positions[name][block] = checked(vectors, place, days[block])
+        return positions
 
     def equator(self, days: FloatArray) -> FloatArray:
         """Matrices from the ICRF to Skyfield's mean equator and equinox of date.
@@ -174,5 +174,5 @@ class Skyfield:
     def _from_barycentre(self, place: Place) -> VectorFunction:
         if isinstance(place, int):
             return self.kernel[place]
-        own = function_of(place)
-        return own if place.centre == 0 else self.kernel[place.centre] + own
+        function = function_of(place)
+        return function if place.centre == 0 else self.kernel[place.centre] + function

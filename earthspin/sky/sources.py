@@ -58,11 +58,11 @@ def describe_source(word: SourceName, ephemeris: object) -> str:
 # --- the place of one body -----------------------------------------------------------------------
 
 
-def is_vector_function(given: object) -> bool:
+def is_vector_function(value: object) -> bool:
     """Recognise a vector function of Skyfield's without importing Skyfield."""
     return any(
         kind.__module__ == "skyfield.vectorlib" and kind.__name__ == "VectorFunction"
-        for kind in type(given).__mro__
+        for kind in type(value).__mro__
     )
 
 
@@ -72,16 +72,16 @@ def trajectory(position: Any) -> Trajectory:
         from earthspin.sky.vector_functions import VectorTrajectory
 
         return VectorTrajectory(position)
-    found: Trajectory = position
-    return found
+    own: Trajectory = position
+    return own
 
 
-def read_position(given: Any, where: Where) -> VectorFunction | Trajectory:
+def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
     """Read the place of one body.
 
     Parameters
     ----------
-    given : vector function, Trajectory, or table
+    value : vector function, Trajectory, or table
         A table names segments of kernels, ``{kernel = "de421", centre = 0, target = 5}``, or a
         list of them that are added.
 
@@ -92,28 +92,28 @@ def read_position(given: Any, where: Where) -> VectorFunction | Trajectory:
     KernelError
         If a kernel that a table names cannot be used, or has changed.
     """
-    if is_vector_function(given):
-        if type(given.center) is not int:
-            raise where.error(given, "its center is no NAIF code; add what leads to a planet")
-        return given
-    tables = [given] if isinstance(given, Mapping) else given
-    if isinstance(tables, list) and tables and all(isinstance(one, Mapping) for one in tables):
+    if is_vector_function(value):
+        if type(value.center) is not int:
+            raise where.error(value, "its center is no NAIF code; add what leads to a planet")
+        return value
+    tables = [value] if isinstance(value, Mapping) else value
+    if isinstance(tables, list) and tables and all(isinstance(table, Mapping) for table in tables):
         if _LIVE in tables[0]:
             problem = "it was a live object, which no scene can hold; give it again in Python"
             raise where.error(tables[0][_LIVE], problem)
         from earthspin.sky.vector_functions import read_segments
 
         return read_segments(tables, where)
-    parts = (getattr(given, "centre", None), getattr(given, "coverage", None))
-    callable_ = callable(getattr(given, "positions", None))
+    parts = (getattr(value, "centre", None), getattr(value, "coverage", None))
+    callable_ = callable(getattr(value, "positions", None))
     if type(parts[0]) is not int or parts[1] is None or not callable_:
-        raise where.error(given, _GIVE)
+        raise where.error(value, _GIVE)
     try:
-        hash(given)
+        hash(value)
     except TypeError:
-        raise where.error(given, "it cannot be hashed; make it a frozen dataclass") from None
-    found: Trajectory = given
-    return found
+        raise where.error(value, "it cannot be hashed; make it a frozen dataclass") from None
+    own: Trajectory = value
+    return own
 
 
 def describe_position(position: object) -> str:

@@ -54,12 +54,12 @@ def node_passages(start: float, end: float) -> list[tuple[str, float]]:
     if days.size < 2:
         return []
     half_turns = np.unwrap(mean_longitude_of_node(days)) / np.pi  # falls steadily
-    found = []
+    passages = []
     for k in range(int(np.ceil(half_turns[-1])), int(np.floor(half_turns[0])) + 1):
         day = float(np.interp(-k, -half_turns, days))
         if start + _REACH < day < end - _REACH:
-            found.append(("minor" if k % 2 else "major", day))
-    return sorted(found, key=lambda passage: passage[1])
+            passages.append(("minor" if k % 2 else "major", day))
+    return sorted(passages, key=lambda passage: passage[1])
 
 
 def find_standstills(
@@ -79,7 +79,7 @@ def find_standstills(
     list of Standstill
         In order of time; empty if the span holds none.
     """
-    found = []
+    standstills = []
     for kind, passage in node_passages(start, end):
         days = np.arange(passage - _REACH, passage + _REACH, SAMPLING)
         turning = CubicSpline(days, declination(days)).derivative().roots(extrapolate=False)
@@ -87,5 +87,5 @@ def find_standstills(
         extremes = declination(turning)
         swing = np.abs(extremes)
         best = np.argmax(swing) if kind == "major" else np.argmin(swing)
-        found.append(Standstill(kind, float(turning[best]), float(extremes[best])))
-    return found
+        standstills.append(Standstill(kind, float(turning[best]), float(extremes[best])))
+    return standstills

@@ -83,21 +83,21 @@ class VectorTrajectory:
     def code(self) -> int | None:
         """NAIF code of its target, if it stands on segments of kernels alone."""
         target = self.function.target
-        known = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
-        return target if known else None
+        is_measured = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
+        return target if is_measured else None
 
     @cached_property
     def coverage(self) -> tuple[float, float]:
         """First and last day of its segments of kernels; other functions are not asked."""
-        several = [found for found in map(_segments, _leaves(self.function)) if found]
-        first = [min(s.spk_segment.start_jd for s in stack) - J2000_JD for stack in several]
-        last = [max(s.spk_segment.end_jd for s in stack) - J2000_JD for stack in several]
+        stacks = [found for found in map(_segments, _leaves(self.function)) if found]
+        first = [min(s.spk_segment.start_jd for s in stack) - J2000_JD for stack in stacks]
+        last = [max(s.spk_segment.end_jd for s in stack) - J2000_JD for stack in stacks]
         return max(first, default=-math.inf), min(last, default=math.inf)
 
     def positions(self, days: FloatArray) -> FloatArray:
         """Positions in metres along the ICRF, shape (n, 3)."""
-        found = [at(self.function, t).position.m.T for _, t in blocks_of_times(days)]
-        return np.concatenate(found) if found else np.empty((0, 3))
+        blocks = [at(self.function, t).position.m.T for _, t in blocks_of_times(days)]
+        return np.concatenate(blocks) if blocks else np.empty((0, 3))
 
     def __str__(self) -> str:
         return words(repr(self.function))
@@ -111,8 +111,8 @@ class _Along(VectorFunction):  # type: ignore[misc]
 
     def _at(self, t: Time) -> tuple[FloatArray, FloatArray, None, None]:
         days = np.atleast_1d((t.whole - J2000_JD) + t.tdb_fraction)
-        found = np.asarray(self.trajectory.positions(days)).T / AU_M
-        return found, np.full_like(found, np.nan), None, None
+        positions = np.asarray(self.trajectory.positions(days)).T / AU_M
+        return positions, np.full_like(positions, np.nan), None, None
 
     def __str__(self) -> str:
         return words(self.trajectory)
@@ -131,8 +131,8 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
     """Vector functions that are no sum and no reversal."""
     if isinstance(function, VectorSum):
-        for one in function.vector_functions:
-            yield from _leaves(one)
+        for term in function.vector_functions:
+            yield from _leaves(term)
     elif isinstance(function, ReversedVector):
         yield from _leaves(function.vector_function)
     else:
@@ -149,16 +149,16 @@ def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
 def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
     """Tables that name the segments of a vector function; None if it is more than segments."""
     tables = []
-    for one in getattr(function, "vector_functions", (function,)):
-        inner = one.vector_function if isinstance(one, ReversedVector) else one
+    for term in getattr(function, "vector_functions", (function,)):
+        inner = term.vector_function if isinstance(term, ReversedVector) else term
         if not _segments(inner):
             return None
         path = os.path.abspath(inner.ephemeris.path)
         tables.append(
             {
                 "kernel": path,
-                "centre": int(one.center),
-                "target": int(one.target),
+                "centre": int(term.center),
+                "target": int(term.target),
                 "sha256": Ephemeris(path).sha256,
             }
         )
@@ -199,11 +199,11 @@ def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
         problem = "it is not the file that this position was read from: its SHA-256 is another"
         raise KernelError(file.path, problem, "give back that file, or leave sha256 out")
     segments = _spice_kernel(os.fspath(file.path), file.sha256).segments
-    for (centre, target), turn in ((codes, False), (codes[::-1], True)):
-        found = [s for s in segments if (s.center, s.target) == (centre, target)]
-        if found:
-            one = found[0] if len(found) == 1 else Stack(found)
-            return -one if turn else one
+    for (centre, target), reverse in ((codes, False), (codes[::-1], True)):
+        matches = [s for s in segments if (s.center, s.target) == (centre, target)]
+        if matches:
+            function = matches[0] if len(matches) == 1 else Stack(matches)
+            return -function if reverse else function
     there = ", ".join(f"{s.center} to {s.target}" for s in segments)
     raise where.error(f"{codes[0]} to {codes[1]}", f"the kernel has {there}")
 

@@ -24,7 +24,7 @@ from earthspin.motion.axes import AXES, axis_path
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
 from earthspin.parts.choices import averages_on_offer, chosen_average, windows_on_offer
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
-from earthspin.parts.sky import Pulled, Sky, places, sky, stretch
+from earthspin.parts.sky import PerturbedBody, Sky, places, sky, stretch
 from earthspin.parts.times import epochs
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession, rate_accuracy
@@ -79,7 +79,7 @@ def random_span(rng: Generator, longest: float) -> tuple[str, str]:
     return tuple(str(epoch + np.timedelta64(int(d * 86400), "s")) for d in (first, first + length))  # type: ignore[return-value]
 
 
-def sky_of(question: Pulled) -> Sky:
+def sky_of(question: PerturbedBody) -> Sky:
     """The sky of a question."""
     return sky(question.ephemeris, places(question.body, question.perturbers), question.source)
 

@@ -13,7 +13,7 @@ import pytest
 from earthspin.engine.asking import script_of
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import BLOCK, Part, part
-from earthspin.engine.question import Question, key, keys_of, made_of
+from earthspin.engine.question import Question, define_parts, key, keys_of
 from earthspin.scenes import QUESTIONS
 
 ROOT = Path(__file__).parents[2]
@@ -127,7 +127,7 @@ def test_a_part_and_a_key_never_share_a_name(question: type[Question]) -> None:
     assert [name for name, one in question.graph.parts.items() if one.name != name] == []
 
 
-# --- what made_of refuses --------------------------------------------------------------------
+# --- what define_parts refuses --------------------------------------------------------------------
 
 
 class Asked(Question, word="asked", call="asked"):
@@ -149,7 +149,7 @@ def neglected() -> Neglected:
 
 
 def test_a_question_that_fits_together_is_taken() -> None:
-    made_of(Asked, answer=answer, sections={"neglected": neglected})
+    define_parts(Asked, answer=answer, sections={"neglected": neglected})
     assert set(Asked.graph.parts) == {"answer", "neglected"}
     assert Asked.graph.sections == {"neglected": ("neglected",)}
 
@@ -161,7 +161,7 @@ def test_a_part_with_the_name_of_a_key_is_refused() -> None:
         return 1
 
     with pytest.raises(TypeError, match="Asked: a name stands for two things"):
-        made_of(Asked, answer=answer, sections={"neglected": neglected}, parts=[size])
+        define_parts(Asked, answer=answer, sections={"neglected": neglected}, parts=[size])
 
 
 def test_two_parts_of_one_name_are_refused() -> None:
@@ -171,7 +171,7 @@ def test_two_parts_of_one_name_are_refused() -> None:
 
     other.__name__ = "answer"
     with pytest.raises(TypeError, match="a name stands for two things"):
-        made_of(Asked, answer=answer, sections={"neglected": neglected}, parts=[part(other)])
+        define_parts(Asked, answer=answer, sections={"neglected": neglected}, parts=[part(other)])
 
 
 def test_a_parameter_that_is_neither_key_nor_part_is_refused() -> None:
@@ -187,7 +187,7 @@ def test_a_parameter_that_is_neither_key_nor_part_is_refused() -> None:
 
     for one in (lost, hopeful):
         with pytest.raises(TypeError, match=f"Asked: {one.name} asks for 'colour'"):
-            made_of(Asked, answer=one, sections={"neglected": neglected})
+            define_parts(Asked, answer=one, sections={"neglected": neglected})
 
 
 def test_a_question_may_be_without_what_its_parts_would_use_and_nothing_else() -> None:
@@ -197,15 +197,15 @@ def test_a_question_may_be_without_what_its_parts_would_use_and_nothing_else() -
         return size
 
     told = {"neglected": neglected}
-    made_of(Asked, answer=hopeful, sections=told, without=("colour",))
+    define_parts(Asked, answer=hopeful, sections=told, without=("colour",))
     for wrong in ("size", "shape", "hopeful"):
         with pytest.raises(TypeError, match=f"Asked: it cannot be without '{wrong}'"):
-            made_of(Asked, answer=hopeful, sections=told, without=("colour", wrong))
+            define_parts(Asked, answer=hopeful, sections=told, without=("colour", wrong))
 
 
 def test_a_question_says_what_it_neglects() -> None:
     with pytest.raises(TypeError, match="Asked does not say what it neglects"):
-        made_of(Asked, answer=answer, sections={})
+        define_parts(Asked, answer=answer, sections={})
 
 
 @pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)

@@ -120,13 +120,6 @@ def test_numbers_that_are_missing_are_refused_in_one_line() -> None:
         build(SCHEMA, {"x": np.array([np.nan])})
 
 
-def test_vectors_say_their_frame() -> None:
-    schema = {"x": Variable(("component",), "m", "a place"), "n": Variable((), "1", "a number")}
-    built = build(schema, {"x": [1.0, 2.0, 3.0], "n": 1.0}, frame="GCRS")
-    assert built.x.attrs["frame"] == "GCRS"
-    assert "frame" not in built.n.attrs
-
-
 def test_a_unit_that_is_not_known_is_not_taken_for_si() -> None:
     """A radius in km once came back as 7,000,000 of them."""
     far = xr.DataArray(7000.0, attrs={"units": "km"})

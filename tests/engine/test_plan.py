@@ -101,7 +101,7 @@ def test_the_words_of_a_plan() -> None:
 
 
 def closed(part: Part) -> Part:
-    return Part(part.function, part.gives, (lambda: "no kernel today",), part.chooses)
+    return Part(part.function, (lambda: "no kernel today",), part.chooses)
 
 
 def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:

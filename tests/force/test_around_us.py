@@ -13,11 +13,13 @@ from pathlib import Path
 import pytest
 
 import earthspin
-from earthspin import OutputError, SceneError
+from earthspin import SceneError
 from earthspin.engine import store
 from earthspin.views.table import Table
 from earthspin.views.terminal import Terminal
 
+#: Nearly each starts a process or more.
+pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 
 
@@ -33,7 +35,6 @@ def earthspin_says(
     )
 
 
-@pytest.mark.slow
 def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     """No TeX, no colours, and no default of any kind; the figure is the same to the bit."""
     (tmp_path / "matplotlibrc").write_text(
@@ -59,7 +60,6 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     assert pictures[2] == pictures[0]
 
 
-@pytest.mark.slow
 def test_a_home_that_cannot_be_written_is_not_mentioned(tmp_path: Path) -> None:
     """Nor a backend that does not exist."""
     nowhere = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), "/proc/nowhere")
@@ -182,12 +182,6 @@ def test_an_empty_kernel_is_no_kernel(tmp_path: Path) -> None:
     assert not (tmp_path / "r").exists()
 
 
-def test_a_long_series_goes_to_zarr_alone(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"does not end in \.zarr"):
-        earthspin.write_series("torque", tmp_path / "a.nc")
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_defect_is_told_as_one(tmp_path: Path) -> None:
     program = """if True:
         import sys, warnings
@@ -263,7 +257,6 @@ def test_titles_do_nothing_to_the_terminal(capsys: pytest.CaptureFixture[str]) -
     assert "\nsecond" in shown
 
 
-@pytest.mark.slow
 def test_json_is_what_it_was(tmp_path: Path) -> None:
     """As xarray has it, dates in ISO 8601, infinity as text."""
     import datetime as dt
@@ -286,8 +279,6 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
         assert json.loads(found.stdout) == expected
 
 
-# The oldest netCDF4 says the same, and then crashes where the interpreter ends.
-@pytest.mark.newest
 @pytest.mark.parametrize(
     ("scene", "share"), [("wobble", 0.0), ("torque", 0.3), ("torque", 0.7), ("wobble", 1.0)]
 )

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+#: Each starts a process.
+pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 
 #: A process without a network, whose clock is ten years on for those who look after tables.
@@ -76,7 +78,6 @@ for scale in ("utc", "ut1"):
         assert f"its scale, {scale}, is not known there; give TDB, or install newer" in line
 
 
-@pytest.mark.slow
 def test_scenes_ask_for_no_network() -> None:
     program = """
 for scene in ("precession", "torque", "wobble", "polar-motion", "pole", "iau"):

@@ -54,6 +54,7 @@ ELSEWHERE = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 def test_a_writer_in_another_container_keeps_its_draft(tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"r.{kind}"
@@ -71,6 +72,7 @@ def test_a_writer_in_another_container_keeps_its_draft(tmp_path: Path, kind: str
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 def test_readers_find_the_old_or_the_new(tmp_path: Path, kind: str) -> None:
     path = store.write(small(0.0), tmp_path / f"r.{kind}")
@@ -195,6 +197,7 @@ def test_drafts_without_a_lock_are_given_time(tmp_path: Path) -> None:
     assert not old.exists()
 
 
+@pytest.mark.slow
 def test_threads_read_and_write_netcdf(tmp_path: Path) -> None:
     """In a process of its own: without a lock the library ends it."""
     program = """

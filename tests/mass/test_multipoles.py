@@ -116,24 +116,16 @@ def _direct(masses: np.ndarray, positions: np.ndarray, point: np.ndarray) -> flo
     return float(-G.value * np.sum(masses / np.linalg.norm(point - positions, axis=-1)))
 
 
-@given(st.integers(0, 10**6), st.integers(0, 25), st.floats(1.2, 50.0))
-def test_the_exterior_series_within_its_bound(seed: int, n_max: int, factor: float) -> None:
+@given(st.integers(0, 10**6), st.integers(0, 25), st.floats(1.2, 50.0), st.floats(0.0, 0.8))
+def test_both_series_within_their_bounds(seed: int, n_max: int, far: float, near: float) -> None:
     masses, positions = _random_body(seed)
-    series = multipoles.exterior_multipoles(masses, positions, n_max)
-    point = np.array([0.48, -0.6, 0.64]) * series.radius * factor
-    exact = _direct(masses, positions, point)
-    error = abs(float(series.potential(point)) - exact)
-    assert error <= series.truncation_bound(point) + 3e-14 * abs(exact)
-
-
-@given(st.integers(0, 10**6), st.integers(0, 25), st.floats(0.0, 0.8))
-def test_the_interior_series_within_its_bound(seed: int, n_max: int, factor: float) -> None:
-    masses, positions = _random_body(seed)
-    series = multipoles.interior_multipoles(masses, positions, n_max)
-    point = np.array([0.48, -0.6, 0.64]) * series.radius * factor
-    exact = _direct(masses, positions, point)
-    error = abs(float(series.potential(point)) - exact)
-    assert error <= series.truncation_bound(point) + 3e-14 * abs(exact)
+    exterior = multipoles.exterior_multipoles(masses, positions, n_max)
+    interior = multipoles.interior_multipoles(masses, positions, n_max)
+    for series, factor in ((exterior, far), (interior, near)):
+        point = np.array([0.48, -0.6, 0.64]) * series.radius * factor
+        exact = _direct(masses, positions, point)
+        error = abs(float(series.potential(point)) - exact)
+        assert error <= series.truncation_bound(point) + 3e-14 * abs(exact)
 
 
 def test_both_series_converge_to_the_sum_over_the_masses() -> None:

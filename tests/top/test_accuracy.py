@@ -13,11 +13,16 @@ LATE_CASES = 1
 ULPS, LATE_ULPS = 2.0, 4.0
 
 
+@pytest.mark.parametrize(
+    ("count", "times", "ulps"), [(CASES, FRACTIONS, ULPS), (LATE_CASES, (LATE,), LATE_ULPS)]
+)
 @pytest.mark.parametrize("family", FAMILIES)
-def test_a_few_nutations_hold_thirteen_digits_or_what_the_start_tells(family: str) -> None:
-    for start in cases(family, CASES):
-        found = errors(start, FRACTIONS)
-        assert found.error <= GOOD or found.ulps <= ULPS, (start, found)
+def test_thirteen_digits_or_what_the_start_tells(
+    family: str, count: int, times: tuple[float, ...], ulps: float
+) -> None:
+    for start in cases(family, count):
+        found = errors(start, times)
+        assert found.error <= GOOD or found.ulps <= ulps, (start, found)
 
 
 @pytest.mark.parametrize("family", FAMILIES)

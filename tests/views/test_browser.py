@@ -58,6 +58,7 @@ def test_every_picture_is_painted_and_the_console_is_clean(
     assert "CONSOLE" not in log, log
 
 
+@pytest.mark.slow
 def test_there_is_something_to_see(browser: str, page: Path, tmp_path: Path) -> None:
     shot = tmp_path / "shot.png"
     opened(browser, page, tmp_path, f"--screenshot={shot}", "--window-size=1000,5200")
@@ -69,6 +70,7 @@ def test_there_is_something_to_see(browser: str, page: Path, tmp_path: Path) -> 
     assert (rows > 20).sum() > 7 * 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["precession", "iau"])
 def test_nothing_lies_beyond_the_edge_of_a_phone(browser: str, scene: str, tmp_path: Path) -> None:
     """In a frame of 390 pixels, the page is no wider, nor is any of its tables and figures."""

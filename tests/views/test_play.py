@@ -305,6 +305,7 @@ def expected(name: str) -> Iterator[float]:
             yield (1 + kappa) / (e - kappa) * EARTH.spin_period / DAY
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLAYS)
 def test_a_slider_changes_the_picture_and_a_number(browser: str, name: str, tmp_path: Path) -> None:
     slider, value, words = MOVED[name]
@@ -330,6 +331,7 @@ def test_a_slider_changes_the_picture_and_a_number(browser: str, name: str, tmp_
     assert told["again"]
 
 
+@pytest.mark.slow
 def test_the_planet_has_its_own_moments(browser: str, tmp_path: Path) -> None:
     """Those of an ellipsoid are 3/5 of those of a brick: the same motion, another picture."""
     told = played(
@@ -349,6 +351,7 @@ def test_the_planet_has_its_own_moments(browser: str, tmp_path: Path) -> None:
     assert told["changed"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in PLAYS if not PLAYS[name].still])
 def test_a_page_is_played_by_clock_and_keys(browser: str, name: str, tmp_path: Path) -> None:
     told = played(
@@ -385,6 +388,7 @@ def test_a_page_is_played_by_clock_and_keys(browser: str, name: str, tmp_path: P
     assert step == pytest.approx(pace / 30, rel=0.1, abs=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLAYS)
 def test_a_page_is_one_file_and_no_wider_than_a_phone(
     browser: str, name: str, tmp_path: Path
