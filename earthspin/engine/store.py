@@ -50,8 +50,8 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     ----------
     result : Dataset or DataTree
     path : str or Path
-        Ends in ``.nc`` or ``.zarr``. What stands there is replaced in one step, when all is
-        written and on the disk; until then, and if anything goes wrong, it is as it was.
+        Ends in ``.nc`` or ``.zarr``. What stands there is replaced when all is written and on the
+        disk, a file in one step; until then, and if anything goes wrong, it is as it was.
 
     Returns
     -------
@@ -231,8 +231,8 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     Parameters
     ----------
     path : str or Path
-        NetCDF is read whole and held to its checksums. Zarr is read as it is used: its header is
-        held to the checksum now, each chunk as it is read; `verify` reads it all.
+        NetCDF is read whole and held to its checksum. Zarr is read as it is used: each file of it
+        is held to the ledger as it is read; `verify` reads it all.
 
     Returns
     -------
