@@ -18,7 +18,7 @@ from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
 from earthspin.numerics.estimate import Estimate
-from earthspin.parts.elements import chains, exact_means, no_exact_means
+from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
@@ -263,7 +263,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    by_name = chains(body, perturbers)
+    by_name = ellipse_chains(body, perturbers)
     torques, errors, nearness = [], [], []
     for p in perturbers:
         ((ellipse, _),) = by_name[p.name].ellipses

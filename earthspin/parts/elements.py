@@ -16,7 +16,7 @@ from earthspin.sky.elements import Ellipse, Plane
 THIRD_LAW = 0.01
 
 
-class Chain(NamedTuple):
+class EllipseChain(NamedTuple):
     """Ellipses that lead from one body to another.
 
     Attributes
@@ -31,7 +31,7 @@ class Chain(NamedTuple):
     ellipses: tuple[tuple[Ellipse, int], ...] = ()
 
 
-def chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Chain]:
+def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
     """Ellipses to each perturber that elements place, by its name.
 
     They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
@@ -56,24 +56,24 @@ def chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Chain]:
     for name, about in centres.items():
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
-    reached: dict[str, Chain] = {}
+    reached: dict[str, EllipseChain] = {}
     for start in (body, *(member for member in perturbers if member.orbit is None)):
         if start.name not in reached:
-            _follow(Chain(start), start.name, links, reached)
+            _follow(EllipseChain(start), start.name, links, reached)
     return {name: chain for name, chain in reached.items() if chain.ellipses}
 
 
 def _follow(
-    chain: Chain,
+    chain: EllipseChain,
     end: str,
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
-    reached: dict[str, Chain],
+    reached: dict[str, EllipseChain],
 ) -> None:
     """Note the chain to a body, and go on to its neighbours."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
-            _follow(Chain(chain.start, (*chain.ellipses, link)), name, links, reached)
+            _follow(EllipseChain(chain.start, (*chain.ellipses, link)), name, links, reached)
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
@@ -183,13 +183,13 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
-    by_name = chains(body, perturbers)
+    by_name = ellipse_chains(body, perturbers)
     return all(p.name in by_name and by_name[p.name].start is body for p in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
-    by_name = chains(body, perturbers)
+    by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
     if len(by_name) < len(perturbers) or not single:
         return None

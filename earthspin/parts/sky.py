@@ -19,7 +19,7 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
-from earthspin.parts.elements import Chain, all_by_elements, chains
+from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.poles import Pole
@@ -158,7 +158,7 @@ class Places:
     ----------
     body : Body
         That spins.
-    targets : dict of str to Chain
+    targets : dict of str to EllipseChain
         Ellipses that lead to each perturber; a chain without ellipses starts from itself.
     reach : dict of str to float
         How near each perturber may come, m: the radii of both bodies, the largest of arrays.
@@ -167,7 +167,7 @@ class Places:
     """
 
     body: Body
-    targets: dict[str, Chain]
+    targets: dict[str, EllipseChain]
     reach: dict[str, float]
     by_elements: bool = False
 
@@ -233,7 +233,7 @@ class Sky:
 
     def place(self, body: Body) -> Place:
         """Where the source finds another body."""
-        return _place(self.source, body.name, Chain(body))
+        return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
         """First and last day on which the bodies can be placed; the perturbers by default."""
@@ -338,7 +338,7 @@ class Stretch:
     last: float
 
 
-def _place(source: Source, name: str, chain: Chain) -> Place:
+def _place(source: Source, name: str, chain: EllipseChain) -> Place:
     """Where a source finds a body: by itself, or at the end of its ellipses."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
@@ -348,7 +348,7 @@ def _place(source: Source, name: str, chain: Chain) -> Place:
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    targets = {p.name: Chain(p) for p in perturbers} | chains(body, perturbers)
+    targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
         if targets[p.name].ellipses and start.position is not None:
@@ -367,7 +367,7 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
     phrases = [f"positions {describe_source(source, ephemeris)}"]
-    phrases += [f"{name} by the elements of its orbit" for name in chains(body, perturbers)]
+    phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
     phrases += [
         f"{member.name} by {describe_position(member.position)}"
         for member in (body, *perturbers)
@@ -385,7 +385,7 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
         }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
-    centre = _place(opened, places.body.name, Chain(places.body))
+    centre = _place(opened, places.body.name, EllipseChain(places.body))
     targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
     for name, place in targets.items():
         if place == centre:

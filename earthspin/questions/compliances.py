@@ -60,7 +60,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
 class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
     """Compliances, ellipticities and coupling numbers of a body."""
 
-    number_value: Value = number("1", "number of the body, in units of its moments")
+    number_value: Value = number("1", "number of the body, in units of its moments", short="value")
     number: Labels = labels()
 
 
@@ -98,6 +98,7 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
         "d",
         "period of a free mode of the elastic body: of a nutation in space, negative if "
         "retrograde; else in the body",
+        short="period",
     )
     free_mode: Labels = labels()
 

@@ -137,7 +137,9 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
         "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
     )
     attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
-    energy: Value = number("J", "kinetic energy of rotation", along=("time",))
+    energy: Value = number(
+        "J", "kinetic energy of rotation", along=("time",), short="kinetic energy"
+    )
     relative_error: Value = number(
         "1",
         "95 % half-width of each quantity relative to its largest value, for exact inputs",
@@ -193,9 +195,14 @@ class Poinsot(
         "path of the angular velocity in the body",
         along=("polhode_point", "component"),
     )
-    polhode_period: Value = number("s", "period of the polhode", along=())
+    polhode_period: Value = number(
+        "s", "period of the polhode", along=(), short="period of the polhode"
+    )
     invariable_plane_distance: Value = number(
-        "rad/s", "distance of the invariable plane from the centre, 2T/L", along=()
+        "rad/s",
+        "distance of the invariable plane from the centre, 2T/L",
+        along=(),
+        short="distance of the invariable plane",
     )
     herpolhode: Value = number(
         "rad/s",

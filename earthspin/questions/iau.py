@@ -355,12 +355,18 @@ class ResidualSizes(Variables, along=("model", "direction")):
         "mas",
         "root mean square after removal of a constant and a rate",
         error="residual_size_error",
+        short="rms",
     )
     residual_maximum: Value = number(
-        "mas", "largest after removal of a constant and a rate", error="residual_size_error"
+        "mas",
+        "largest after removal of a constant and a rate",
+        error="residual_size_error",
+        short="largest",
     )
     residual_rms_unfitted: Value = number(
-        "mas", "root mean square of the poles as `pole` returns them, without a fit"
+        "mas",
+        "root mean square of the poles as `pole` returns them, without a fit",
+        short="rms without a fit",
     )
     residual_size_error: Value = number("mas", _HALF_WIDTH, along=())
     residual_rms_unfitted_error: Value = number(
@@ -578,8 +584,8 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 class Inferred(Variables, along=("origin",)):
     """H and C/(M a2) by where they come from."""
 
-    flattening: Pair = measured("1", "dynamical flattening H")
-    polar_moment: Pair = measured("1", "C/(M a2)")
+    flattening: Pair = measured("1", "dynamical flattening H", short="H = (C-A)/C")
+    polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
     origin: Labels = labels()
 
 

@@ -355,7 +355,7 @@ class LongTermSeries(FromStart, along=("epoch",)):
         along=("perturber", "epoch"),
     )
     precession_period: Pair = measured(
-        "yr", "period of one full turn at that rate", along=("perturber", "epoch")
+        "yr", "period of one full turn at that rate", along=("perturber", "epoch"), short="period"
     )
     epoch: Labels = labels("Julian years from J2000.0 (TDB)", "yr")
     component: Labels = labels(default=["x", "y", "z"])

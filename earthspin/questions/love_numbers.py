@@ -82,9 +82,11 @@ def _numbers(response: Yielding) -> NDArray[np.complex128]:
 class Love(Variables, along=("love",), no_error=FROM_LAYERS):
     """Love numbers at one period."""
 
-    love_number: Value = number("1", "Love number of degree two")
+    love_number: Value = number("1", "Love number of degree two", short="real part")
     love_number_imaginary: Value = number(
-        "1", "imaginary part of the Love number, negative where the body lags"
+        "1",
+        "imaginary part of the Love number, negative where the body lags",
+        short="imaginary part",
     )
     love: Labels = labels(default=list(_FIELDS))
 

@@ -180,10 +180,12 @@ _ADDS = "what the model adds, or what it is"
 class RungSizes(Variables, along=("rung",), error="rms_error"):
     """Differences from IAU 2000A, rung by rung."""
 
-    rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
-    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    rms_dpsi_sineps: Value = number(
+        "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
+    )
+    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     rms_error: Value = number("mas", _RMS_ERROR, along=())
-    adds: Value = words(_ADDS)
+    adds: Value = words(_ADDS, short="what it adds")
     rung: Labels = labels()
 
 
@@ -204,10 +206,12 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     """Differences from IAU 2000A of the models beside the ladder."""
 
-    model_rms_dpsi_sineps: Value = number("mas", f"{_RMS} {_LONGITUDE}", references=SOURCES)
-    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}")
+    model_rms_dpsi_sineps: Value = number(
+        "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
+    )
+    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     model_rms_error: Value = number("mas", _RMS_ERROR, along=())
-    model_adds: Value = words(_ADDS)
+    model_adds: Value = words(_ADDS, short="what it adds")
     model: Labels = labels()
 
 
@@ -276,15 +280,18 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
 class Modes(Variables, along=("mode",)):
     """Free modes of the rungs."""
 
-    mode_rung: Value = words("rung that has the mode")
-    mode_name: Value = words("name of the mode")
+    mode_rung: Value = words("rung that has the mode", short="rung")
+    mode_name: Value = words("name of the mode", short="mode")
     mode_period: Pair = measured(
-        "d", "period: of a nutation in space, negative if retrograde; else in the body"
+        "d",
+        "period: of a nutation in space, negative if retrograde; else in the body",
+        short="period",
     )
     mode_quality: Value = number(
         "1",
         "quality factor of the mode; infinite where nothing is lost",
         no_error="it follows from published quality factors, which have none",
+        short="Q",
     )
     mode: Labels = labels()
 
@@ -368,7 +375,7 @@ class Compliances(
 ):
     """Compliances of the elastic body."""
 
-    compliance: Value = number("1", "answer of a part to a wobble of size 1")
+    compliance: Value = number("1", "answer of a part to a wobble of size 1", short="value")
     compliance_name: Labels = labels()
 
 

@@ -175,7 +175,7 @@ class FreeWobble(
 ):
     """The free wobble in a polar motion, and the annual wobble and mean pole beside it."""
 
-    chandler_period: Pair = measured("d", "period of the free wobble", along=())
+    chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
     chandler_amplitude: Pair = measured(
         "mas", "amplitude of the free wobble", cell_methods="middle: mean (one beat of the wobbles)"
     )

@@ -132,9 +132,12 @@ class Rates(Variables, along=("perturber",)):
         "arcsec/yr",
         "rate of precession in longitude along the fixed orbit",
         split=True,
+        short="rate",
         cell_methods=_OVER_WINDOW,
     )
-    precession_period: Pair = measured("yr", "period of one full turn of precession")
+    precession_period: Pair = measured(
+        "yr", "period of one full turn of precession", short="period"
+    )
     rate_ratio: Value = number(
         "1",
         "ratio of the rate to that of the first perturber",
@@ -252,11 +255,15 @@ def no_figure(body: Body) -> str | None:
 class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
     """Models of the figure, and what follows from them."""
 
-    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", along=("earth_model",))
-    period_by_model: Value = number(
-        "yr", "period of one full turn of precession", along=("earth_model",)
+    h_by_model: Value = number(
+        "1", "dynamical flattening (C - A)/C", along=("earth_model",), short="H = (C-A)/C"
     )
-    wobble_by_model: Value = number("d", "period of the rigid free wobble", along=("earth_model",))
+    period_by_model: Value = number(
+        "yr", "period of one full turn of precession", along=("earth_model",), short="precession"
+    )
+    wobble_by_model: Value = number(
+        "d", "period of the rigid free wobble", along=("earth_model",), short="wobble"
+    )
     moment_difference: Value = number("kg m2", "C - A from J2")
     polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
     j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
@@ -325,7 +332,9 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
         "arcsec/yr",
         "general precession in longitude: motion of the equinox along the moving ecliptic",
     )
-    general_precession_period: Pair = measured("yr", "period of one full turn of the equinox")
+    general_precession_period: Pair = measured(
+        "yr", "period of one full turn of the equinox", short="period"
+    )
     time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
     tropical_year: Value = number("d", "tropical year, the period of the seasons")
     time_per_day_of_drift: Value = number(
@@ -407,8 +416,10 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
 class Standstills(Variables, along=("standstill",)):
     """Standstills of the Moon."""
 
-    standstill_kind: Value = words("major or minor")
-    standstill_declination: Pair = measured("deg", "extreme declination, mean equator of date")
+    standstill_kind: Value = words("major or minor", short="kind")
+    standstill_declination: Pair = measured(
+        "deg", "extreme declination, mean equator of date", short="extreme declination"
+    )
     standstill: Labels = labels("day of the extreme declination (TDB)")
 
 

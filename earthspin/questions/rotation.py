@@ -357,6 +357,7 @@ class Attitudes(Dated, along=("time", "component")):
         "unit quaternion, body to ICRF",
         along=("time", "quaternion"),
         error="attitude_error",
+        short="quaternion, body to ICRF",
     )
     attitude_error: Value = _error("deg", "the angle of the attitude")
     attitude_error_method: Value = _share("deg", "attitude", "method")
@@ -366,6 +367,7 @@ class Attitudes(Dated, along=("time", "component")):
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
+        short="spin in the body",
     )
     omega_error: Value = _error("rad/s", "the angular velocity")
     omega_error_method: Value = _share("rad/s", "omega", "method")

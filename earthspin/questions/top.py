@@ -148,9 +148,14 @@ class Motion(FromStart, error="relative_error"):
     )
     pattern: Value = words("wave, cusp, loop, steady or sleeping", along=())
     nutation_period: Value = number(
-        "s", "period of the nutation, the oscillation of theta", along=()
+        "s",
+        "period of the nutation, the oscillation of theta",
+        along=(),
+        short="period of nutation",
     )
-    mean_precession_rate: Value = number("rad/s", "mean rate of phi", along=())
+    mean_precession_rate: Value = number(
+        "rad/s", "mean rate of phi", along=(), short="mean precession"
+    )
     relative_error: Value = number(
         "1",
         "95 % half-width of theta relative to itself, of the others relative to their largest "

@@ -180,7 +180,9 @@ class Rungs(
 
     period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
     period_sidereal: Value = number(
-        "1", "period of the free wobble in turns of the body, its sidereal days"
+        "1",
+        "period of the free wobble in turns of the body, its sidereal days",
+        short="sidereal days",
     )
     factor: Value = number("1", "ratio of the period to that of the rung before")
     quality_factor: Value = number(
@@ -188,6 +190,7 @@ class Rungs(
         "quality factor of the free wobble",
         comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
         "so the anelastic rung is a check of consistency, not a prediction",
+        short="Q",
     )
     rung_formula: Value = words("formula for the turns of the body per wobble, with its source")
 

@@ -2,53 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import BLUE, GREY, RED, Drawing, axes, drawn, style
+from earthspin.views.drawing import BLUE, GREY, RED, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Table, beside_observed
+from earthspin.views.table import Column, Table, along, beside_observed, table_along
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
 
 def tables(tree: Result) -> list[Table]:
     """Each state, with its obliquity."""
     answer, left_out = answer_of(tree), needed(tree, "neglected")
-    rows = [
-        (
-            f"{int(of.state)}",
-            # sizes of what is left out are those in the upright state, the first
-            beside_observed(of.obliquity, of.obliquity_error, None if place else left_out),
-            beside_observed(of.tilt, of.tilt_error, None if place else left_out),
-            "stable" if bool(of.stable) else "unstable",
+    first = answer.state[0]
+
+    def with_left_out(name: str) -> Callable[[xr.Dataset], str]:
+        # sizes of what is left out are those in the upright state, the first
+        return lambda row: beside_observed(
+            row[name], row[f"{name}_error"], left_out if row.state == first else None
         )
-        for place, of in (
-            (place, answer.isel(state=place)) for place in range(answer.sizes["state"])
-        )
-    ]
-    heads = ("state", "obliquity, deg", "tilt, deg", "beside it")
+
     note = (
         "Obliquity is counted from the normal of the orbit, tilt from the pole that this normal "
         f"goes round. The spin is {answer.obliquity.attrs['spin']}. Errors hold the uncertainty of "
         "the body's numbers and the sizes of what the model leaves out; where these are not known, "
         "the table says numbers only."
     )
-    return [Table("Cassini states", heads, rows, note)]
+    columns = (
+        Column("obliquity", with_left_out("obliquity")),
+        Column("tilt", with_left_out("tilt")),
+        Column("stable", lambda row: "stable" if row.stable else "unstable", "beside it"),
+    )
+    return [table_along(answer, "state", "Cassini states", columns, note)]
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The axes of the states in the plane that they share."""
-    caption = (
+def _caption(tree: Result) -> str:
+    words = (
         "Spin axes in the states, in the plane of the orbit's normal (dashed) and of the pole that "
         "it goes round (dotted)."
     )
     if not bool(answer_of(tree).stable.all()):
-        caption += " An axis beside a blue one stays there; beside the red one it leaves."
-    return [drawn("The states", caption, plot_states(tree), square=True)]
+        words += " An axis beside a blue one stays there; beside the red one it leaves."
+    return words
 
 
 def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -69,16 +69,16 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.annotate(words, (1.1 * np.sin(angle), 1.1 * np.cos(angle)), ha=side, color=GREY)
     turn = np.linspace(0, 2 * np.pi, 200)
     ax.plot(np.sin(turn), np.cos(turn), color=GREY, lw=0.5)
-    for place in range(answer.sizes["state"]):
-        of = answer.isel(state=place)
-        angle = np.radians(float(of.obliquity)) * (1 if bool(of.towards_pole) else -1)
-        colour = BLUE if bool(of.stable) else RED
+    for state, row in along(answer, "state"):
+        angle = np.radians(float(row.obliquity)) * (1 if row.towards_pole else -1)
+        colour = BLUE if row.stable else RED
         x, y = np.sin(angle), np.cos(angle)
         ax.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.6})
         beside = 0.8 * x + 0.08 * y, 0.8 * y - 0.08 * x
-        ax.annotate(
-            f"{int(of.state)}", beside, color=colour, weight="bold", ha="center", va="center"
-        )
+        ax.annotate(state, beside, color=colour, weight="bold", ha="center", va="center")
     ax.set(xlim=(-1.25, 1.25), ylim=(-1.15, 1.2), aspect="equal")
     ax.axis("off")
     return ax
+
+
+FIGURES = [PageFigure("The states", _caption, plot_states, square=True)]

@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import BLUE, GREY, RED, Drawing, axes, drawn, style
+from earthspin.views.drawing import BLUE, GREY, RED, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import Table, along, beside, short_exponents
+from earthspin.views.table import (
+    Column,
+    Table,
+    beside,
+    beside_published,
+    table_along,
+    words_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-#: Sections that the figure stands on.
-DRAWN = ("published",)
 
 #: How a number is written in a figure; others as they are named.
 SYMBOLS = {
@@ -37,51 +41,30 @@ def tables(tree: Result) -> list[Table]:
 
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
-    answer, known = answer_of(tree), section(tree, "published")
-    there = {} if known is None else dict(along(known, "published_number"))
-    rows = [
-        (
-            name,
-            short_exponents(f"{float(of.number_value):.6g}"),
-            *beside(of.number_value, there[name].published_value if name in there else None),
-        )
-        for name, of in along(answer, "number")
-    ]
+    answer = answer_of(tree)
+    published, sources = beside_published(
+        section(tree, "published"), "number", "number_value", "published_value", "published_source"
+    )
     note = (
         "Products of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
         "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of mantle, fluid "
         "core and inner core; ellipticities, coupling numbers and moments. Layers: "
         f"{answer.number_value.attrs['references']}."
     )
-    if there:
-        sources = dict.fromkeys(str(of.published_source.values) for of in there.values())
-        note += f" Published: {'; '.join(sources)}."
-    return Table("Compliances", ("number", "value", "published", "difference, %"), rows, note)
+    if sources:
+        note += f" Published: {sources}."
+    return table_along(answer, "number", "Compliances", ["number_value:.6g", *published], note)
 
 
 def modes(tree: Result) -> Table:
     """Free modes of the elastic body."""
-    return Table(
-        "Free modes of the elastic body",
-        ("mode", "period, d"),
-        [
-            (name.replace("_", " "), f"{float(of.compliance_mode_period):.1f}")
-            for name, of in along(needed(tree, "modes"), "free_mode")
-        ],
-        "Nutations have their periods in space, negative if retrograde; wobbles in the body.",
+    columns = (
+        Column("free_mode", words_of("free_mode"), "mode"),
+        "compliance_mode_period:.1f",
     )
-
-
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The numbers beside the published ones."""
-    if section(tree, "published") is None:
-        return []
-    caption = (
-        "Compliances, ellipticities, coupling numbers and moments, on an axis that is logarithmic "
-        "to either side of zero. Rings: as published. At the right what ours are over them."
-    )
-    return [drawn("Beside the published ones", caption, plot_compliances(tree))]
+    note = "Nutations have their periods in space, negative if retrograde; wobbles in the body."
+    title = "Free modes of the elastic body"
+    return table_along(needed(tree, "modes"), "free_mode", title, columns, note, first="")
 
 
 def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -111,11 +94,20 @@ def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
             va="center", fontsize=8, color=RED if abs(float(over)) > 1 else GREY,
         )  # fmt: skip
     ax.set_xscale("symlog", linthresh=LINEAR)
-    ends = [-1e-4, -1e-7, 0.0, 1e-7, 1e-4, 1e-1]
-    ax.set_xticks(ends)
-    ax.set_xlim(-1e-3, 3.0)
+    ax.set(xticks=[-1e-4, -1e-7, 0.0, 1e-7, 1e-4, 1e-1], xlim=(-1e-3, 3.0))
     ax.set_yticks(place, [SYMBOLS.get(name, name) for name in names])
     ax.invert_yaxis()
     ax.set_xlabel("value (ratio of moments of inertia)")
     ax.legend(loc="lower left")
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "Beside the published ones",
+        "Compliances, ellipticities, coupling numbers and moments, on an axis that is logarithmic "
+        "to either side of zero. Rings: as published. At the right what ours are over them.",
+        plot_compliances,
+        section="published",
+    )
+]

@@ -10,10 +10,14 @@ import io
 import os
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from earthspin.views.reading import Result, section
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -127,26 +131,111 @@ def _saved(figure: Figure) -> str:
     return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
 
 
-def for_phone(height: float) -> Axes:
-    """Axes on a figure of their own, as wide as a phone; height in inches."""
-    return axes(None, NARROW, height)
+@dataclass(frozen=True)
+class PageFigure:
+    """A figure as a view declares it: its words, how it is drawn, and what it needs.
+
+    Attributes
+    ----------
+    title : str
+    caption : str or callable
+        A function makes it from the answer.
+    plot : callable
+        Function from the answer to axes or to a whole figure; takes axes as `ax`, if `phone` is
+        given.
+    section : str
+        Section without which it is left out.
+    uses : sequence of str
+        Further sections that it shows.
+    applies : callable, optional
+        Condition that the answer must meet.
+    square : bool
+        As of `Drawing`.
+    phone : float
+        Height of the same drawn anew for a phone, inches; 0 if it is only made narrower.
+    """
+
+    title: str
+    caption: str | Callable[[Result], str]
+    plot: Callable[..., Axes | Figure]
+    section: str = ""
+    uses: Sequence[str] = ()
+    applies: Callable[[Result], bool] | None = None
+    square: bool = False
+    phone: float = 0.0
+
+    def is_there(self, tree: Result) -> bool:
+        """Whether the answer holds what the figure needs."""
+        there = not self.section or section(tree, self.section) is not None
+        return there and (self.applies is None or self.applies(tree))
+
+    def drawn(self, tree: Result) -> Drawing:
+        """Figure of an answer, ready for the page."""
+        caption = self.caption(tree) if callable(self.caption) else self.caption
+        with style():
+            shown = self.plot(tree)
+            phone = self.plot(tree, ax=axes(None, NARROW, self.phone)) if self.phone else None
+        return drawn(self.title, caption, shown, square=self.square, phone=phone)
 
 
 def drawn(
-    title: str, caption: str, ax: Axes, *, square: bool = False, phone: Axes | None = None
+    title: str,
+    caption: str,
+    shown: Axes | Figure,
+    *,
+    square: bool = False,
+    phone: Axes | Figure | None = None,
 ) -> Drawing:
     """Figure of some axes, ready for the page, and the same drawn for a phone if need be."""
     narrow = None if phone is None else figure_of(phone)
-    return Drawing(title, caption, figure_of(ax), square, narrow)
+    return Drawing(title, caption, figure_of(shown), square, narrow)
 
 
-def figure_of(ax: Axes) -> Figure:
+def figure_of(shown: Axes | Figure) -> Figure:
     """Whole figure to which axes belong."""
     from matplotlib.figure import Figure
 
-    figure = ax.get_figure(root=True)
+    figure = shown if isinstance(shown, Figure) else shown.get_figure(root=True)
     assert isinstance(figure, Figure)
     return figure
+
+
+def stacked(
+    count: int, height: float, figure: Figure | None = None, **how: Any
+) -> tuple[Figure, list[Axes]]:
+    """Axes one above the other with one horizontal axis, on a figure of their own by default."""
+    figure = empty(how.pop("width", 8.0), height) if figure is None else figure
+    return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False, **how)[:, 0])
+
+
+def band(
+    ax: Axes,
+    x: Any,
+    value: Any,
+    error: Any,
+    colour: str,
+    *,
+    alpha: float = 0.3,
+    lowest: float = -np.inf,
+    **how: Any,
+) -> None:
+    """A line and the band of its 95 % half-width, not below `lowest`."""
+    low = np.maximum(value - error, lowest)
+    ax.fill_between(x, low, value + error, color=colour, alpha=alpha, lw=0)
+    ax.plot(x, value, color=colour, **how)
+
+
+def plot_both_angles(ax: Axes, time: Any, dpsi_sineps: Any, deps: Any) -> None:
+    """Series of a celestial pole offset in longitude and in obliquity."""
+    ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
+    ax.plot(time, deps, color=RED, lw=0.6, label="deps")
+
+
+def rungs(ax: Axes, labels: Sequence[object]) -> None:
+    """Label a horizontal axis of rungs, models one after the other."""
+    ax.set_xticks(range(len(labels)), [str(label) for label in labels])
+    ax.margins(x=0.08)
+    ax.grid(axis="x", visible=False)
 
 
 def empty(width: float, height: float) -> Figure:

@@ -9,16 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.views import plain
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Drawing, axes, drawn, empty, style
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, PageFigure, axes, empty
 from earthspin.views.reading import Result, views_of
 from earthspin.views.table import Table, short_exponents, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+FloatArray = NDArray[np.float64]
+
+#: Name, labels and unit of a number that differs among the members.
+_Number = tuple[str, dict[str, Any], str]
 
 #: The dimension of an ensemble.
 MEMBER = "member"
@@ -56,10 +62,8 @@ def _shares_table(answer: xr.Dataset) -> list[Table]:
     """Shares of the inputs in the variance, where there are members enough to tell."""
     if not _tells(answer):
         return []
-    told, inputs, chiefs = sensitivity(answer), _inputs(answer), _chiefs(answer)
-    rows = [row for row in _numbers(answer) if row[0] in chiefs]
-    shares = np.array([told[f"{name}_share"].sel(at).values for name, at, _ in rows])
-    rest = [float(told[f"{name}_unexplained"].sel(at)) for name, at, _ in rows]
+    rows, shares, rest = _shares(answer)
+    inputs = _inputs(answer)
     seen = [int(i) for i in np.flatnonzero(np.abs(shares).max(axis=0) >= SMALL)]
     others = [name for i, name in enumerate(inputs) if i not in seen]
     note = "By straight lines in all inputs together; the last column is what they leave."
@@ -78,6 +82,15 @@ def _shares_table(answer: xr.Dataset) -> list[Table]:
     ]
 
 
+def _shares(answer: xr.Dataset) -> tuple[list[_Number], FloatArray, list[float]]:
+    """The chief numbers, shares of the inputs in their variances, and what these leave."""
+    result, chiefs = sensitivity(answer), _chiefs(answer)
+    rows = [row for row in _numbers(answer) if row[0] in chiefs]
+    shares = np.array([result[f"{name}_share"].sel(labels).values for name, labels, _ in rows])
+    rest = [float(result[f"{name}_unexplained"].sel(labels)) for name, labels, _ in rows]
+    return rows, shares, rest
+
+
 def lead(tree: Result) -> str:
     """The chief number in a sentence, and what most of its spread comes from."""
     answer = _whole(tree)
@@ -94,25 +107,15 @@ def lead(tree: Result) -> str:
     return f"{said}. {100 * float(shares.max()):.1f} % of the variance comes from {most}."
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Spread of the chief number, and shares of the inputs; none if all members are alike."""
+def _caption_of_spread(tree: Result) -> str:
     answer = _whole(tree)
-    if not _chiefs(answer):
-        return []
     name, labels, _ = _chief(answer)
-    told = f"{answer.sizes[MEMBER]} members"
-    made = [
-        drawn(
-            "How the members spread",
-            f"{_words(name, labels).capitalize()}, of {told}; the band is the central 95 %.",
-            plot_spread(answer),
-        )
-    ]
-    if _tells(answer):
-        caption = f"Share of each input in the variance of {told}."
-        made.append(drawn("Where the spread comes from", caption, plot_shares(answer)))
-    return made
+    words = _words(name, labels).capitalize()
+    return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
+
+
+def _caption_of_shares(tree: Result) -> str:
+    return f"Share of each input in the variance of {_whole(tree).sizes[MEMBER]} members."
 
 
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
@@ -160,12 +163,10 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
         If no number differs among the members, or they are too few.
     """
     answer = _whole(result)
-    told, inputs = sensitivity(answer), _inputs(answer)
-    chiefs = _chiefs(answer)
-    if not chiefs:
+    if not _chiefs(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
-    rows = [row for row in _numbers(answer) if row[0] in chiefs][:MOST_ROWS]
-    shares = np.array([told[f"{name}_share"].sel(at).values for name, at, _ in rows])
+    rows, shares, _ = _shares(answer)
+    rows, shares, inputs = rows[:MOST_ROWS], shares[:MOST_ROWS], _inputs(answer)
     order = np.argsort(-shares.max(axis=0))
     seen = [int(i) for i in order if shares[:, i].max() >= SMALL][:MOST_COLOURS]
     if ax is None:
@@ -182,6 +183,22 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.grid(axis="y", visible=False)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, fontsize=8)
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "How the members spread",
+        _caption_of_spread,
+        plot_spread,
+        applies=lambda tree: bool(_chiefs(_whole(tree))),
+    ),
+    PageFigure(
+        "Where the spread comes from",
+        _caption_of_shares,
+        plot_shares,
+        applies=lambda tree: bool(_chiefs(_whole(tree))) and _tells(_whole(tree)),
+    ),
+]
 
 
 # --- what is shown -------------------------------------------------------------------------------
@@ -201,7 +218,7 @@ def _tells(answer: xr.Dataset) -> bool:
     return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
-def _numbers(answer: xr.Dataset) -> Iterator[tuple[str, dict[str, Any], str]]:
+def _numbers(answer: xr.Dataset) -> Iterator[_Number]:
     """Every number that differs among the members: its name, its labels and its unit."""
     for name, of in answer.data_vars.items():
         if MEMBER not in of.dims or of.dtype.kind != "f" or "_error" in str(name):
@@ -233,7 +250,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
     return tuple(name for name in named if name in differing) or tuple(differing)[:1]
 
 
-def _chief(answer: xr.Dataset, name: str = "") -> tuple[str, dict[str, Any], str]:
+def _chief(answer: xr.Dataset, name: str = "") -> _Number:
     """The last value of the chief number: the total, the last rung, the last time."""
     wanted = (name,) if name else _chiefs(answer)[:1]
     rows = [row for row in _numbers(answer) if row[0] in wanted]

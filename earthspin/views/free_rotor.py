@@ -7,33 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from earthspin.numerics.quaternion import multiply, rotate
-from earthspin.views.drawing import CYCLE, Drawing, axes, drawn, legend_above, style
-from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.solids import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    RED,
-    FloatArray,
-    Solid,
-    arrow,
-    cone,
-    ellipsoid,
-    line,
-    mesh,
-    moving_arrow,
-    square,
-)
-from earthspin.views.table import Table, along, listed
+from earthspin.views import solids
+from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, PageFigure, axes, legend_above
+from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.solids import BLACK, GREY, FloatArray, Solid
+from earthspin.views.table import Table, along, listed, quantities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from earthspin.rotor.axisymmetric import SymmetricRotor
-
-#: Sections that the figures stand on.
-DRAWN = ("poinsot",)
 
 
 def tables(tree: Result) -> list[Table]:
@@ -41,22 +24,16 @@ def tables(tree: Result) -> list[Table]:
     answer, poinsot = answer_of(tree), section(tree, "poinsot")
     momentum = float(np.linalg.norm(answer.angular_momentum_body.isel(time=0)))
     rows = [
-        ("kinetic energy, J", f"{float(answer.energy.isel(time=0)):.10g}"),
+        *quantities(answer.isel(time=0), "energy:.10g"),
         ("angular momentum, kg m2/s", f"{momentum:.10g}"),
     ]
     if poinsot is not None:
         inner, outer = poinsot.herpolhode_radius.values
-        advance = (
-            f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
-            if "herpolhode_advance" in poinsot
-            else "none (the polhode has no period)"
-        )
+        advance = "none (the polhode has no period)"
+        if "herpolhode_advance" in poinsot:
+            advance = f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
+        rows += quantities(poinsot, "polhode_period:.10g", "invariable_plane_distance:.10g")
         rows += [
-            ("period of the polhode, s", f"{float(poinsot.polhode_period):.10g}"),
-            (
-                "distance of the invariable plane, rad/s",
-                f"{float(poinsot.invariable_plane_distance):.10g}",
-            ),
             ("radii of the herpolhode, rad/s", f"{inner:.8g} and {outer:.8g}"),
             ("advance of the herpolhode per period, deg", advance),
             ("growth rate about x, y, z, 1/s", listed(poinsot.growth_rate.values)),
@@ -74,28 +51,16 @@ def tables(tree: Result) -> list[Table]:
 # --- figures -------------------------------------------------------------------------------------
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Angular velocity in the body in time, and the herpolhode."""
-    caption = "Components of the angular velocity along the principal axes."
-    shown = drawn("Angular velocity in the body", caption, plot_components(tree))
-    return [shown, *of_sections(tree, {"poinsot": _herpolhode})]
-
-
-def _herpolhode(tree: Result) -> Drawing:
+def _caption_of_herpolhode(tree: Result) -> str:
     poinsot = needed(tree, "poinsot")
     returns = "The curve does not come back to its start."
     if "herpolhode_advance" in poinsot:
         turned = float(np.degrees(poinsot.herpolhode_advance))
         period = float(poinsot.polhode_period)
         returns = f"In one period of the polhode, {period:.4g} s, it advances by {turned:.4f} deg."
-    return drawn(
-        "Herpolhode",
+    return (
         "Path of the tip of the angular velocity in the invariable plane, between its two bounding "
-        "circles (dashed). "
-        f"{returns}",
-        plot_herpolhode(tree),
-        square=True,
+        f"circles (dashed). {returns}"
     )
 
 
@@ -113,8 +78,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     for colour, (component, of) in zip(CYCLE, along(answer, "component"), strict=False):
         ax.plot(answer.time, of.omega_body, color=colour, lw=1.2, label=component)
-    ax.set_xlabel("time (s)")
-    ax.set_ylabel("angular velocity (rad/s)")
+    ax.set(xlabel="time (s)", ylabel="angular velocity (rad/s)")
     legend_above(ax)
     return ax
 
@@ -135,19 +99,28 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.plot(radius * np.cos(turn), radius * np.sin(turn), color="0.5", lw=0.8, ls="--")
     x, y = poinsot.herpolhode.transpose("in_plane", ...).values
     ax.plot(x, y, color=RED, lw=1.0)
-    ax.set_aspect("equal")
-    ax.set_xlabel("in the invariable plane (rad/s)")
-    ax.set_ylabel("in the invariable plane (rad/s)")
+    words = "in the invariable plane (rad/s)"
+    ax.set(aspect="equal", xlabel=words, ylabel=words)
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "Angular velocity in the body",
+        "Components of the angular velocity along the principal axes.",
+        plot_components,
+    ),
+    PageFigure(
+        "Herpolhode", _caption_of_herpolhode, plot_herpolhode, section="poinsot", square=True
+    ),
+]
 
 
 # --- solids --------------------------------------------------------------------------------------
 
 
-def solids(tree: Result) -> list[Solid]:
-    """Poinsot's pictures of one free rotor."""
-    makers = (ellipsoids_with_polhodes, polhode_with_sphere, rolling_ellipsoid)
-    return [solid for make in makers for solid in of_sections(tree, {"poinsot": make})]
+#: Attitude of a body in which a picture is seen.
+AT_REST = [[1.0, 0.0, 0.0, 0.0]]
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
@@ -162,15 +135,15 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
         "moves along their intersection, the polhode (heavy line). The thinner curve is the "
         "polhode of the opposite start.",
         items=[
-            mesh(ellipsoid(inertia), BLUE),
-            mesh(ellipsoid(momentum), RED, opacity=0.12),
-            line(polhode, BLACK, width=3),
-            line(-polhode, GREY, width=2),
-            moving_arrow(answer.omega_body.values, GREEN, "ω"),
+            solids.mesh(solids.ellipsoid(inertia), BLUE),
+            solids.mesh(solids.ellipsoid(momentum), RED, opacity=0.12),
+            solids.line(polhode, BLACK, width=3),
+            solids.line(-polhode, GREY, width=2),
+            solids.moving_arrow(answer.omega_body.values, GREEN, "ω"),
         ],
         radius=float(1.15 * max(inertia.max(), momentum.max())),
         times=answer.time.values,
-        attitude=[[1.0, 0.0, 0.0, 0.0]] * answer.time.size,
+        attitude=AT_REST * answer.time.size,
     )
 
 
@@ -188,14 +161,14 @@ def polhode_with_sphere(tree: Result) -> Solid:
         f"varies from {speed.min():.4g} to {speed.max():.4g} rad/s. No sphere contains the curve, "
         "so the angular speed of a free body is not constant in general.",
         items=[
-            mesh(ellipsoid(inertia), BLUE, opacity=0.1),
-            mesh(ellipsoid((mean, mean, mean)), GREEN, opacity=0.25),
-            line(polhode, BLACK, width=3),
-            moving_arrow(answer.omega_body.values, RED, "ω"),
+            solids.mesh(solids.ellipsoid(inertia), BLUE, opacity=0.1),
+            solids.mesh(solids.ellipsoid((mean, mean, mean)), GREEN, opacity=0.25),
+            solids.line(polhode, BLACK, width=3),
+            solids.moving_arrow(answer.omega_body.values, RED, "ω"),
         ],
         radius=float(1.15 * max(inertia.max(), mean)),
         times=answer.time.values,
-        attitude=[[1.0, 0.0, 0.0, 0.0]] * answer.time.size,
+        attitude=AT_REST * answer.time.size,
     )
 
 
@@ -216,12 +189,12 @@ def rolling_ellipsoid(tree: Result) -> Solid:
         "point of contact draws the polhode on the ellipsoid (heavy line) and the herpolhode on "
         "the plane (red).",
         items=[
-            mesh(ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
-            line(poinsot.polhode.values, BLACK, width=2.5, frame="body"),
-            mesh(square(half, height), GREY, opacity=0.1),
-            line(omega, RED, width=2, grows=True),
-            moving_arrow(omega, GREEN, "ω"),
-            arrow(np.array([0, 0, 1.25 * height]), BLACK, "L"),
+            solids.mesh(solids.ellipsoid(semi_axes), BLUE, frame="body", opacity=0.13),
+            solids.line(poinsot.polhode.values, BLACK, width=2.5, frame="body"),
+            solids.mesh(solids.square(half, height), GREY, opacity=0.1),
+            solids.line(omega, RED, width=2, grows=True),
+            solids.moving_arrow(omega, GREEN, "ω"),
+            solids.arrow(np.array([0, 0, 1.25 * height]), BLACK, "L"),
         ],
         radius=float(1.6 * max(half, height)),
         times=answer.time.values,
@@ -251,11 +224,11 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
         f"is fixed in space, about the angular momentum. The body cone rolls {roll} the space cone "
         f"without slipping, and they touch along the angular velocity (green). {between}",
         items=[
-            mesh(cone(abs(float(rotor.space_cone)), speed), BLUE, opacity=0.2),
-            mesh(cone(float(rotor.alpha), speed), RED, frame="body", opacity=0.2),
-            moving_arrow(omega, GREEN, "ω"),
-            moving_arrow(1.15 * speed * axis, RED, "axis"),
-            arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
+            solids.mesh(solids.cone(abs(float(rotor.space_cone)), speed), BLUE, opacity=0.2),
+            solids.mesh(solids.cone(float(rotor.alpha), speed), RED, frame="body", opacity=0.2),
+            solids.moving_arrow(omega, GREEN, "ω"),
+            solids.moving_arrow(1.15 * speed * axis, RED, "axis"),
+            solids.arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
         ],
         radius=float(1.3 * speed),
         times=times,
@@ -268,3 +241,8 @@ def _turn_to_z(vector: FloatArray) -> FloatArray:
     unit = vector / np.linalg.norm(vector)
     half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
     return np.asarray(half / np.linalg.norm(half))
+
+
+SOLIDS = [
+    ("poinsot", make) for make in (ellipsoids_with_polhodes, polhode_with_sphere, rolling_ellipsoid)
+]

@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
-from earthspin.views.drawing import (
-    BLUE,
-    ORANGE,
-    RED,
-    Drawing,
-    axes,
-    drawn,
-    empty,
-    legend_above,
-    note,
-    style,
-)
+from earthspin.views import drawing, table
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import MAS_PER_CENTURY, Table, along, date, with_error
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Sections that the figures stand on.
-DRAWN = ("residuals_by_model", "residual_sizes", "nutation", "core")
 #: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
 ADDITIONS_SHOWN = 6
 
@@ -59,87 +49,76 @@ def tables(tree: Result) -> list[Table]:
 
 def budget(tree: Result) -> Table:
     """Rates by effect, their sum, and the difference from the IAU."""
-    rates = answer_of(tree).map(lambda rate: rate * MAS_PER_CENTURY)
-    rows = []
-    for effect, of in along(rates, "effect"):
-        published = float(of.psi_rate_published)
-        shown = f"{published:+.3f}" if published else ""
-        rows.append((effect, f"{float(of.psi_rate):+.3f}", shown, f"{float(of.omega_rate):+.3f}"))
-    rows += [
-        (
-            "sum",
-            f"{float(rates.psi_rate_total):.3f}",
-            f"{float(rates.psi_rate_iau):.3f}",
-            f"{float(rates.omega_rate_total):+.3f}",
-        ),
-        (
-            "closure (sum + non-linear term - IAU)",
-            f"{float(rates.closure):+.3f}",
-            "",
-            f"{float(rates.omega_closure):+.3f}",
-        ),
-    ]
-    return Table(
-        "Rates at J2000.0, effect by effect",
-        ("effect", "psi_A, mas/cy", "published", "omega_A, mas/cy"),
-        rows,
-        "The contribution of each effect is measured by switching it off; the first order is what "
-        "remains with all of them off. Published values are from Capitaine, Wallace & Chapront "
-        "2003, table 3; in the row of the sum, from IAU 2006. The closure is the computed sum plus "
-        "the published non-linear term minus the IAU rate. H is fixed, not fitted; it comes from "
-        "observed precession, so the closure tests consistency, not the theory. The same analysis "
-        "of the IAU's own pole differs from its published rate by "
+    rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
+
+    def published(row: xr.Dataset) -> str:
+        return f"{float(row.psi_rate_published):+.3f}" if row.psi_rate_published else ""
+
+    columns = (
+        Column("psi_rate", "+.3f", "psi_A, mas/cy"),
+        Column("psi_rate_published", published, "published"),
+        Column("omega_rate", "+.3f", "omega_A, mas/cy"),
+    )
+    effects = table_along(rates, "effect", "Rates at J2000.0, effect by effect", columns)
+    total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
+    closure = f"{float(rates.closure):+.3f}", "", f"{float(rates.omega_closure):+.3f}"
+    return replace(
+        effects,
+        rows=[
+            *effects.rows,
+            ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
+            ("closure (sum + non-linear term - IAU)", *closure),
+        ],
+        note="The contribution of each effect is measured by switching it off; the first order is "
+        "what remains with all of them off. Published values are from Capitaine, Wallace & "
+        "Chapront 2003, table 3; in the row of the sum, from IAU 2006. The closure is the computed "
+        "sum plus the published non-linear term minus the IAU rate. H is fixed, not fitted; it "
+        "comes from observed precession, so the closure tests consistency, not the theory. The "
+        "same analysis of the IAU's own pole differs from its published rate by "
         f"{float(rates.psi_rate_analysis_error):.2f} mas/cy.",
     )
 
 
 def residuals(tree: Result) -> Table:
     """Size of the residuals in time, model by model."""
-    sizes, series = needed(tree, "residual_sizes"), section(tree, "residuals_by_model")
-    names = ("residual_rms", "residual_maximum", "residual_rms_unfitted")
-    dates = "" if series is None else f", {date(series.time[0])} to {date(series.time[-1])}"
-    return Table(
-        "Computed pole minus that of IAU 2006/2000A",
-        ("model", "rms, mas", "largest, mas", "rms without a fit, mas"),
-        [
-            (MODELS[model], *(" / ".join(f"{v:.3f}" for v in of[name].values) for name in names))
-            for model, of in along(sizes, "model")
-        ],
+    series = section(tree, "residuals_by_model")
+    dates = (
+        "" if series is None else f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
+    )
+
+    def both(name: str) -> Column:
+        return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
+
+    columns = (
+        Column("model", lambda row: MODELS[row.model.item()]),
+        *map(both, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
+    )
+    note = (
         f"Each cell gives dpsi sin(eps) / deps{dates}. A constant and a rate were fitted to each "
         "and removed, except in the last column. The residuals of the first two models are large "
-        "because the body is not rigid; no better integration can remove them.",
+        "because the body is not rigid; no better integration can remove them."
     )
+    title = "Computed pole minus that of IAU 2006/2000A"
+    return table_along(needed(tree, "residual_sizes"), "model", title, columns, note, first="")
 
 
 def nutation(tree: Result) -> Table:
     """Largest circular terms of both poles."""
-    return Table(
-        "The largest nutations",
-        (
-            "l l' F D node",
-            "period, d",
-            "rigid",
-            "IAU",
-            "IAU, out",
-            "neighbour",
-            "ratio",
-            "ratio, out",
-            "residual, uas",
-        ),
-        [
-            (
-                term,
-                f"{float(of.period):.2f}",
-                f"{float(of.rigid_in_phase):.3f}",
-                f"{float(of.iau_in_phase):.3f}",
-                f"{float(of.iau_out_of_phase):+.3f}",
-                f"{float(of.neighbour_in_phase):+.3f}" if str(of.neighbour.values) else "",
-                f"{float(of.ratio_in_phase):.5f}",
-                f"{float(of.ratio_out_of_phase):+.5f}",
-                f"{np.hypot(float(of.left_in_phase), float(of.left_out_of_phase)):.1f}",
-            )
-            for term, of in along(needed(tree, "nutation"), "term")
-        ],
+
+    def neighbour(row: xr.Dataset) -> str:
+        return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
+
+    columns = (
+        "period:.2f",
+        Column("rigid_in_phase", ".3f", "rigid"),
+        Column("iau_in_phase", ".3f", "IAU"),
+        Column("iau_out_of_phase", "+.3f", "IAU, out"),
+        Column("neighbour_in_phase", neighbour, "neighbour"),
+        Column("ratio_in_phase", ".5f", "ratio"),
+        Column("ratio_out_of_phase", "+.5f", "ratio, out"),
+        Column("", _size_left, "residual, uas"),
+    )
+    note = (
         "Circular amplitudes are in mas, and in phase unless marked 'out' (out of phase); a "
         "negative period is retrograde. 'rigid' is the amplitude computed here for a rigid body, "
         "'IAU' that of IAU 2000A, 'ratio' the second divided by the first, and 'residual' the "
@@ -147,54 +126,55 @@ def nutation(tree: Result) -> Table:
         "separate a term from a neighbour, both amplitudes include the neighbour; the column "
         "'neighbour' gives its share in the amplitude of IAU 2000A: "
         f"{_neighbours(tree)}. The prograde annual term is not fitted, because IAU 2000A "
-        "includes an atmospheric tide of 0.11 mas there.",
+        "includes an atmospheric tide of 0.11 mas there."
     )
+    terms, title = needed(tree, "nutation"), "The largest nutations"
+    return table_along(terms, "term", title, columns, note, first="l l' F D node")
+
+
+def _size_left(row: xr.Dataset) -> str:
+    return f"{np.hypot(float(row.left_in_phase), float(row.left_out_of_phase)):.1f}"
 
 
 def _neighbours(tree: Result) -> str:
     """Terms that have a neighbour, each with it."""
-    pairs = [
-        (term, str(of.neighbour.values)) for term, of in along(needed(tree, "nutation"), "term")
-    ]
+    terms = table.along(needed(tree, "nutation"), "term")
+    pairs = [(term, str(row.neighbour.values)) for term, row in terms]
     return "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
 
 
 def core(tree: Result) -> Table:
     """The free core nutation."""
-    of = needed(tree, "core")
+    fit = needed(tree, "core")
+    rows = [
+        ("period in space, d", f"{float(fit.core_nutation_period):.2f}", f"{CORE_NUTATION.value}"),
+        (
+            "quality factor",
+            f"{float(fit.core_nutation_quality):,.0f}",
+            f"{CORE_NUTATION_QUALITY.value:,.0f}",
+        ),
+    ]
+    for _, row in table.along(fit.isel(added_to=slice(ADDITIONS_SHOWN)), "added_to"):
+        words = f"added to a response at {float(row.added_period):.2f} d, uas"
+        rows.append((words, _both_phases(row, "added"), _both_phases(row, "added_published")))
     return Table(
         "Free core nutation in IAU 2000A",
         ("quantity", "recovered", "built into IAU 2000A"),
-        [
-            (
-                "period in space, d",
-                f"{float(of.core_nutation_period):.2f}",
-                f"{CORE_NUTATION.value}",
-            ),
-            (
-                "quality factor",
-                f"{float(of.core_nutation_quality):,.0f}",
-                f"{CORE_NUTATION_QUALITY.value:,.0f}",
-            ),
-            *(
-                (
-                    f"added to a response at {float(one.added_period):.2f} d, uas",
-                    f"{float(one.added_in_phase):+.0f}, out of phase "
-                    f"{float(one.added_out_of_phase):+.0f}",
-                    f"{float(one.added_published_in_phase):+.0f}, out of phase "
-                    f"{float(one.added_published_out_of_phase):+.0f}",
-                )
-                for _, one in list(along(of, "added_to"))[:ADDITIONS_SHOWN]
-            ),
-        ],
+        rows,
         "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
         "was built into it; it is no new measurement. Geodesic nutation, which no torque makes, "
         "and what the authors of IAU 2000A add to a response at single terms are taken away before "
-        f"the fit, whose residuals are {float(of.apart_rms):.1f} uas rms. A response that is "
+        f"the fit, whose residuals are {float(fit.apart_rms):.1f} uas rms. A response that is "
         "fitted with them in absorbs what it can: its core nutation comes out at "
-        f"{float(of.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
-        f"{float(of.response_rms):.1f} uas rms, and {float(of.response_maximum):.0f} uas at most.",
+        f"{float(fit.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
+        f"{float(fit.response_rms):.1f} uas rms, and {float(fit.response_maximum):.0f} uas at "
+        "most.",
     )
+
+
+def _both_phases(row: xr.Dataset, name: str) -> str:
+    in_phase, out_of_phase = float(row[f"{name}_in_phase"]), float(row[f"{name}_out_of_phase"])
+    return f"{in_phase:+.0f}, out of phase {out_of_phase:+.0f}"
 
 
 def angles(tree: Result) -> Table:
@@ -204,7 +184,7 @@ def angles(tree: Result) -> Table:
         ("angle", "constant", "t", "t2", "t3"),
         [
             (f"{angle}, {whose}", *(f"{of[name].values[degree]:.6f}" for degree in range(4)))
-            for angle, of in along(needed(tree, "angles"), "angle")
+            for angle, of in table.along(needed(tree, "angles"), "angle")
             for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
         ],
         "Coefficients are in arcsec, with t in Julian centuries from J2000.0, fitted over the "
@@ -216,50 +196,21 @@ def angles(tree: Result) -> Table:
 
 def flattening(tree: Result) -> Table:
     """H and C from three origins."""
-    rows = []
-    for origin, of in along(needed(tree, "inferred_flattening"), "origin"):
-        error = float(of.flattening_error)
-        value = float(of.flattening)
-        shown = with_error(value, error) if error else f"{value:.10f}"
-        rows.append((origin, shown, f"{float(of.polar_moment):.7f}"))
-    return Table(
-        "H and C from the rate of precession",
-        ("origin", "H = (C-A)/C", "C/(M a2)"),
-        rows,
+
+    def value(row: xr.Dataset) -> str:
+        error = float(row.flattening_error)
+        return table.with_error(row.flattening, error) if error else f"{float(row.flattening):.10f}"
+
+    columns = Column("flattening", value), "polar_moment:.7f"
+    note = (
         "PREM gives C from densities, independently of the pole, although the observed moment was "
-        "among its data; its H is J2 divided by that C/(M a2).",
+        "among its data; its H is J2 divided by that C/(M a2)."
     )
+    origins, title = needed(tree, "inferred_flattening"), "H and C from the rate of precession"
+    return table_along(origins, "origin", title, columns, note)
 
 
 # --- figures -------------------------------------------------------------------------------------
-
-
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Budget, residuals and ratios."""
-    shown = drawn(
-        "The budget",
-        "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
-        "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
-        "where the dots of a pair lie at one place, what is computed agrees with what is "
-        "published. Dashed: the closure, what remains of the sum.",
-        plot_budget(tree),
-    )
-    makers = {"residuals_by_model": _residuals_in_time, "nutation": _response}
-    return [shown, *of_sections(tree, makers)]
-
-
-def _residuals_in_time(tree: Result) -> Drawing:
-    caption = "The computed pole minus the IAU's; a fitted constant and rate are removed."
-    return Drawing("Residuals in time", caption, plot_pole_residuals(tree))
-
-
-def _response(tree: Result) -> Drawing:
-    caption = (
-        "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
-        "resonance formula."
-    )
-    return drawn("Response of the deformable body", caption, plot_nutation_ratio(tree))
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -279,25 +230,26 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     effects = [e for e in answer.effect.values if e != "first-order"]
     of, place = answer.sel(effect=effects), np.arange(len(effects))
     for by, name, colour, marker, words in (
-        (0.14, "psi_rate", BLUE, "o", "measured by switching"),
-        (-0.14, "psi_rate_published", ORANGE, "D", "published"),
+        (0.14, "psi_rate", drawing.BLUE, "o", "measured by switching"),
+        (-0.14, "psi_rate_published", drawing.ORANGE, "D", "published"),
     ):
-        sizes = of[name].values * MAS_PER_CENTURY
+        sizes = of[name].values * table.MAS_PER_CENTURY
         ax.hlines(place + by, 0, sizes, color=colour, lw=0.8, alpha=0.6)
         ax.plot(sizes, place + by, marker, color=colour, ms=5, label=words)
-    closure = float(answer.closure) * MAS_PER_CENTURY
+    closure = float(answer.closure) * table.MAS_PER_CENTURY
     ax.axvline(0, color="0.4", lw=0.8, zorder=0)
-    ax.axvline(closure, color=RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
+    ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
     ax.set_yticks(place, effects)
     ax.invert_yaxis()
     ax.set_xscale("symlog", linthresh=LINEAR)
     reach = 2 * float(abs(of[["psi_rate", "psi_rate_published"]]).to_array().max())
-    ax.set_xlim(-reach * MAS_PER_CENTURY, reach * MAS_PER_CENTURY)
+    ax.set_xlim(-reach * table.MAS_PER_CENTURY, reach * table.MAS_PER_CENTURY)
     ax.set_xlabel("contribution to the rate of psi_A (mas per century)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
+@drawing.style()
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
     """The computed pole minus the IAU's for each model, one above the other.
 
@@ -309,23 +261,17 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     figure : Figure, optional
     """
     series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
-    directions = (("dpsi_sineps", "dpsi sin(eps)", BLUE), ("deps", "deps", RED))
-    with style():
-        figure = figure or empty(8, 2.1 * series.sizes["model"])
-        rows = np.atleast_1d(figure.subplots(series.sizes["model"], 1, sharex=True))
-        for ax, (model, of) in zip(rows, along(series, "model"), strict=True):
-            sizes_there = []
-            for name, words, colour in directions:
-                rms = float(sizes.residual_rms.sel(model=model, direction=name))
-                ax.plot(of.time, of[f"{name}_by_model"], color=colour, lw=0.6, label=words)
-                sizes_there.append(f"{rms:.2f}")
-            # one title of two lines: side by side they would meet on a narrow figure
-            words = f"{MODELS[model]}\nrms {' and '.join(sizes_there)} mas"
-            ax.set_title(words, loc="left", fontsize=9)
-            ax.set_ylabel("residual (mas)")
-        ax.set_xlabel("time (TDB)")
-        rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
-        return figure
+    figure, rows = drawing.stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
+    for ax, (model, part) in zip(rows, table.along(series, "model"), strict=True):
+        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps_by_model, part.deps_by_model)
+        rms = sizes.residual_rms.sel(model=model, direction=["dpsi_sineps", "deps"]).values
+        # one title of two lines: side by side they would meet on a narrow figure
+        words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
+        ax.set_title(words, loc="left", fontsize=9)
+        ax.set_ylabel("residual (mas)")
+    rows[-1].set_xlabel("time (TDB)")
+    rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+    return figure
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -348,16 +294,43 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
         terms.frequency,
         terms.ratio_in_phase,
         s=10 + 25 * np.log10(1 + np.abs(terms.rigid_in_phase.values)),
-        color=BLUE,
+        color=drawing.BLUE,
         label="IAU 2000A / rigid",
         zorder=3,
     )
     words, fitted = "fitted response", terms.transfer_in_phase
-    ax.plot(terms.frequency, fitted, "x", color=RED, ms=5, label=words, zorder=4)
+    ax.plot(terms.frequency, fitted, "x", color=drawing.RED, ms=5, label=words, zorder=4)
     ax.set_xscale("symlog", linthresh=0.1)
-    ax.set_xticks([-27, -2, -0.2, 0, 0.2, 2, 27])
-    ax.set_xticklabels([f"{t:g}" for t in ax.get_xticks()])
+    ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
+    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
     ax.set_ylabel("IAU 2000A over ours, in phase (ratio)")
     ax.legend(loc="upper right")
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "The budget",
+        "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
+        "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
+        "where the dots of a pair lie at one place, what is computed agrees with what is "
+        "published. Dashed: the closure, what remains of the sum.",
+        plot_budget,
+    ),
+    PageFigure(
+        "Residuals in time",
+        "The computed pole minus the IAU's; a fitted constant and rate are removed.",
+        plot_pole_residuals,
+        section="residuals_by_model",
+        uses=["residual_sizes"],
+    ),
+    PageFigure(
+        "Response of the deformable body",
+        "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
+        "resonance formula.",
+        plot_nutation_ratio,
+        section="nutation",
+        uses=["core"],
+    ),
+]

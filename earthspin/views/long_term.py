@@ -9,24 +9,11 @@ from numpy.typing import NDArray
 
 from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREEN,
-    GREY,
-    NARROW,
-    RED,
-    Drawing,
-    axes,
-    drawn,
-    empty,
-    for_phone,
-    legend_above,
-    style,
-)  # fmt: skip
-from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes
+from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.stars import YEARS, Label, on_the_chart, plot_path, year_words
-from earthspin.views.table import Table, with_error
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,78 +21,39 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-#: Sections that the figures need.
-DRAWN = ("budget",)
 #: Rows of the table, about.
 ROWS = 11
-TIME = "time from J2000.0 (1000 years)"
 
 
 def tables(tree: Result) -> list[Table]:
     """Obliquity, eccentricity, climatic precession and period at a dozen epochs."""
     answer = in_order(answer_of(tree))
     shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
-    rows = []
-    for place in range(shown.epoch.size):
-        at = shown.isel(epoch=place)
-        rows.append(
-            (
-                f"{float(at.epoch) / 1000:g}",
-                with_error(float(at.obliquity), float(at.obliquity_error)),
-                with_error(float(at.eccentricity), float(at.eccentricity_error)),
-                with_error(float(at.climatic_precession), float(at.climatic_precession_error)),
-                f"{float(at.precession_period.sel(perturber='total')):.0f}",
-            )
-        )
+
+    def period(row: xr.Dataset) -> str:
+        return f"{float(row.precession_period.sel(perturber='total')):.0f}"
+
+    columns = (
+        Column("epoch", lambda row: f"{float(row.epoch) / 1000:g}", "kyr"),
+        *("obliquity", "eccentricity", "climatic_precession"),
+        Column("precession_period", period),
+    )
     note = (
         "Epochs count from J2000.0 TDB. Climatic precession is the eccentricity times the sine of "
         "the longitude of perihelion from the moving equinox. Errors are 95 % half-widths: method, "
         "orbit, start, and what tides and figure of the past are taken to be uncertain by."
     )
-    heads = ("kyr", "obliquity, deg", "eccentricity", "climatic precession", "period, yr")
-    return [Table("Over millennia", heads, rows, note)]
+    return [table_along(shown, "epoch", "Over millennia", columns, note, first="")]
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The pole among the stars, what a palaeoclimatologist draws, periods, and the errors."""
-    years = in_order(answer_of(tree)).epoch.values
-    span = f"{years[0] / 1000:g} to {years[-1] / 1000:g} kyr from J2000.0"
-    found = []
-    if path_is_there(years):
-        caption = (
-            "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
-            "the present. It does not close: the plane of the orbit moves, too. The cross is the "
-            "pole of the ecliptic of J2000.0; stars stand where they stood then."
-        )
-        phone = plot_pole(tree, ax=for_phone(NARROW))
-        found.append(
-            drawn("The pole among the stars", caption, plot_pole(tree), square=True, phone=phone)
-        )
-    found += [
-        drawn(
-            "Obliquity, eccentricity and climatic precession",
-            f"From {span}. Climatic precession is the eccentricity times the sine of the longitude "
-            "of perihelion from the moving equinox: where it is positive, northern summer falls in "
-            "the half of the orbit that is far from the Sun; where it is negative, in the near "
-            "half. Bands are 95 % half-widths.",
-            plot_climate(tree),
-        ),
-        drawn(
-            "Period of precession",
-            "Time of one full turn at the rate of each epoch, and by each alone of those that "
-            "pull. Bands are 95 % half-widths.",
-            plot_periods(tree),
-        ),
-    ]
-    if section(tree, "budget") is not None:
-        caption = (
-            "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
-            "largest up to that distance from J2000.0, past or future. Far out, what is not "
-            "known of tides and figure counts for more than any method."
-        )
-        found.append(drawn("How well the perihelion is known", caption, plot_budget(tree)))
-    return found
+def _caption_of_climate(tree: Result) -> str:
+    first, last = in_order(answer_of(tree)).epoch.values[[0, -1]] / 1000
+    return (
+        f"From {first:g} to {last:g} kyr from J2000.0. Climatic precession is the eccentricity "
+        "times the sine of the longitude of perihelion from the moving equinox: where it is "
+        "positive, northern summer falls in the half of the orbit that is far from the Sun; where "
+        "it is negative, in the near half. Bands are 95 % half-widths."
+    )
 
 
 def in_order(of: xr.Dataset) -> xr.Dataset:
@@ -125,16 +73,12 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     of = in_order(answer_of(result))
     panels = (
-        ("obliquity", "obliquity (deg)", BLUE),
-        ("eccentricity", "eccentricity (ratio)", RED),
-        ("climatic_precession", "climatic precession (ratio)", GREEN),
+        ("obliquity", "obliquity (deg)", drawing.BLUE),
+        ("eccentricity", "eccentricity (ratio)", drawing.RED),
+        ("climatic_precession", "climatic precession (ratio)", drawing.GREEN),
     )
-    rows = _rows(ax, len(panels), 5.6)
-    for row, (name, label, colour) in zip(rows, panels, strict=False):
-        _with_band(row, of.epoch.values, of[name].values, of[f"{name}_error"].values, colour)
-        row.set_ylabel(label)
-    rows[-1].set_xlabel(TIME)
-    return rows[0]
+    curves = [(label, of[name], of[f"{name}_error"], colour) for name, label, colour in panels]
+    return _plot_curves(ax, of.epoch.values / 1000, curves, 5.6)
 
 
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -149,36 +93,38 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     of = in_order(answer_of(result))
     labels = [str(label) for label in of.perturber.values[::-1]]
-    rows = _rows(ax, len(labels), 1.2 + 1.4 * len(labels))
-    for row, label, colour in zip(rows, labels, CYCLE, strict=False):
-        by = of.sel(perturber=label)
-        error = by.precession_period_error.values / 1000
-        _with_band(row, of.epoch.values, by.precession_period.values / 1000, error, colour)
-        row.set_ylabel(f"{label} (1000 years)")
-    rows[-1].set_xlabel(TIME)
+    curves = [
+        (
+            f"{label} (1000 years)",
+            of.precession_period.sel(perturber=label) / 1000,
+            of.precession_period_error.sel(perturber=label) / 1000,
+            colour,
+        )
+        for label, colour in zip(labels, drawing.CYCLE, strict=False)
+    ]
+    return _plot_curves(ax, of.epoch.values / 1000, curves, 1.2 + 1.4 * len(labels))
+
+
+def _plot_curves(
+    ax: Axes | None,
+    kyr: FloatArray,
+    curves: list[tuple[str, xr.DataArray, xr.DataArray, str]],
+    height: float,
+) -> Axes:
+    """Curves with their half-widths one above the other, or the first alone on given axes."""
+    if ax is None:
+        figure, rows = drawing.stacked(len(curves), height)
+        figure.align_ylabels(rows)
+    else:
+        rows = [ax]
+    for row, (label, value, error, colour) in zip(rows, curves, strict=False):
+        marker = "o" if kyr.size == 1 else None
+        drawing.band(row, kyr, value.values, error.values, colour, lw=1.0, marker=marker)
+        if kyr.size > 1:
+            row.set_xlim(kyr[0], kyr[-1])
+        row.set_ylabel(label)
+    rows[-1].set_xlabel("time from J2000.0 (1000 years)")
     return rows[0]
-
-
-def _rows(ax: Axes | None, count: int, height: float) -> list[Axes]:
-    """Axes one above the other with one axis of time, or those that are given."""
-    if ax is not None:
-        return [ax]
-    figure = empty(8.0, height)
-    rows = list(figure.subplots(count, sharex=True))
-    figure.align_ylabels(rows)
-    return rows
-
-
-def _with_band(
-    ax: Axes, years: FloatArray, value: FloatArray, error: FloatArray, colour: str
-) -> None:
-    """A curve over time with its 95 % half-width."""
-    kyr = years / 1000
-    marker = "o" if kyr.size == 1 else None
-    ax.fill_between(kyr, value - error, value + error, color=colour, alpha=0.3, lw=0)
-    ax.plot(kyr, value, color=colour, lw=1.0, marker=marker)
-    if kyr.size > 1:
-        ax.set_xlim(kyr[0], kyr[-1])
 
 
 #: How far the path of the pole is drawn, yr: half a turn either way. Epochs further apart than
@@ -225,7 +171,10 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     first, last = years[near][[0, -1]]
     marked = [year for year in YEARS if first <= year - 2000 <= last]
     at = on(np.array(marked, dtype=float) - 2000).tolist()
-    dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in zip(marked, at, strict=True)]
+    dates = [
+        Label(year_words(year), (x, y), drawing.RED)
+        for year, (x, y) in zip(marked, at, strict=True)
+    ]
     count = int((last - first) / FINE) + 2
     return plot_path(on(np.linspace(first, last, count)), dates, obliquity, ax)
 
@@ -257,14 +206,43 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     }
     together = np.sqrt(sum(share**2 for share in found.values()))
     ax.plot(away, together, color="black", lw=2.0, label="together")
-    for (cause, share), colour in zip(found.items(), (*CYCLE, GREY), strict=False):
+    for (cause, share), colour in zip(found.items(), (*drawing.CYCLE, drawing.GREY), strict=False):
         ax.plot(away, share, color=colour, lw=1.2, label=cause)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    ax.set(xscale="log", yscale="log")
     if away.size > 1:
         ax.set_xlim(away[0], away[-1])
         ax.set_ylim(LEAST * together[-1], 2 * together[-1])
-    ax.set_xlabel("distance from J2000.0 (1000 years)")
-    ax.set_ylabel("share of the half-width (deg)")
-    legend_above(ax)
+    ax.set(xlabel="distance from J2000.0 (1000 years)", ylabel="share of the half-width (deg)")
+    drawing.legend_above(ax)
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "The pole among the stars",
+        "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
+        "the present. It does not close: the plane of the orbit moves, too. The cross is the "
+        "pole of the ecliptic of J2000.0; stars stand where they stood then.",
+        plot_pole,
+        applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
+        square=True,
+        phone=drawing.NARROW,
+    ),
+    PageFigure(
+        "Obliquity, eccentricity and climatic precession", _caption_of_climate, plot_climate
+    ),
+    PageFigure(
+        "Period of precession",
+        "Time of one full turn at the rate of each epoch, and by each alone of those that "
+        "pull. Bands are 95 % half-widths.",
+        plot_periods,
+    ),
+    PageFigure(
+        "How well the perihelion is known",
+        "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
+        "largest up to that distance from J2000.0, past or future. Far out, what is not "
+        "known of tides and figure counts for more than any method.",
+        plot_budget,
+        section="budget",
+    ),
+]

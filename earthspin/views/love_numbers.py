@@ -6,16 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import CYCLE, GREY, Drawing, empty, style
+from earthspin.views.drawing import CYCLE, GREY, PageFigure, note, stacked, style
 from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import Table, along, beside
+from earthspin.views.table import Column, Table, along, beside_published, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
-
-#: Sections that the figure stands on.
-DRAWN = ("by_period",)
 
 #: How a number is written in a figure.
 SYMBOLS = {
@@ -37,60 +34,55 @@ def tables(tree: Result) -> list[Table]:
 
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
-    answer, known = answer_of(tree), section(tree, "published")
-    there = {} if known is None else dict(along(known, "published_love"))
-    rows = [
-        (
-            name,
-            f"{float(of.love_number):.5f}",
-            f"{float(of.love_number_imaginary):.5f}" if of.love_number_imaginary else "",
-            *beside(of.love_number, there[name].published_love_number if name in there else None),
-        )
-        for name, of in along(answer, "love")
+    answer = answer_of(tree)
+    known, published = section(tree, "published"), "published_love_number"
+    beside, sources = beside_published(
+        known, "love", "love_number", published, "published_love_source"
+    )
+    columns: list[Column | str] = [
+        "love_number:.5f",
+        Column("love_number_imaginary", _unless_zero),
+        *beside,
     ]
-    note = f"Layers: {answer.love_number.attrs['references']}."
-    if there:
-        sources = dict.fromkeys(str(of.published_love_source.values) for of in there.values())
-        note += (
-            f" Published: {'; '.join(sources)}. The tidal ones are of a body that turns and is "
+    words = f"Layers: {answer.love_number.attrs['references']}."
+    if sources:
+        words += (
+            f" Published: {sources}. The tidal ones are of a body that turns and is "
             "flattened, which this sphere is not."
         )
-    heads = ("Love number", "real part", "imaginary part", "published", "difference, %")
-    return Table("Love numbers of degree two", heads, rows, note)
+    title = "Love numbers of degree two"
+    return table_along(answer, "love", title, columns, words, first="Love number")
+
+
+def _unless_zero(row: xr.Dataset) -> str:
+    value = float(row.love_number_imaginary)
+    return f"{value:.5f}" if value else ""
 
 
 def by_period(tree: Result) -> Table:
     """Real parts by period, and how late the body is."""
-    data = needed(tree, "by_period")
-    names = [name for name in map(str, data.love.values) if name != SMALL]
-    rows = [
-        (
-            f"{float(of.love_period):.3g}",
-            *(f"{float(of.love_number_by_period.sel(love=name)):.4f}" for name in names),
-            f"{_lag(of.sel(love='k2')):.2f}",
+    data = needed(tree, "by_period").isel(love_period=slice(None, None, EVERY))
+
+    def real_part(name: str) -> Column:
+        return Column(
+            "", lambda row: f"{float(row.love_number_by_period.sel(love=name)):.4f}", name
         )
-        for _, of in along(data.isel(love_period=slice(None, None, EVERY)), "love_period")
+
+    names = [name for name in map(str, data.love.values) if name != SMALL]
+    columns = [
+        Column("love_period", ".3g", "period, d"),
+        *map(real_part, names),
+        Column(
+            "love_number_by_period", lambda row: f"{_lag(row.sel(love='k2')):.2f}", "lag of k2, deg"
+        ),
     ]
-    heads = ("period, d", *names, "lag of k2, deg")
-    return Table("Love numbers by period, real parts", heads, rows, words=())
+    title = "Love numbers by period, real parts"
+    return table_along(data, "love_period", title, columns, first="", words=())
 
 
-def _lag(of: xr.Dataset) -> float:
-    late = of.love_number_by_period_imaginary, of.love_number_by_period
+def _lag(row: xr.Dataset) -> float:
+    late = row.love_number_by_period_imaginary, row.love_number_by_period
     return -float(np.degrees(np.arctan2(*late)))
-
-
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """How much softer, and how late, by period."""
-    if section(tree, "by_period") is None:
-        return []
-    caption = (
-        "Love numbers of tide and load, by the period of what deforms the body: how much larger "
-        "they are than those of the elastic body, at 1 s, and by which angle they lag. The small "
-        "tangential one of a load is left out."
-    )
-    return [Drawing("Softer and later with the period", caption, plot_by_period(tree))]
 
 
 @style()
@@ -105,8 +97,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
         Drawn on one of its own by default.
     """
     data = needed(result, "by_period")
-    figure = figure or empty(7.5, 4.6)
-    above, below = figure.subplots(2, 1, sharex=True)
+    figure, (above, below) = stacked(2, 4.6, figure, width=7.5)
     days = data.love_period.values
     for number, (name, of) in enumerate(along(data, "love")):
         if name == SMALL:
@@ -118,15 +109,24 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
         below.plot(days, -np.degrees(np.angle(ratio)), line, color=colour)
     above.set_xscale("log")
     above.set_ylabel("over the elastic one (%)")
-    below.set_ylabel("lag (deg)")
-    below.set_xlabel("period (d)")
+    below.set(ylabel="lag (deg)", xlabel="period (d)")
     for ax in (above, below):
         for at in MARKS.values():
             ax.axvline(at, color=GREY, lw=0.7, ls=":")
     for words, at in MARKS.items():
-        below.annotate(
-            words, (at, 0), xycoords=("data", "axes fraction"), xytext=(-3, 4),
-            textcoords="offset points", ha="right", fontsize=8, color=GREY,
-        )  # fmt: skip
+        where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
+        note(below, words, (at, 0), (-3, 4), **where)
     above.legend(ncols=5, loc="upper left", fontsize=8)
     return figure
+
+
+FIGURES = [
+    PageFigure(
+        "Softer and later with the period",
+        "Love numbers of tide and load, by the period of what deforms the body: how much larger "
+        "they are than those of the elastic body, at 1 s, and by which angle they lag. The small "
+        "tangential one of a load is left out.",
+        plot_by_period,
+        section="by_period",
+    )
+]

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from earthspin.interior.published import CORE_NUTATION
-from earthspin.views.drawing import BLUE, ORANGE, RED, Drawing, axes, drawn, empty, note, style
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections
-from earthspin.views.table import Table, along, date, measured, with_error
+from earthspin.views.table import Column, Table, date, quality, table_along, with_error, words_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-#: Sections that the figures stand on.
-DRAWN = ("beside", "terms", "transfer", "residuals")
 
 #: Frequencies in space between which the transfer function is shown, cycles per year.
 SHOWN = 6.0
@@ -34,22 +33,12 @@ def tables(tree: Result) -> list[Table]:
     return [ladder(tree), *of_sections(tree, makers)]
 
 
-def _sizes(title: str, data: xr.Dataset, dim: str, words: str, prefix: str = "") -> Table:
-    return Table(
-        title,
-        (dim, "dpsi sin(eps), mas", "deps, mas", "what it adds"),
-        [
-            (
-                name,
-                with_error(of[f"{prefix}rms_dpsi_sineps"], data[f"{prefix}rms_error"]),
-                with_error(of[f"{prefix}rms_deps"], data[f"{prefix}rms_error"]),
-                str(of[f"{prefix}adds"].values),
-            )
-            for name, of in along(data, dim)
-        ],
-        words,
-        words=(0, 3),
-    )
+def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") -> Table:
+    def size(name: str) -> Column:
+        return Column(name, lambda row: with_error(row[name], data[f"{prefix}rms_error"]))
+
+    columns = size(f"{prefix}rms_dpsi_sineps"), size(f"{prefix}rms_deps"), f"{prefix}adds"
+    return table_along(data, dim, title, columns, note, words=(0, 3))
 
 
 def ladder(tree: Result) -> Table:
@@ -79,89 +68,55 @@ def beside(tree: Result) -> Table:
 
 def modes(tree: Result) -> Table:
     """Free modes of each rung."""
-    return Table(
-        "Free modes",
-        ("rung", "mode", "period, d", "Q"),
-        [
-            (
-                str(of.mode_rung.values),
-                str(of.mode_name.values).replace("_", " "),
-                measured(of, "mode_period"),
-                f"{q:.3g}" if np.isfinite(q := float(of.mode_quality)) else "",
-            )
-            for _, of in along(needed(tree, "modes"), "mode")
-        ],
+    columns = (
+        "mode_rung",
+        Column("mode_name", words_of("mode_name")),
+        "mode_period",
+        Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
+    )
+    note = (
         "Nutations have their periods in space, negative if retrograde; wobbles in the body. A "
         "rung that lacks a part lacks its mode. The errors follow from the uncertainty of the "
-        "Love numbers, of the core's size and of its flattening.",
-        words=(0, 1),
+        "Love numbers, of the core's size and of its flattening."
     )
+    modes = needed(tree, "modes")
+    return table_along(modes, "mode", "Free modes", columns, note, first="", words=(0, 1))
 
 
 def terms(tree: Result) -> Table:
     """Largest circular terms, of the last rung and of the IAU."""
     data = needed(tree, "terms")
-    last = data.isel(rung=-1)
-    return Table(
-        f"The largest nutations, rung '{data.rung.values[-1]}'",
-        ("l l' F D node", "period, d", "in phase", "IAU", "out of phase", "IAU, out"),
-        [
-            (
-                term,
-                f"{float(of.period):.2f}",
-                with_error(of.predicted_in_phase, of.predicted_error),
-                f"{float(of.iau_in_phase):.3f}",
-                with_error(of.predicted_out_of_phase, of.predicted_error),
-                f"{float(of.iau_out_of_phase):+.3f}",
-            )
-            for term, of in along(last, "term")
-        ],
-        "Circular amplitudes are in mas; a negative period is retrograde. The errors hold the "
-        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out.",
+
+    def predicted(phase: str) -> Callable[[xr.Dataset], str]:
+        return lambda row: with_error(row[f"predicted_{phase}"], row.predicted_error)
+
+    columns = (
+        "period:.2f",
+        Column("", predicted("in_phase"), "in phase"),
+        Column("iau_in_phase", ".3f", "IAU"),
+        Column("", predicted("out_of_phase"), "out of phase"),
+        Column("iau_out_of_phase", "+.3f", "IAU, out"),
     )
+    note = (
+        "Circular amplitudes are in mas; a negative period is retrograde. The errors hold the "
+        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out."
+    )
+    title = f"The largest nutations, rung '{data.rung.values[-1]}'"
+    return table_along(data.isel(rung=-1), "term", title, columns, note, first="l l' F D node")
 
 
 def compliances(tree: Result) -> Table:
     """How the parts of the elastic body answer to wobbles."""
-    return Table(
-        "Compliances",
-        ("name", "value"),
-        [
-            (name, f"{float(of.compliance):.6e}")
-            for name, of in along(needed(tree, "compliances"), "compliance_name")
-        ],
+    note = (
         "Product of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
         "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of the mantle, "
-        "the fluid core and the inner core.",
+        "the fluid core and the inner core."
     )
+    data, columns = needed(tree, "compliances"), ["compliance:.6e"]
+    return table_along(data, "compliance_name", "Compliances", columns, note, first="name")
 
 
 # --- figures -------------------------------------------------------------------------------------
-
-
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The ladder, the transfer function and the residuals in time."""
-    shown = drawn(
-        "From a rigid body to half a milliarcsecond",
-        "What is left of each model against IAU 2000A. To see: which steps down are large.",
-        plot_nutation_ladder(tree),
-    )
-    makers = {"transfer": _transfer, "residuals": _in_time}
-    return [shown, *of_sections(tree, makers)]
-
-
-def _transfer(tree: Result) -> Drawing:
-    caption = (
-        "Nutation of the body over that of a rigid one. Dots: the terms of IAU 2000A over the "
-        "rigid ones. The resonance is the free core nutation."
-    )
-    return drawn("Through the resonance", caption, plot_transfer(tree))
-
-
-def _in_time(tree: Result) -> Drawing:
-    caption = "Predicted pole minus the IAU's; a fitted constant and rate are removed."
-    return Drawing("Residuals in time, rung by rung", caption, plot_rung_residuals(tree))
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -178,18 +133,16 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 4)
     place = np.arange(answer.rung.size)
     for name, words, colour, marker in (
-        ("rms_dpsi_sineps", "dpsi sin(eps)", BLUE, "o"),
-        ("rms_deps", "deps", RED, "D"),
+        ("rms_dpsi_sineps", "dpsi sin(eps)", drawing.BLUE, "o"),
+        ("rms_deps", "deps", drawing.RED, "D"),
     ):
         ax.step(place, answer[name], where="mid", color=colour, lw=1, alpha=0.5)
         ax.plot(place, answer[name], marker, color=colour, ms=6, label=words)
     for at, value in zip(place, answer.rms_dpsi_sineps.values, strict=True):
         note(ax, f"{value:.2g}" if value < 10 else f"{value:.0f}", (at, value), (0, 8), ha="center")
-    ax.set_yscale("log")
-    ax.set_xticks(place, [str(rung).replace("-", "\n") for rung in answer.rung.values])
-    ax.set_ylabel("left against IAU 2000A, rms (mas)")
-    ax.margins(x=0.08, y=0.15)
-    ax.grid(axis="x", visible=False)
+    ax.set(yscale="log", ylabel="left against IAU 2000A, rms (mas)")
+    ax.margins(y=0.15)
+    drawing.rungs(ax, [str(rung).replace("-", "\n") for rung in answer.rung.values])
     ax.legend(loc="upper right")
     return ax
 
@@ -210,7 +163,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 4.2)
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     near = np.abs(frequency) < SHOWN
-    for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], BLUE, 1.4)):
+    for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
         of = data.transfer_real.sel(rung=rung).values
         shown = np.flatnonzero(near & (np.abs(of - 1) < BEYOND))
         # no line from pole to pole, nor through rest in space
@@ -222,18 +175,19 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     rigid = main.predicted_in_phase.sel(rung="rigid")
     at = 365.25 / main.period.values
     inside = np.abs(at) < SHOWN
-    ax.plot(
-        at[inside], (main.iau_in_phase / rigid).values[inside], "o", color=ORANGE, ms=5,
-        label="IAU 2000A / rigid",
-    )  # fmt: skip
-    ax.set_ylim(0.85, 1.45)
+    ratio = (main.iau_in_phase / rigid).values[inside]
+    ax.plot(at[inside], ratio, "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
-    ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
-    ax.set_ylabel("over a rigid body, in phase (ratio)")
+    ax.set(
+        ylim=(0.85, 1.45),
+        xlabel="frequency in space, negative if retrograde (cycles per year)",
+        ylabel="over a rigid body, in phase (ratio)",
+    )
     ax.legend(loc="upper right")
     return ax
 
 
+@drawing.style()
 def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
     """Predicted pole minus the IAU's in time, one rung above the other.
 
@@ -244,22 +198,38 @@ def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     figure : Figure, optional
     """
     series, sizes = needed(result, "residuals"), answer_of(result)
-    rungs = [str(rung) for rung in series.rung.values if rung not in ("elastic", "inner-core")]
-    with style():
-        figure = figure or empty(8, 1.5 * len(rungs))
-        rows = np.atleast_1d(figure.subplots(len(rungs), 1, sharex=True))
-        for ax, rung in zip(rows, rungs, strict=True):
-            of, size = series.sel(rung=rung), sizes.sel(rung=rung)
-            for name, words, colour in (
-                ("dpsi_sineps", "dpsi sin(eps)", BLUE),
-                ("deps", "deps", RED),
-            ):
-                ax.plot(of.time, of[name], color=colour, lw=0.6, label=words)
-            ax.set_title(rung, loc="left", fontsize=9)
-            words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
-            ax.set_title(f"rms {words} mas", loc="right", fontsize=8)
-            ax.set_ylabel("left (mas)")
-        ends = f"{date(series.time[0], 'Y')} to {date(series.time[-1], 'Y')}"
-        rows[-1].set_xlabel(f"time (TDB), {ends}")
-        rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
-        return figure
+    shown = [str(rung) for rung in series.rung.values if rung not in ("elastic", "inner-core")]
+    figure, rows = drawing.stacked(len(shown), 1.5 * len(shown), figure)
+    for ax, rung in zip(rows, shown, strict=True):
+        part, size = series.sel(rung=rung), sizes.sel(rung=rung)
+        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps, part.deps)
+        ax.set_title(rung, loc="left", fontsize=9)
+        words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
+        ax.set_title(f"rms {words} mas", loc="right", fontsize=8)
+        ax.set_ylabel("left (mas)")
+    rows[-1].set_xlabel(f"time (TDB), {date(series.time[0], 'Y')} to {date(series.time[-1], 'Y')}")
+    rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
+    return figure
+
+
+FIGURES = [
+    PageFigure(
+        "From a rigid body to half a milliarcsecond",
+        "What is left of each model against IAU 2000A. To see: which steps down are large.",
+        plot_nutation_ladder,
+    ),
+    PageFigure(
+        "Through the resonance",
+        "Nutation of the body over that of a rigid one. Dots: the terms of IAU 2000A over the "
+        "rigid ones. The resonance is the free core nutation.",
+        plot_transfer,
+        section="transfer",
+        uses=["terms"],
+    ),
+    PageFigure(
+        "Residuals in time, rung by rung",
+        "Predicted pole minus the IAU's; a fitted constant and rate are removed.",
+        plot_rung_residuals,
+        section="residuals",
+    ),
+]

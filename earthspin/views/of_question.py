@@ -26,7 +26,7 @@ from earthspin.views.table import BRACKETS, Table, along
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from earthspin.views.drawing import Drawing
+    from earthspin.views.drawing import Drawing, PageFigure
     from earthspin.views.solids import Solid
 
 
@@ -64,16 +64,19 @@ def tables_for(tree: Result) -> list[Table]:
 
 def drawings_for(tree: Result) -> list[Drawing]:
     """Figures of an answer and of the sections that are there, with captions."""
-    view = _view(tree)
-    drawings: list[Drawing] = view.drawings(tree) if hasattr(view, "drawings") else []
-    return drawings
+    return [figure.drawn(tree) for figure in _figures(tree) if figure.is_there(tree)]
+
+
+def _figures(tree: Result) -> Sequence[PageFigure]:
+    """Figures that the view of a question declares."""
+    figures: Sequence[PageFigure] = getattr(_view(tree), "FIGURES", ())
+    return figures
 
 
 def solids_for(tree: Result) -> list[Solid]:
     """Three-dimensional pictures of an answer, which can be turned and played, if it has any."""
-    view = _view(tree)
-    solids: list[Solid] = view.solids(tree) if hasattr(view, "solids") else []
-    return solids
+    makers = getattr(_view(tree), "SOLIDS", ())
+    return [make(tree) for name, make in makers if not name or section(tree, name) is not None]
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
@@ -90,7 +93,8 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
         If the answer does not carry the scene that made it.
     """
     there = plan(answer, "all").sections
-    applies = [name for name in getattr(_view(answer), "DRAWN", ()) if name in there]
+    needed = {name for figure in _figures(answer) for name in (figure.section, *figure.uses)}
+    applies = [name for name in there if name in needed]
     more = run_tree(answer, applies) if applies else xr.DataTree()
     nodes = {name: _alike(more[name].to_dataset(), answer) for name in applies}
     tree = xr.DataTree.from_dict({"/": answer, **nodes})

@@ -20,6 +20,11 @@ from earthspin.bodies.mean_orbits import MOON_ECCENTRICITY, MOON_INCLINATION, SU
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.engine import drafts
 from earthspin.errors import SceneError
+from earthspin.interior.love import elastic, softening
+from earthspin.interior.named import INTERIORS
+from earthspin.scenes import run, run_tree
+from earthspin.views.page import environment, source
+from earthspin.wobble.ladder import Spin, inputs_of, love_radius
 
 #: One turn of the Earth, s.
 EARTH_TURNS = float(np.asarray(EARTH.spin_period))
@@ -53,8 +58,6 @@ class Play:
 
 def _sky() -> dict[str, object]:
     """The Earth, and Sun and Moon on ellipses with the mean torques of the report."""
-    from earthspin.scenes import run
-
     answer = run("precession")
     flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
     obliquity = math.radians(float(answer.obliquity))
@@ -82,11 +85,6 @@ def _sky() -> dict[str, object]:
 
 def _interior() -> dict[str, object]:
     """What the upper rungs of the Earth's ladder stand on, and the observed period."""
-    from earthspin.interior.love import elastic, softening
-    from earthspin.interior.named import INTERIORS
-    from earthspin.scenes import run_tree
-    from earthspin.wobble.ladder import Spin, inputs_of, love_radius
-
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}
@@ -110,10 +108,6 @@ def _interior() -> dict[str, object]:
         "softeningRange": soft[0].domain.tolist(),
         "observed": run_tree("wobble", ["observed"])["observed"].observed_period.item(),
     }
-
-
-def _nothing() -> dict[str, object]:
-    return {}
 
 
 PLAYS = {
@@ -145,7 +139,7 @@ PLAYS = {
             "cone about the polhode (red) rolls without slipping on the one that the angular "
             "velocity describes in space (blue).",
         ),
-        _nothing,
+        dict,
     ),
     "top": Play(
         "A heavy top, to play with",
@@ -157,7 +151,7 @@ PLAYS = {
             "A disc of 0.2 kg whose centre of mass is 5 cm from the point, on the Earth, without "
             "friction; drawn eight times slower than it moves, at speed 1.",
         ),
-        _nothing,
+        dict,
     ),
     "wobble": Play(
         "The ladder of the free wobble, to play with",
@@ -193,8 +187,6 @@ def play_page(name: str) -> str:
     SceneError
         If there is no such page.
     """
-    from earthspin.views.page import environment, source
-
     if name not in PLAYS:
         raise SceneError("play", name, f"take one of {', '.join(PLAYS)}")
     play = PLAYS[name]

@@ -10,29 +10,17 @@ import numpy as np
 import xarray as xr
 
 from earthspin.constants import MAS
-from earthspin.views.drawing import (
-    BLUE,
-    GREEN,
-    GREY,
-    RED,
-    Drawing,
-    axes,
-    drawn,
-    empty,
-    for_phone,
-    note,
-    style,
-)
+from earthspin.views import drawing
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, of_sections
-from earthspin.views.table import Table, date, measured, with_error
+from earthspin.views.table import Table, date, measured, quantities, with_error
 from earthspin.wobble.record import NEAR, YEAR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 JULIAN = 365.25  # d, the year of the axes
-#: Sections that the figures stand on.
-DRAWN = ("chandler", "spectrum")
 
 
 # --- tables --------------------------------------------------------------------------------------
@@ -40,11 +28,8 @@ DRAWN = ("chandler", "spectrum")
 
 def tables(tree: Result) -> list[Table]:
     """The series, the observed wobble, and the statements of the source text about it."""
-    return [
-        series(tree),
-        *of_sections(tree, {"chandler": observed}),
-        *of_sections(tree, {"chandler": statements}),
-    ]
+    makers = (observed, statements)
+    return [series(tree), *(t for make in makers for t in of_sections(tree, {"chandler": make}))]
 
 
 def series(tree: Result) -> Table:
@@ -71,7 +56,7 @@ def series(tree: Result) -> Table:
 def observed(tree: Result) -> Table:
     """Period, quality factor and present amplitude of the observed wobble."""
     found = needed(tree, "chandler")
-    rows = [("period, d", measured(found, "chandler_period"))]
+    rows = quantities(found, "chandler_period")
     if "chandler_quality_factor" in found:
         low, high = (float(found[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
         ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
@@ -136,55 +121,22 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 # --- figures -------------------------------------------------------------------------------------
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Amplitude and phase, spectra, and the path of the pole."""
-    parts = {"chandler": amplitude_and_phase, "spectrum": spectra}
-    return [*of_sections(tree, parts), path(tree)]
-
-
-@style()
-def amplitude_and_phase(tree: Result) -> Drawing:
-    """Amplitude above, phase below."""
-    figure = empty(7.5, 5.2)
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+def _plot_amplitude_and_phase(tree: Result) -> Figure:
+    figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
     plot_amplitude(tree, ax=upper)
     plot_phase(tree, ax=lower)
-    middles = needed(tree, "chandler").middle.values
-    low = np.datetime64("2018-01-01")
-    died = (
-        " The free wobble almost vanished near 2018 and returned with a different phase."
-        if middles[0] < low < middles[-1]
-        else ""
-    )
-    caption = (
+    return figure
+
+
+def _caption_of_amplitude(tree: Result) -> str:
+    first, last = needed(tree, "chandler").middle.values[[0, -1]]
+    words = (
         "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
-        f"and the annual wobble.{died}"
+        "and the annual wobble."
     )
-    return Drawing("Amplitude and phase in time", caption, figure)
-
-
-@style()
-def spectra(tree: Result) -> Drawing:
-    """The spectra."""
-    return drawn(
-        "Prograde and retrograde spectra",
-        "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
-        "spin; the annual wobble is mostly prograde.",
-        plot_spectra(tree),
-    )
-
-
-@style()
-def path(tree: Result, years: float | None = 6.0) -> Drawing:
-    """The path of the pole."""
-    return drawn(
-        "The path of the pole",
-        "Path of the pole over the ground. The annual and the free wobble beat with a period of "
-        "6.4 years, and the mean position drifts.",
-        plot_polhode(tree, years=years),
-        phone=plot_polhode(tree, years=years, ax=for_phone(5.4)),
-    )
+    if first < np.datetime64("2018-01-01") < last:
+        words += " The free wobble almost vanished near 2018 and returned with a different phase."
+    return words
 
 
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
@@ -213,10 +165,9 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
     ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
     dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
-    ax.plot(y[-1], x[-1], "o", color=RED, ms=6, zorder=3)
-    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=RED)
-    ax.set_aspect("equal")
-    ax.set_ylabel("x, towards the prime meridian (mas)")
+    ax.plot(y[-1], x[-1], "o", color=drawing.RED, ms=6, zorder=3)
+    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
+    ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if metres := _metres(answer):
         ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("y (m)")
@@ -240,20 +191,17 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 3.8)
     found = needed(result, "spectrum").spectral_amplitude
     frequency, amplitude = found.frequency.values * JULIAN, found.values
-    for sign, colour, words in ((1, BLUE, "prograde"), (-1, RED, "retrograde")):
+    for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
         ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
-    for period, words, side, by in (
-        (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4),
-        (YEAR / 2, "half a year", "left", 4),
-    ):  # fmt: skip
+    marks = (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4)
+    for period, words, side, by in (*marks, (YEAR / 2, "half a year", "left", 4)):
         at = JULIAN / period
         ax.axvline(at, color="0.7", lw=0.7, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
-        note(ax, words, (at, 0.97), (by, 0), color=GREY, **where)
+        note(ax, words, (at, 0.97), (by, 0), color=drawing.GREY, **where)
     ax.set_ylim(0.05, None)
-    ax.set_xlabel("frequency (cycles per year)")
-    ax.set_ylabel("amplitude (mas)")
+    ax.set(xlabel="frequency (cycles per year)", ylabel="amplitude (mas)")
     ax.legend(loc="upper right", bbox_to_anchor=(1, 0.9))
     return ax
 
@@ -270,13 +218,11 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 7.5, 3.4)
     found, time, size, half = _free_wobble(result)
-    ax.fill_between(time, np.maximum(size - half, 0), size + half, color=BLUE, alpha=0.2, lw=0)
-    ax.plot(time, size, color=BLUE, lw=1.4, label="free")
-    ax.plot(time, found.annual_amplitude, color=GREEN, lw=1, label="annual")
-    ax.axhline(200, color=GREY, lw=0.8, ls="--")
-    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=GREY)
-    ax.set_ylim(0, 235)
-    ax.set_ylabel("amplitude (mas)")
+    drawing.band(ax, time, size, half, drawing.BLUE, alpha=0.2, lowest=0.0, lw=1.4, label="free")
+    ax.plot(time, found.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
+    ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
+    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
+    ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("amplitude (m)")
     ax.legend(loc="lower left", ncols=2)
@@ -295,13 +241,11 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
     """
     ax = axes(ax, 7.5, 3.4)
     for found, colour, words in (
-        (observed, BLUE, "observed"),
-        (modelled, RED, modelled.attrs.get("source", "driven by a given excitation")),
+        (observed, drawing.BLUE, "observed"),
+        (modelled, drawing.RED, modelled.attrs.get("source", "driven by a given excitation")),
     ):
-        found, time, size, half = _free_wobble(found)
-        low = np.maximum(size - half, 0)
-        ax.fill_between(time, low, size + half, color=colour, alpha=0.2, lw=0)
-        ax.plot(time, size, color=colour, lw=1.4, label=words)
+        _, time, size, half = _free_wobble(found)
+        drawing.band(ax, time, size, half, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
     ax.set_ylim(0, None)
     ax.set_ylabel("amplitude (mas)")
     ax.legend(loc="best")
@@ -322,8 +266,8 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 2.6)
     found, time, size, half = _free_wobble(result)
     phase = found.chandler_phase.values
-    ax.plot(time, phase, color=BLUE, lw=1, alpha=0.35)
-    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=BLUE, lw=1.6)
+    ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
+    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=drawing.BLUE, lw=1.6)
     ax.set_ylabel("phase (deg)")
     return ax
 
@@ -344,3 +288,27 @@ def _in_mas(answer: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
 def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
     """A scale and its inverse, for a second axis."""
     return lambda v: v * factor, lambda v: v / factor
+
+
+FIGURES = [
+    PageFigure(
+        "Amplitude and phase in time",
+        _caption_of_amplitude,
+        _plot_amplitude_and_phase,
+        section="chandler",
+    ),
+    PageFigure(
+        "Prograde and retrograde spectra",
+        "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
+        "spin; the annual wobble is mostly prograde.",
+        plot_spectra,
+        section="spectrum",
+    ),
+    PageFigure(
+        "The path of the pole",
+        "Path of the pole over the ground. The annual and the free wobble beat with a period of "
+        "6.4 years, and the mean position drifts.",
+        plot_polhode,
+        phone=5.4,
+    ),
+]

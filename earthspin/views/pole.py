@@ -8,49 +8,34 @@ import numpy as np
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY
-from earthspin.views.drawing import Drawing, axes, drawn, for_phone, style
+from earthspin.views.drawing import PageFigure, axes
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Table, along, date
+from earthspin.views.table import Column, Table, date, table_along, words_of
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
 
 def tables(tree: Result) -> list[Table]:
     """Directions of the axes at both ends of the path."""
     answer = answer_of(tree)
-    angles = ["psi", "eps"] if "psi" in answer else []
-    rows = []
-    for _, at in along(answer.isel(time=[0, -1]), "time"):
-        for axis, of in along(at, "axis"):
-            place = [f"{float(of[name]):+.12f}" for name in ("X", "Y")]
-            place += [f"{float(of[name]):.6f}" for name in angles]
-            rows.append((f"{date(at.time, 's')} {axis.replace('_', ' ')}", *place))
+    angles = ["X:+.12f", "Y:+.12f", *(["psi:.6f", "eps:.6f"] if "psi" in answer else [])]
+    ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
+
+    def date_and_axis(row: xr.Dataset) -> str:
+        return f"{date(row.time, 's')} {words_of('axis')(row)}"
+
     method, given = (
         f"{float(answer[f'direction_error_{share}'].max()):.2g}" for share in ("method", "input")
     )
-    table = Table(
-        "The axes in the GCRS",
-        ("TDB, axis", "X", "Y", *(f"{name}, arcsec" for name in angles)),
-        rows,
+    note = (
         f"The path has {answer.time.size} epochs, of which the first and the last are shown. The "
         f"error of the method is at most {method} uas; the uncertainty of H adds up to {given} uas "
-        "over this span (95 %).",
+        "over this span (95 %)."
     )
-    return [table]
-
-
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The path of the figure axis, where it has a longitude."""
-    if "psi" not in answer_of(tree):
-        return []
-    caption = (
-        "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
-        "is removed."
-    )
-    phone = plot_pole_path(tree, ax=for_phone(5.8))
-    return [drawn("The path of the pole", caption, plot_pole_path(tree), phone=phone)]
+    columns: list[Column | str] = [Column("", date_and_axis, "TDB, axis"), *angles]
+    return [table_along(ends, "place", "The axes in the GCRS", columns, note, first="")]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
@@ -85,8 +70,22 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     ax.autoscale_view()
     words = "time from the start (years)"
     ax.figure.colorbar(path, ax=ax, location="bottom", shrink=0.8, aspect=40, label=words)
-    ax.set_aspect("equal")
-    ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
-    ax.set_ylabel("eps, straight line removed (arcsec)")
-    ax.set_title(f"{axis.replace('_', ' ')} axis")
+    ax.set(
+        aspect="equal",
+        xlabel="psi sin(eps), straight line removed (arcsec)",
+        ylabel="eps, straight line removed (arcsec)",
+        title=f"{axis.replace('_', ' ')} axis",
+    )
     return ax
+
+
+FIGURES = [
+    PageFigure(
+        "The path of the pole",
+        "Nutation of the figure axis in space; precession, a straight line fitted to its motion, "
+        "is removed.",
+        plot_pole_path,
+        applies=lambda tree: "psi" in answer_of(tree),
+        phone=5.8,
+    )
+]

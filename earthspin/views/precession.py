@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,20 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
-from earthspin.views import torque
-from earthspin.views.drawing import (
-    CYCLE,
-    NARROW,
-    RED,
-    Drawing,
-    axes,
-    drawn,
-    empty,
-    for_phone,
-    legend_above,
-    note,
-    style,
-)
+from earthspin.views import drawing, stars, table, torque
+from earthspin.views.drawing import PageFigure, axes, note
 from earthspin.views.reading import (
     Result,
     answer_of,
@@ -34,25 +23,7 @@ from earthspin.views.reading import (
     perturbers_of,
     section,
 )
-from earthspin.views.stars import (
-    STARS,
-    YEARS,
-    Label,
-    on_the_chart,
-    plot_path,
-    star_vectors,
-    year_words,
-)
-from earthspin.views.table import (
-    BRACKETS,
-    Table,
-    along,
-    beside_observed,
-    date,
-    measured,
-    two_digits,
-    with_error,
-)
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,8 +34,6 @@ FloatArray = NDArray[np.float64]
 
 #: Numbers that an ensemble of answers shows first.
 CHIEF = ("precession_rate", "mean_torque")
-#: Sections that the figures stand on.
-DRAWN = ("convergence", "seasons")
 
 #: Once round, arcsec.
 FULL_TURN = 360 * 3600.0
@@ -72,14 +41,11 @@ FULL_TURN = 360 * 3600.0
 #: A pole that comes so near a star passes it, degrees.
 PASSED = 2.0
 
-#: How far the label of a year stands from its point of the circle, degrees of the chart.
-LABEL = 3.0
-
 
 def lead(tree: Result) -> str:
     """The sentence at the head of the page."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
-    alone = measured(answer.isel(perturber=-1), "precession_period", "years")
+    alone = table.measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {perturbers_of(answer)} on the equatorial bulge"
     once = f"The axis of {body_of(answer)} goes once round in"
     if known is None:
@@ -99,7 +65,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def _period_with_known_effects(known: xr.Dataset) -> str:
-    return with_error(*_with_known_effects(known))
+    return table.with_error(*_with_known_effects(known))
 
 
 def _left_out(answer: xr.Dataset, known: xr.Dataset) -> float:
@@ -134,7 +100,7 @@ def periods(tree: Result) -> Table:
         [
             (
                 "Sun and Moon, fixed ecliptic",
-                measured(answer.isel(perturber=-1), "precession_period"),
+                table.measured(answer.isel(perturber=-1), "precession_period"),
                 f"known effects: {_left_out(answer, known):+.2f} yr",
                 "the torque of Sun and Moon",
             ),
@@ -146,7 +112,7 @@ def periods(tree: Result) -> Table:
             ),
             (
                 "general precession, moving ecliptic",
-                measured(seasons, "general_precession_period"),
+                table.measured(seasons, "general_precession_period"),
                 f"unexplained: {-unexplained:+.3f} yr",
                 f"equinox, seasons; IAU 2006: {iau_general:.3f}",
             ),
@@ -163,33 +129,31 @@ def periods(tree: Result) -> Table:
 def rates(tree: Result) -> Table:
     """Rates, periods and torques by perturber."""
     answer = answer_of(tree)
-    first = str(answer.perturber.values[0])
+    first, last = answer.perturber.values[[0, -1]]
     method, given = (
-        two_digits(answer[f"precession_rate_error_{share}"][-1]) for share in ("method", "input")
+        table.two_digits(answer[f"precession_rate_error_{share}"][-1])
+        for share in ("method", "input")
     )
-    return Table(
-        "Precession",
-        (
-            *("pulled by", "rate, arcsec/yr", "left out, arcsec/yr", "period, yr"),
-            *("mean torque, N m", f"rate / {first}"),
-        ),
-        [
-            (
-                label,
-                measured(of, "precession_rate"),
-                _largest_left_out(answer) if label == str(answer.perturber.values[-1]) else "",
-                measured(of, "precession_period"),
-                measured(of, "mean_torque"),
-                f"{float(of.rate_ratio):.5f}",
-            )
-            for label, of in along(answer, "perturber")
-        ],
+
+    def left_out(row: xr.Dataset) -> str:
+        return _largest_left_out(answer) if row.perturber == last else ""
+
+    columns = (
+        "precession_rate",
+        Column("", left_out, "left out, arcsec/yr"),
+        "precession_period",
+        "mean_torque",
+        Column("rate_ratio", ".5f", f"rate / {first}"),
+    )
+    note = (
         "Rates are in longitude along the fixed orbit and refer to "
-        f"{date(answer.reference_epoch, 'm')} TDB; the obliquity is {float(answer.obliquity):.6f} "
-        f"deg. Torques are averaged with the {answer.precession_rate.attrs['window']}. In the "
-        f"error of the last rate, {method} arcsec/yr are due to averaging and {given} arcsec/yr to "
-        f"the given numbers. {BRACKETS}",
+        f"{table.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
+        f"{float(answer.obliquity):.6f} deg. Torques are averaged with the "
+        f"{answer.precession_rate.attrs['window']}. In the error of the last rate, {method} "
+        f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers. "
+        f"{table.BRACKETS}"
     )
+    return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 
 def _largest_left_out(answer: xr.Dataset) -> str:
@@ -201,36 +165,29 @@ def _largest_left_out(answer: xr.Dataset) -> str:
 
 def sky_and_calendar(tree: Result) -> Table:
     """The rate as general precession and as drift of the calendar."""
-    of = needed(tree, "seasons")
-    tropical = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
+    computed = table.quantities(
+        needed(tree, "seasons"),
+        "general_precession",
+        "general_precession_period",
+        Column("time_per_degree", ".3f", "years per degree"),
+        "tropical_year:.6f",
+        Column("time_per_day_of_drift", ".2f", "years per day of calendar drift"),
+        Column("time_per_dropped_leap_day", ".2f", "years per dropped leap day, Gregorian"),
+        Column("time_per_day_of_gregorian_drift", ",.0f", "years per day of Gregorian drift"),
+    )
+    others = (
+        f"{P_A_RATE.value:.5f} (IAU 2006)",
+        "25,800 (source text, I.8)",
+        "72 (source text, I.8)",
+        f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)",
+        "129.4 (source text, I.8)",
+        "400/3 (source text, I.8)",
+        "",
+    )
     return Table(
         "Equinox and calendar",
         ("quantity", "computed", "for comparison"),
-        [
-            (
-                "general precession, arcsec/yr",
-                measured(of, "general_precession"),
-                f"{P_A_RATE.value:.5f} (IAU 2006)",
-            ),
-            ("period, yr", measured(of, "general_precession_period"), "25,800 (source text, I.8)"),
-            ("years per degree", f"{float(of.time_per_degree):.3f}", "72 (source text, I.8)"),
-            ("tropical year, d", f"{float(of.tropical_year):.6f}", tropical),
-            (
-                "years per day of calendar drift",
-                f"{float(of.time_per_day_of_drift):.2f}",
-                "129.4 (source text, I.8)",
-            ),
-            (
-                "years per dropped leap day, Gregorian",
-                f"{float(of.time_per_dropped_leap_day):.2f}",
-                "400/3 (source text, I.8)",
-            ),
-            (
-                "years per day of Gregorian drift",
-                f"{float(of.time_per_day_of_gregorian_drift):,.0f}",
-                "",
-            ),
-        ],
+        [(*row, other) for row, other in zip(computed, others, strict=True)],
         "General precession is the precession of the equator, with the published effects that the "
         "torques of Sun and Moon leave out, minus the motion of the ecliptic, which is taken from "
         "IAU 2006. A calendar of 365.25 days drifts against the "
@@ -241,50 +198,47 @@ def sky_and_calendar(tree: Result) -> Table:
 
 
 _MODELS = {
-    "mccullough": "(C-A)/A = flattening",
-    "homogeneous": "J2 and C = 0.4 M a2",
-    "measured": "observed H",
+    "mccullough": "mccullough: (C-A)/A = flattening",
+    "homogeneous": "homogeneous: J2 and C = 0.4 M a2",
+    "measured": "measured: observed H",
 }
 
 
 def models(tree: Result) -> Table:
     """Precession and free wobble by three models of H."""
     figure = needed(tree, "figure_models")
-    return Table(
-        "Three models of the figure",
-        ("model", "H = (C-A)/C", "precession, yr", "wobble, d"),
-        [
-            (
-                f"{model}: {_MODELS[model]}",
-                f"{float(of.h_by_model):.7f}",
-                f"{float(of.period_by_model):,.0f}",
-                f"{float(of.wobble_by_model):.2f}",
-            )
-            for model, of in along(figure, "earth_model")
-        ],
+    columns = (
+        Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
+        *("h_by_model:.7f", "period_by_model:,.0f", "wobble_by_model:.2f"),
+    )
+    note = (
         f"J2 gives C - A = {float(figure.moment_difference):.5e} kg m2, and C - A gives back J2 = "
         f"{float(figure.j2_from_moment_difference):.7e}; C = "
         f"{float(figure.polar_moment_factor):.6f} M a2. The first two models hold for uniform "
-        "density, not for a body that is denser towards its centre.",
+        "density, not for a body that is denser towards its centre."
     )
+    title = "Three models of the figure"
+    return table_along(figure, "earth_model", title, columns, note, first="")
 
 
 def free_wobble(tree: Result) -> Table:
     """Period of the rigid wobble, and the observed one if this body was observed."""
-    of = needed(tree, "free_wobble")
-    sidereal = f"{float(of.free_wobble_period_sidereal):.4f}"
-    rigid = measured(of, "free_wobble_period")
+    wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
-    if "observed_period" in of:
-        rigid = beside_observed(of.free_wobble_period, of.free_wobble_period_error, None)
-    rows = [("rigid body, A/(C-A)", rigid, sidereal)]
-    if "observed_period" in of:
-        rows.append(("observed", measured(of, "observed_period"), ""))
-        notes.append(f"Source of the observed period: {of.observed_period.attrs['references']}.")
+    rigid = table.measured(wobble, "free_wobble_period")
+    rows = []
+    if "observed_period" in wobble:
+        rigid = table.beside_observed(
+            wobble.free_wobble_period, wobble.free_wobble_period_error, None
+        )
+        rows.append(("observed", table.measured(wobble, "observed_period"), ""))
+        source = wobble.observed_period.attrs["references"]
+        notes.append(f"Source of the observed period: {source}.")
+    sidereal = f"{float(wobble.free_wobble_period_sidereal):.4f}"
     return Table(
         "Free wobble",
         ("period", "days of 86400 s", "sidereal days"),
-        rows,
+        [("rigid body, A/(C-A)", rigid, sidereal), *rows],
         " ".join([*notes, *changes_of(answer_of(tree), "body")]),
     )
 
@@ -293,19 +247,19 @@ def iau(tree: Result) -> Table:
     """The computed rate compared with that of IAU 2006."""
     of, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     rows = [
-        ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
+        ("computed", table.measured(answer.isel(perturber=-1), "precession_rate")),
         ("IAU 2006, psi_A", f"{float(of.iau_rate):.8f}"),
-        ("difference", measured(of, "difference_from_iau")),
+        ("difference", table.measured(of, "difference_from_iau")),
     ]
     if left_out is not None:
         rows += [
             (f"  left out: {effect}", f"{float(one.neglected_effect):+.6f}")
-            for effect, one in along(left_out, "effect")
+            for effect, one in table.along(left_out, "effect")
         ]
-    rows.append(("difference after the effects left out", measured(of, "closure")))
+    rows.append(("difference after the effects left out", table.measured(of, "closure")))
     return Table(
         "Comparison with IAU 2006",
-        (f"rate at {date(answer.reference_epoch)}", "arcsec/yr"),
+        (f"rate at {table.date(answer.reference_epoch)}", "arcsec/yr"),
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
@@ -320,44 +274,34 @@ def standstills(tree: Result) -> Table:
     found = needed(tree, "standstills")
     text = {"major": "28.58", "minor": "18.30"}
     error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
-    return Table(
-        "Lunar standstills",
-        ("date (TDB)", "kind", "extreme declination, deg", "source text (I.8), deg"),
-        [
-            (
-                date(of.standstill),
-                of.standstill_kind.item(),
-                f"{float(of.standstill_declination):+.4f}",
-                text[of.standstill_kind.item()],
-            )
-            for _, of in along(found, "standstill")
-        ],
+    columns = (
+        Column("standstill", lambda row: table.date(row.standstill), "date (TDB)"),
+        *("standstill_kind", "standstill_declination:+.4f"),
+        Column("", lambda row: text[row.standstill_kind.item()], "source text (I.8), deg"),
+    )
+    note = (
         "Extreme declinations of single months, seen from the centre of the body. The source text "
         "takes 23.44 plus or minus 5.14 degrees; the Sun makes the inclination of the orbit vary "
         "between 5.0 and 5.3 degrees, so the largest declination reaches 28.7 and the smallest "
-        f"extreme is near 18.1. Errors, from the kernel alone, are at most {error:.0e} deg.",
+        f"extreme is near 18.1. Errors, from the kernel alone, are at most {error:.0e} deg."
     )
+    return table_along(found, "standstill", "Lunar standstills", columns, note, first="")
 
 
 # --- figures -------------------------------------------------------------------------------------
 
 
-def drawings(tree: Result) -> list[Drawing]:
-    """For the Earth, the circle of the pole among the stars; convergence of the average."""
-    return of_sections(tree, {"seasons": circle_of_pole, "convergence": convergence})
-
-
-@style()
-def chain(tree: Result, year: Result) -> Drawing:
+def chain(tree: Result, year: Result) -> drawing.Drawing:
     """The method in one figure: declination, torque, average, period."""
-    return Drawing(
+    figure = PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
         "the component of the torque towards the equinox that follows (I.8.7); dashed: its mean. "
         "Bottom: the rate of precession from the torque averaged over longer and longer windows, "
         "and the period that follows.",
-        plot_chain(tree, year),
+        partial(plot_chain, year=year),
     )
+    return figure.drawn(tree)
 
 
 def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) -> Figure:
@@ -372,36 +316,23 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     figure : Figure, optional
         A figure of its own by default.
     """
-    figure = empty(8, 6.6) if figure is None else figure
+    figure = drawing.empty(8, 6.6) if figure is None else figure
     upper, middle, lower = figure.subplots(3, 1)
     upper.sharex(middle)
     torque.plot_declination(year, ax=upper)
     torque.plot_torque(year, ax=middle)
     upper.tick_params(labelbottom=False)
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
-    for colour, (window, one) in zip(CYCLE, along(curve, "window"), strict=False):
-        lower.plot(curve.window_length, one.rate_by_window, color=colour, lw=1.1, label=window)
+    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
+        lower.plot(curve.window_length, row.rate_by_window, color=colour, lw=1.1, label=window)
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
     words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):,.0f} years"
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
     lower.set_xlabel("length of the averaging window (yr)")
     lower.set_ylabel("averaged rate\n(arcsec per year)")
-    legend_above(lower)
+    drawing.legend_above(lower)
     return figure
-
-
-@style()
-def convergence(tree: Result) -> Drawing:
-    """Convergence of the average with the length of the window."""
-    return drawn(
-        "How the average converges",
-        "Difference between the rate averaged over a window and the adopted rate, against the "
-        "length of the window. To see: a plain mean converges slowly, whatever its length; a "
-        "tapered mean is far closer once the window holds three or more whole cycles. Dashed: the "
-        "error claimed for averaging.",
-        plot_convergence(tree),
-    )
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -416,12 +347,12 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
     ax = axes(ax)
-    for colour, (window, of) in zip(CYCLE, along(curve, "window"), strict=False):
-        off = abs(of.rate_by_window - total.precession_rate)
+    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
+        off = abs(row.rate_by_window - total.precession_rate)
         ax.semilogy(curve.window_cycles, np.maximum(off, 1e-8), color=colour, lw=1.2, label=window)
     error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
-    words = f"error claimed for averaging, {two_digits(error)} arcsec/yr"
+    words = f"error claimed for averaging, {table.two_digits(error)} arcsec/yr"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
     ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
     ax.set_ylabel("difference (arcsec per year)")
@@ -430,38 +361,25 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@style()
-def circle_of_pole(tree: Result) -> Drawing:
-    """The circle of the pole among the stars."""
-    ax, phone = plot_pole_circle(tree), plot_pole_circle(tree, ax=for_phone(NARROW))
-    for one in (ax, phone):
-        one.set_title("the pole's path at the rate of this model")
-    return drawn(
-        "The circle of the pole among the stars",
-        "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
-        "ecliptic; the sky as seen from inside, with stars at their present places. "
-        f"{_passes(tree)}",
-        ax,
-        square=True,
-        phone=phone,
-    )
-
-
-def _passes(tree: Result) -> str:
-    """Which bright stars the pole passes within two degrees, and when."""
+def _caption_of_circle(tree: Result) -> str:
+    """Words below the circle, with the stars that the pole passes within two degrees, and when."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total)(years)
-    stars = on_the_chart(star_vectors(), float(np.radians(total.obliquity)))
+    places = stars.on_the_chart(stars.star_vectors(), float(np.radians(total.obliquity)))
     passed = []
-    for (name, *_), place in zip(STARS, stars, strict=True):
+    for (name, *_), place in zip(stars.STARS, places, strict=True):
         away = np.linalg.norm(path - place, axis=1)
         if away.min() < PASSED:
             year = int(years[away.argmin()])
             century = f"{year}" if year > 0 else f"{-year} BC"
             passed.append((year, f"{name} about {century}"))
     words = [words for _, words in sorted(passed)]
-    return f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
+    passes = f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
+    return (
+        "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
+        f"ecliptic; the sky as seen from inside, with stars at their present places. {passes}"
+    )
 
 
 def _circle(total: xr.Dataset) -> Callable[[ArrayLike], FloatArray]:
@@ -488,12 +406,38 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     total = answer_of(result).isel(perturber=-1)
-    obliquity = float(np.radians(total.obliquity))
-    pole = _circle(total)
-    years = [year for year in YEARS if abs(year - 2000) <= 12_000]
+    pole, turn = _circle(total), float(total.precession_period)
+    years = [year for year in stars.YEARS if abs(year - 2000) <= 12_000]
     marks = zip(years, pole(years).tolist(), strict=True)
-    dates = [Label(year_words(year), (x, y), RED) for year, (x, y) in marks]
-    turn = float(total.precession_period)
-    ax = plot_path(pole(np.linspace(2000 - turn / 2, 2000 + turn / 2, 361)), dates, obliquity, ax)
-    ax.set_title(f"once round in {float(total.precession_period):,.0f} years")
+    dates = [stars.Label(stars.year_words(year), (x, y), drawing.RED) for year, (x, y) in marks]
+    path = pole(np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
+    ax = stars.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
+    ax.set_title(f"once round in {turn:,.0f} years")
     return ax
+
+
+def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
+    ax = plot_pole_circle(tree, ax=ax)
+    ax.set_title("the pole's path at the rate of this model")
+    return ax
+
+
+FIGURES = [
+    PageFigure(
+        "The circle of the pole among the stars",
+        _caption_of_circle,
+        _plot_circle_on_page,
+        section="seasons",
+        square=True,
+        phone=drawing.NARROW,
+    ),
+    PageFigure(
+        "How the average converges",
+        "Difference between the rate averaged over a window and the adopted rate, against the "
+        "length of the window. To see: a plain mean converges slowly, whatever its length; a "
+        "tapered mean is far closer once the window holds three or more whole cycles. Dashed: the "
+        "error claimed for averaging.",
+        plot_convergence,
+        section="convergence",
+    ),
+]

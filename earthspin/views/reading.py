@@ -102,10 +102,16 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
 
 
 def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
-    """First of many bodies or starts: along dimensions that no part of the question declares."""
+    """First of many bodies or starts, with the declared labels of its variables.
+
+    That is, the first along dimensions that no part of the question declares.
+    """
     question = QUESTIONS.get(attrs.get("compute", ""))
     if question is None:
         return data
-    every = question.graph.parts.values()
-    known = {dim for one in every for declared in one.gives.values() for dim in declared.dims}
-    return data.isel({dim: 0 for dim in data.dims if dim not in known | {"effect", "part"}})
+    declared = {n: v for part in question.graph.parts.values() for n, v in part.gives.items()}
+    known = {"effect", "part", *(dim for variable in declared.values() for dim in variable.dims)}
+    first = data.isel({dim: 0 for dim in data.dims if dim not in known}).copy()
+    for name in first.variables.keys() & declared.keys():
+        first[name].attrs |= {"short": declared[str(name)].short}
+    return first

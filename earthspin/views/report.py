@@ -15,7 +15,7 @@ from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import free_rotor, precession, top, torque
-from earthspin.views.of_question import drawings_for, page_of
+from earthspin.views.of_question import drawings_for, page_of, solids_for
 from earthspin.views.page import page
 from earthspin.views.reading import answer_of, body_of, needed, section
 from earthspin.views.table import beside_observed, measured
@@ -112,7 +112,7 @@ def gallery() -> list[Solid]:
     oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
     tops = ("top-wave", "top-cusp", "top-loop")
     return [
-        *free_rotor.solids(run_tree("poinsot", ["poinsot"])),
+        *solids_for(run_tree("poinsot", ["poinsot"])),
         free_rotor.rolling_cones(prolate, "Rolling cones, prolate"),
         free_rotor.rolling_cones(oblate, "Rolling cones, oblate"),
         *(top.path_of_top(run_tree(name, ["turning"])) for name in tops),

@@ -8,11 +8,11 @@ import numpy as np
 
 from earthspin.constants import DAY
 from earthspin.numerics.quaternion import rotate
-from earthspin.views.drawing import CYCLE, RED, Drawing, axes, drawn, legend_above, style
-from earthspin.views.reading import Result, answer_of, body_of, needed, of_sections, section
-from earthspin.views.solids import BLACK, BLUE, GREEN, Solid, arrow, ellipsoid, mesh, moving_arrow
-from earthspin.views.solids import RED as RED_LINE
-from earthspin.views.table import Table, along, date, listed
+from earthspin.views import solids
+from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, PageFigure, axes, legend_above
+from earthspin.views.reading import Result, answer_of, body_of, needed, of_sections
+from earthspin.views.solids import BLACK, Solid
+from earthspin.views.table import Column, Table, along, date, listed, quantities, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from earthspin.units import FloatArray
 
-#: Sections that the figures stand on.
-DRAWN = ("divergence",)
 #: An attitude is lost where its error is a quarter of a turn, deg.
 LOST = 90.0
 #: Poses that a picture which plays shows at most.
@@ -38,15 +36,12 @@ def known_until(answer: xr.Dataset) -> np.datetime64 | None:
 def tables(tree: Result) -> list[Table]:
     """The rotation at both ends of the span, and Lyapunov's time."""
     answer = answer_of(tree)
-    rows = [
-        (
-            date(at.time, "s"),
-            listed(at.attitude.values),
-            listed(at.omega.values),
-            f"{float(at.attitude_error_method):.2g}",
-        )
-        for _, at in along(answer.isel(time=[0, -1]), "time")
-    ]
+    columns = (
+        Column("", lambda row: date(row.time, "s"), "TDB"),
+        Column("attitude", lambda row: listed(row.attitude.values)),
+        Column("omega", lambda row: listed(row.omega.values)),
+        Column("attitude_error_method", ".2g", "error of the method, deg"),
+    )
     lost = known_until(answer)
     note = (
         f"The error of the method stays below {LOST:g} deg."
@@ -54,35 +49,21 @@ def tables(tree: Result) -> list[Table]:
         else f"From {str(lost)[:16]} on the attitude is not known: its error is {LOST:g} deg or "
         "more, and what follows is one motion of many."
     )
-    found = [
-        Table(
-            f"The attitude of {body_of(answer)}",
-            (
-                "TDB",
-                "quaternion, body to ICRF",
-                "spin in the body, rad/s",
-                "error of the method, deg",
-            ),
-            rows,
-            note,
-            words=(0, 1, 2),
-        )
-    ]
-    parting = section(tree, "divergence")
-    if parting is not None:
-        found.append(_divergence(parting))
-    return found
+    title, ends = f"The attitude of {body_of(answer)}", answer.isel(time=[0, -1])
+    attitude = table_along(ends, "time", title, columns, note, first="", words=(0, 1, 2))
+    return [attitude, *of_sections(tree, {"divergence": divergence})]
 
 
-def _divergence(parting: xr.Dataset) -> Table:
-    rate, spread = (float(parting[f"growth_rate{of}"]) * DAY for of in ("", "_error"))
+def divergence(tree: Result) -> Table:
+    """Growth of the distance of a neighbour."""
+    parting = needed(tree, "divergence")
+    rate, spread = (float(parting[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
     rows = [
-        ("course", str(parting.course.values)),
+        *quantities(parting, "course"),
         ("growth rate, 1/d", f"{rate:.3g} ± {spread:.2g}"),
     ]
     if "lyapunov_time" in parting:
-        time, error = float(parting.lyapunov_time), float(parting.lyapunov_time_error)
-        rows.append(("Lyapunov time, d", f"{time:.3g} ± {error:.2g}"))
+        rows.append(("Lyapunov time, d", _lyapunov_time(parting)))
     return Table(
         "How neighbouring rotations part",
         ("quantity", "value"),
@@ -94,24 +75,9 @@ def _divergence(parting: xr.Dataset) -> Table:
 # --- figures -------------------------------------------------------------------------------------
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """Spin in the body, error of the attitude, growth of a neighbour's distance."""
-    words = "Components of the angular velocity along the principal axes, C last."
-    error = (
-        "What the attitude may be off by at each time: what two ways of following it differ by, "
-        "and what the uncertainty of given numbers and positions does."
-    )
-    return [
-        drawn("Spin in the body", words, plot_spin(tree)),
-        drawn("How well the attitude is known", error, plot_attitude_error(tree)),
-        *of_sections(tree, {"divergence": _drawn_growth}),
-    ]
-
-
-def _drawn_growth(tree: Result) -> Drawing:
-    words = "Logarithm of the distance of a neighbour; a straight line is chaos."
-    return drawn("How neighbours part", words, plot_growth(tree))
+def _lyapunov_time(parting: xr.Dataset) -> str:
+    time, error = float(parting.lyapunov_time), float(parting.lyapunov_time_error)
+    return f"{time:.3g} ± {error:.2g}"
 
 
 def _days(answer: xr.Dataset) -> FloatArray:
@@ -119,8 +85,10 @@ def _days(answer: xr.Dataset) -> FloatArray:
     return np.asarray((time - time[0]) / np.timedelta64(1, "D"))
 
 
-def _daily(ax: Axes) -> None:
-    ax.set_xlabel("time from the start (d)")
+def _label(ax: Axes, words: str) -> Axes:
+    ax.set(xlabel="time from the start (d)", ylabel=words)
+    legend_above(ax)
+    return ax
 
 
 def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -138,10 +106,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     for colour, (component, of) in zip(CYCLE, along(answer, "component"), strict=False):
         turns = np.degrees(of.omega.values) * DAY
         ax.plot(_days(answer), turns, color=colour, lw=1.1, label=str(component))
-    _daily(ax)
-    ax.set_ylabel("angular velocity (deg/d)")
-    legend_above(ax)
-    return ax
+    return _label(ax, "angular velocity (deg/d)")
 
 
 def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -161,10 +126,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
         if shown.any():
             ax.semilogy(_days(answer)[shown], error[shown], color=colour, lw=1.2, label=share)
     ax.axhline(LOST, color="0.4", lw=0.8, ls="--")
-    _daily(ax)
-    ax.set_ylabel("error of the attitude (deg)")
-    legend_above(ax)
-    return ax
+    return _label(ax, "error of the attitude (deg)")
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -181,45 +143,65 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     days = _days(parting)
     ax.plot(days, parting.growth, color=RED, lw=1.2, label="neighbour")
     if "lyapunov_time" in parting:
-        time, error = float(parting.lyapunov_time), float(parting.lyapunov_time_error)
-        ax.plot(days, days / time, "k--", lw=0.9, label=f"e-fold in {time:.3g} ± {error:.2g} d")
-    _daily(ax)
-    ax.set_ylabel("logarithm of the distance (1)")
-    legend_above(ax)
-    return ax
+        words = f"e-fold in {_lyapunov_time(parting)} d"
+        ax.plot(days, days / float(parting.lyapunov_time), "k--", lw=0.9, label=words)
+    return _label(ax, "logarithm of the distance (1)")
+
+
+FIGURES = [
+    PageFigure(
+        "Spin in the body",
+        "Components of the angular velocity along the principal axes, C last.",
+        plot_spin,
+    ),
+    PageFigure(
+        "How well the attitude is known",
+        "What the attitude may be off by at each time: what two ways of following it differ by, "
+        "and what the uncertainty of given numbers and positions does.",
+        plot_attitude_error,
+    ),
+    PageFigure(
+        "How neighbours part",
+        "Logarithm of the distance of a neighbour; a straight line is chaos.",
+        plot_growth,
+        section="divergence",
+    ),
+]
 
 
 # --- solids --------------------------------------------------------------------------------------
 
-
-def solids(tree: Result) -> list[Solid]:
-    """The body as it turns: an ellipsoid that is as long as its moments tell."""
-    answer = answer_of(tree)
-    few = answer.isel(time=slice(0, POSES))
-    attitude, omega = few.attitude.values, few.omega.values
-    speed = float(np.max(np.linalg.norm(omega, axis=1))) or 1.0
-    momentum = few.angular_momentum.values
-    size = float(np.max(np.linalg.norm(momentum, axis=1))) or 1.0
-    return [
-        Solid(
-            title="The body turns",
-            caption="An ellipsoid fixed to the principal axes, its longest axis that of least "
-            "moment (A, red) and its shortest that of most (C, black); the angular velocity "
-            "(green) and the angular momentum (blue) in space, each over its largest length.",
-            items=[
-                mesh(ellipsoid(SHAPE), BLUE, frame="body", opacity=0.2),
-                arrow(np.array([1.25, 0.0, 0.0]), RED_LINE, "A", frame="body"),
-                arrow(np.array([0.0, 0.0, 1.0]), BLACK, "C", frame="body"),
-                moving_arrow(1.3 * rotate(attitude, omega) / speed, GREEN, "ω"),
-                moving_arrow(1.3 * momentum / size, BLUE, "L"),
-            ],
-            radius=1.5,
-            times=_days(few),
-            unit="d",
-            attitude=attitude,
-        )
-    ]
-
-
 #: Semi-axes of what is drawn: the shape of no body in particular.
 SHAPE = (1.0, 0.8, 0.6)
+
+
+def turning_body(tree: Result) -> Solid:
+    """The body as it turns: an ellipsoid that is as long as its moments tell."""
+    few = answer_of(tree).isel(time=slice(0, POSES))
+    attitude, momentum = few.attitude.values, few.angular_momentum.values
+    omega = rotate(attitude, few.omega.values)
+    return Solid(
+        title="The body turns",
+        caption="An ellipsoid fixed to the principal axes, its longest axis that of least "
+        "moment (A, red) and its shortest that of most (C, black); the angular velocity "
+        "(green) and the angular momentum (blue) in space, each over its largest length.",
+        items=[
+            solids.mesh(solids.ellipsoid(SHAPE), BLUE, frame="body", opacity=0.2),
+            solids.arrow(np.array([1.25, 0.0, 0.0]), RED, "A", frame="body"),
+            solids.arrow(np.array([0.0, 0.0, 1.0]), BLACK, "C", frame="body"),
+            solids.moving_arrow(1.3 * omega / _largest(few.omega.values), GREEN, "ω"),
+            solids.moving_arrow(1.3 * momentum / _largest(momentum), BLUE, "L"),
+        ],
+        radius=1.5,
+        times=_days(few),
+        unit="d",
+        attitude=attitude,
+    )
+
+
+def _largest(vectors: FloatArray) -> float:
+    """Largest length, 1 if all vectors vanish."""
+    return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
+
+
+SOLIDS = [("", turning_body)]

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
-BLUE, RED, GREEN, GREY, BLACK = "#0072B2", "#D55E00", "#009E73", "#999999", "#1d1f21"
+GREY, BLACK = "#999999", "#1d1f21"
 
 Item = dict[str, Any]
 
@@ -56,16 +56,13 @@ class Solid:
 
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
-        content = {
-            "items": list(self.items),
-            "radius": self.radius,
-            "times": np.asarray(self.times, dtype=float),
-            "unit": self.unit,
-            "attitude": np.asarray(self.attitude, dtype=float),
-            "turn": self.turn,
-            "tilt": self.tilt,
-        }
+        content = {name: value for name, value in vars(self).items() if name not in _WORDS}
+        content |= {name: np.asarray(content[name], float) for name in ("times", "attitude")}
         return json.dumps(_rounded(content), separators=(",", ":")).replace("<", "\\u003c")
+
+
+#: Words about a solid, which stand on the page beside it.
+_WORDS = ("title", "caption")
 
 
 def _rounded(value: Any) -> Any:
@@ -80,13 +77,7 @@ def _rounded(value: Any) -> Any:
 
 def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str = "space") -> Item:
     """A surface through a grid of points, shape (m, n, 3)."""
-    return {
-        "kind": "mesh",
-        "points": points,
-        "colour": colour,
-        "opacity": opacity,
-        "frame": frame,
-    }
+    return {"kind": "mesh", "points": points, "colour": colour, "opacity": opacity, "frame": frame}
 
 
 def line(
@@ -98,38 +89,22 @@ def line(
     grows: bool = False,
 ) -> Item:
     """A line through points, shape (n, 3); one that grows is drawn up to the time shown."""
-    return {
-        "kind": "line",
-        "points": points,
-        "colour": colour,
-        "width": width,
-        "frame": frame,
-        "grows": grows,
-    }
+    item = {"kind": "line", "points": points, "colour": colour, "width": width, "frame": frame}
+    return item | {"grows": grows}
 
 
 def arrow(tip: FloatArray, colour: str, label: str = "", *, frame: str = "space") -> Item:
     """An arrow from the centre to a point, shape (3,)."""
-    return {
-        "kind": "arrow",
-        "tip": tip,
-        "colour": colour,
-        "label": label,
-        "width": 2.5,
-        "frame": frame,
-    }
+    return _arrow("tip", tip, colour, label) | {"frame": frame}
 
 
 def moving_arrow(track: FloatArray, colour: str, label: str = "") -> Item:
     """An arrow in space whose tip moves, shape (n, 3), one point a time."""
-    return {
-        "kind": "arrow",
-        "track": track,
-        "colour": colour,
-        "label": label,
-        "width": 2.5,
-        "frame": "space",
-    }
+    return _arrow("track", track, colour, label) | {"frame": "space"}
+
+
+def _arrow(name: str, points: FloatArray, colour: str, label: str) -> Item:
+    return {"kind": "arrow", name: points, "colour": colour, "label": label, "width": 2.5}
 
 
 def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> FloatArray:

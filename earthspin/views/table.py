@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, SupportsFloat
 
@@ -53,6 +53,129 @@ class Table:
     figure: str = ""
 
 
+@dataclass(frozen=True)
+class Column:
+    """A column of a table, or a row of a table of quantities.
+
+    Attributes
+    ----------
+    name : str
+        Variable that it shows; its label and unit make the header.
+    shown : str or callable
+        Format of the number, which is followed by its error in brackets if this is empty; or a
+        function from the data of one row to the text.
+    head : str
+        Header, in place of label and unit.
+    """
+
+    name: str = ""
+    shown: str | Callable[[xr.Dataset], str] = ""
+    head: str = ""
+
+    def header(self, data: xr.Dataset) -> str:
+        """Header, or the words of the row."""
+        return self.head or label(data[self.name])
+
+    def text(self, row: xr.Dataset) -> str:
+        """Text of the cell for the data of one row."""
+        if callable(self.shown):
+            return self.shown(row)
+        if row[self.name].dtype.kind in "UO":
+            return str(row[self.name].values)
+        if not self.shown:
+            return measured(row, self.name)
+        return short_exponents(f"{float(row[self.name]):{self.shown}}")
+
+
+def words_of(name: str) -> Callable[[xr.Dataset], str]:
+    """Text of a column of names, with spaces between their words."""
+    return lambda row: str(row[name].values).replace("_", " ")
+
+
+def label(variable: xr.DataArray) -> str:
+    """Label that a variable was declared with, followed by its unit."""
+    words, unit = variable.attrs.get("short", ""), variable.attrs.get("units", "")
+    words = words or str(variable.name).replace("_", " ")
+    return words if unit in ("", "1") else f"{words}, {unit}"
+
+
+def table_along(
+    data: xr.Dataset,
+    dim: str,
+    title: str,
+    columns: Sequence[Column | str],
+    note: str = "",
+    *,
+    first: str | None = None,
+    words: Collection[int] = (0,),
+) -> Table:
+    """Table with a row for each label of a dimension.
+
+    Parameters
+    ----------
+    data : Dataset
+    dim : str
+    title : str
+    columns : sequence of Column or str
+        The columns after the labels; text is the name of a variable and, after a colon, the format.
+    note, words
+        As of `Table`.
+    first : str, optional
+        Header of the column of labels; the name of the dimension by default; without a column if
+        it is empty.
+    """
+    first = dim if first is None else first
+    shown = [_column(column) for column in columns]
+    if first:
+        shown = [Column(dim, lambda row: str(row[dim].values), first), *shown]
+    headers = tuple(column.header(data) for column in shown)
+    rows = [tuple(column.text(row) for column in shown) for _, row in along(data, dim)]
+    return Table(title, headers, rows, note, words)
+
+
+def beside_published(
+    known: xr.Dataset | None, dim: str, value: str, published: str, source: str
+) -> tuple[list[Column], str]:
+    """Columns of published numbers, and of the difference from them in per cent.
+
+    Parameters
+    ----------
+    known : Dataset or None
+        Published numbers and their sources, by the labels of the rows.
+    dim : str
+        Dimension of the rows.
+    value, published, source : str
+        Names of the computed numbers, of the published ones and of their sources.
+
+    Returns
+    -------
+    columns : list of Column
+    sources : str
+        All of them; empty if nothing is published.
+    """
+    rows = {} if known is None else dict(along(known, str(known[published].dims[0])))
+
+    def texts(row: xr.Dataset) -> tuple[str, str]:
+        other = rows.get(str(row[dim].values))
+        return beside(row[value], None if other is None else other[published])
+
+    columns = [
+        Column(published, lambda row: texts(row)[0], "published"),
+        Column(published, lambda row: texts(row)[1], "difference, %"),
+    ]
+    return columns, "; ".join(dict.fromkeys(str(row[source].values) for row in rows.values()))
+
+
+def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
+    """Rows of a table of quantities, given as the columns of `table_along`: label, and number."""
+    return [(row.header(data), row.text(data)) for row in map(_column, rows)]
+
+
+def _column(column: Column | str) -> Column:
+    """Column from the name of its variable and, after a colon, the format."""
+    return Column(*column.split(":")) if isinstance(column, str) else column
+
+
 def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> str:
     """Write a value and, in brackets, two digits of its half-width.
 
@@ -92,6 +215,11 @@ def short_exponents(text: str) -> str:
 def two_digits(value: SupportsFloat) -> str:
     """Write a number to two digits, without an exponent from 0.0001 to 999999."""
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
+
+
+def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
+    """Write a quality factor; nothing for an infinite one."""
+    return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
 def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import CYCLE, Drawing, axes, empty, few_dates, legend_above, style
+from earthspin.views.drawing import CYCLE, PageFigure, axes, few_dates, legend_above, stacked
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Table, along, date
+from earthspin.views.table import Column, Table, along, date, table_along
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from earthspin.views.drawing import Drawing
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
@@ -23,56 +27,58 @@ def tables(tree: Result) -> list[Table]:
     """Extremes by perturber."""
     answer = answer_of(tree)
     first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
-    table = Table(
-        "Torque",
-        ("pulled by", "declination, deg", "distance, m", "largest torque, N m", "error, N m"),
-        [
-            (
-                label,
-                f"{float(of.declination.min()):+.4f} to {float(of.declination.max()):+.4f}",
-                f"{float(of.distance.min()):.6e} to {float(of.distance.max()):.6e}",
-                f"{float(of.torque_magnitude.max()):.4e}",
-                f"{float(of.torque_magnitude_error.max()):.1e}",
-            )
-            for label, of in along(answer, "perturber")
-        ],
-        f"{answer.time.size} times from {first} to {last} TDB, {answer.torque.attrs['frame']}.",
+
+    def range_of(name: str, shown: str) -> Column:
+        low_to_high = f"{{:{shown}}} to {{:{shown}}}".format
+        return Column(name, lambda row: low_to_high(float(row[name].min()), float(row[name].max())))
+
+    def largest(name: str, shown: str, head: str) -> Column:
+        return Column(name, lambda row: f"{float(row[name].max()):{shown}}", head)
+
+    columns = (
+        range_of("declination", "+.4f"),
+        range_of("distance", ".6e"),
+        largest("torque_magnitude", ".4e", "largest torque, N m"),
+        largest("torque_magnitude_error", ".1e", "error, N m"),
     )
-    return [table]
+    frame = answer.torque.attrs["frame"]
+    note = f"{answer.time.size} times from {first} to {last} TDB, {frame}."
+    return [table_along(answer, "perturber", "Torque", columns, note, first="pulled by")]
 
 
-def drawings(tree: Result) -> list[Drawing]:
-    """Declination and torque in time."""
-    return [through(tree, "Declination and torque")]
+def through(tree: Result, title: str, smooth_days: float) -> Drawing:
+    """Figure of declination and torque through years, in which single swings are not seen."""
+    plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
+    return PageFigure(title, caption, plot).drawn(tree)
 
 
-@style()
-def through(tree: Result, title: str, smooth_days: float | None = None) -> Drawing:
+def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
     """Declination above, torque below."""
-    figure = empty(8, 4.6)
-    upper, lower = figure.subplots(2, 1, sharex=True)
+    figure, (upper, lower) = stacked(2, 4.6)
     plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
-    moon = "moon" in answer_of(tree).perturber
+    return figure
+
+
+def _caption(tree: Result, smooth_days: float | None = None) -> str:
     lines = (
-        f"Bands lie between the extremes within {smooth_days:g} days, thick lines are means over "
-        "the same time."
-        + (
-            " To see: the band of the Moon swells and shrinks with the inclination of its orbit to "
-            "the equator, and its mean with it."
-            if moon
-            else ""
-        )
-        if smooth_days
-        else "Dashed lines are means. To see: the torque vanishes when a perturber crosses the "
+        "Dashed lines are means. To see: the torque vanishes when a perturber crosses the "
         "equator, and is largest at its extremes."
     )
-    return Drawing(
-        title,
+    if smooth_days:
+        lines = (
+            f"Bands lie between the extremes within {smooth_days:g} days, thick lines are means "
+            "over the same time."
+        )
+    if smooth_days and "moon" in answer_of(tree).perturber:
+        lines += (
+            " To see: the band of the Moon swells and shrinks with the inclination of its orbit to "
+            "the equator, and its mean with it."
+        )
+    return (
         f"Above: declination, referred to the {answer_of(tree).torque.attrs['frame']}. Below: the "
         "component of the torque towards the equinox; it hardly ever changes sign, so it always "
-        f"turns the axis in the same direction. {lines}",
-        figure,
+        f"turns the axis in the same direction. {lines}"
     )
 
 
@@ -173,3 +179,6 @@ def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:
 
 def _colour(label: str, number: int) -> str:
     return COLOURS.get(label, CYCLE[number % len(CYCLE)])
+
+
+FIGURES = [PageFigure("Declination and torque", _caption, _plot_both)]

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from earthspin.views.drawing import BLUE, RED, Drawing, axes, drawn, note, style
+from earthspin.views import table
+from earthspin.views.drawing import BLUE, RED, PageFigure, axes, note, rungs
 from earthspin.views.reading import Result, answer_of, changes_of, needed, of_sections, section
-from earthspin.views.table import (
-    NUMBERS_ONLY,
-    Table,
-    along,
-    beside_observed,
-    measured,
-    with_error,
-)
+from earthspin.views.table import Column, Table, table_along
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
 #: Numbers that an ensemble of answers shows first.
 CHIEF = ("period_solar",)
-#: Sections that the figures stand on.
-DRAWN = ("observed",)
 
 
 def tables(tree: Result) -> list[Table]:
@@ -35,19 +28,13 @@ def tables(tree: Result) -> list[Table]:
 def ladder(tree: Result) -> Table:
     """Period of the free wobble by a series of models, the rungs of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
-    last, left_out = str(answer.rung.values[-1]), section(tree, "neglected")
-    rows = [
-        (
-            name,
-            beside_observed(of.period_solar, of.period_solar_error, left_out)
-            if observed is not None and name == last
-            else measured(of, "period_solar"),
-            f"{float(of.period_sidereal):.3f}",
-            f"{float(of.factor):.6f}",
-            f"{q:.0f}" if math.isfinite(q := float(of.quality_factor)) else "",
-        )
-        for name, of in along(answer, "rung")
-    ]
+    left_out = section(tree, "neglected")
+
+    def period(row: xr.Dataset) -> str:
+        if observed is None or row.rung != answer.rung[-1]:
+            return table.measured(row, "period_solar")
+        return table.beside_observed(row.period_solar, row.period_solar_error, left_out)
+
     notes = [
         "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
         "their periods. The factors depend on the order of the rungs."
@@ -57,11 +44,18 @@ def ladder(tree: Result) -> Table:
             "The exponent of anelasticity is a free choice, so the last rung is a check of "
             "consistency, not a prediction."
         )
-    left_out = answer.rung.attrs.get("left_out", "none")
-    if left_out != "none":
-        notes.append(f"Rungs left out: {left_out}.")
+    if answer.rung.attrs.get("left_out", "none") != "none":
+        notes.append(f"Rungs left out: {answer.rung.attrs['left_out']}.")
+    columns = (
+        Column("period_solar", period, "days of 86400 s"),
+        "period_sidereal:.3f",
+        "factor:.6f",
+        Column("quality_factor", table.quality),
+    )
+    ladder = table_along(answer, "rung", "Free wobble, rung by rung", columns)
+    rows = list(ladder.rows)
     if observed is not None:
-        rows.append(("observed", measured(observed, "observed_period"), "", "", ""))
+        rows.append(("observed", table.measured(observed, "observed_period"), "", "", ""))
         source = observed.observed_period.attrs.get("references", "")
         notes.append(f"Source of the observed period: {source}.")
         notes.append(
@@ -69,56 +63,40 @@ def ladder(tree: Result) -> Table:
             "stands beside the observed period, holds the sizes of what it leaves out, too, where "
             "they are known."
         )
-    return Table(
-        "Free wobble, rung by rung",
-        ("rung", "days of 86400 s", "sidereal days", "factor", "Q"),
-        rows,
-        " ".join(notes),
-    )
+    return replace(ladder, rows=rows, note=" ".join(notes))
 
 
 def sensitivity(tree: Result) -> Table:
     """Sensitivity of the last rung to each input."""
-    roots = section(tree, "core_nutation")
+    inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     shown = (
         ""
         if roots is None
         else ", ".join(
             f"{float(of.free_core_nutation):.1f} d ({shape} core)"
-            for shape, of in along(roots, "core_shape")
+            for shape, of in table.along(roots, "core_shape")
         )
     )
-    return Table(
-        "Sensitivity of the last rung",
-        ("input", "value", "days per unit of input", "days from error of input"),
-        [
-            (
-                name.replace("_", " "),
-                with_error(of.input_value, of.input_half_width),
-                f"{float(of.days_per_unit):.4g}",
-                f"{float(of.days_from_input):.2g}",
-            )
-            for name, of in along(needed(tree, "sensitivity"), "input")
-            if float(of.input_value) != 0
-        ],
-        shown
-        and "The other root of the equations is the free core nutation; its period in space: "
-        f"{shown}.",
+    columns = (
+        Column("input", table.words_of("input")),
+        Column("", lambda row: table.with_error(row.input_value, row.input_half_width), "value"),
+        Column("days_per_unit", ".4g", "days per unit of input"),
+        Column("days_from_input", ".2g", "days from error of input"),
     )
+    note = shown and (
+        f"The other root of the equations is the free core nutation; its period in space: {shown}."
+    )
+    used = inputs.isel(input=np.flatnonzero(inputs.input_value))
+    return table_along(used, "input", "Sensitivity of the last rung", columns, note, first="")
 
 
-@style()
-def drawings(tree: Result) -> list[Drawing]:
-    """The ladder."""
+def _caption(tree: Result) -> str:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
-    caption = " ".join(
-        [
-            "Period of the free wobble by a series of models, with 95 % errors from sampled "
-            f"inputs ({NUMBERS_ONLY}){band}.",
-            *changes_of(answer_of(tree), "body"),
-        ]
+    words = (
+        "Period of the free wobble by a series of models, with 95 % errors from sampled inputs "
+        f"({table.NUMBERS_ONLY}){band}."
     )
-    return [drawn("From the rigid to the deformable body", caption, plot_ladder(tree))]
+    return " ".join([words, *changes_of(answer_of(tree), "body")])
 
 
 def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -146,8 +124,12 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
         words = f"{value:.1f} d" + (f"\n× {factor:.4f}" if at else "")
         by, side = ((0, -12), "top") if below else ((0, 10), "bottom")
         note(ax, words, (at, value), by, ha="center", va=side)
-    ax.set_xticks(place, [str(r) for r in answer.rung.values])
     ax.set_ylabel("period of the free wobble (d)")
-    ax.margins(x=0.08, y=0.2)
-    ax.grid(axis="x", visible=False)
+    ax.margins(y=0.2)
+    rungs(ax, answer.rung.values)
     return ax
+
+
+FIGURES = [
+    PageFigure("From the rigid to the deformable body", _caption, plot_ladder, uses=["observed"])
+]

@@ -15,7 +15,7 @@ from matplotlib.transforms import Bbox
 import earthspin
 from earthspin.errors import UndefinedError
 from earthspin.views import long_term, precession
-from earthspin.views.of_question import tables_for
+from earthspin.views.of_question import drawings_for, tables_for
 from earthspin.views.stars import STARS, on_the_chart, star_vectors, year_words
 from tests import shipped
 
@@ -87,10 +87,10 @@ def test_a_path_that_cannot_be_joined_is_left_out() -> None:
     coarse = earthspin.long_term("-20 kyr", "20 kyr", "5 kyr")
     with pytest.raises(UndefinedError, match="2,500 years apart"):
         long_term.plot_pole(coarse)
-    titles = [drawing.title for drawing in long_term.drawings(coarse)]
+    titles = [drawing.title for drawing in drawings_for(coarse)]
     assert "The pole among the stars" not in titles
     far = earthspin.long_term("-100 kyr", "-90 kyr", "1 kyr")
-    assert len(long_term.drawings(far)) == len(titles)
+    assert len(drawings_for(far)) == len(titles)
 
 
 def _boxes(ax: object) -> Iterator[tuple[str, Bbox]]:

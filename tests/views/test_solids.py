@@ -91,7 +91,7 @@ def test_no_label_ends_the_element_that_holds_it() -> None:
     from earthspin.views.page import page
 
     label = "</script><script>alert(1)</script><!--"
-    solid = solids.Solid("t", "c", [solids.arrow(np.ones(3), solids.RED, label)], 1.0)
+    solid = solids.Solid("t", "c", [solids.arrow(np.ones(3), solids.BLACK, label)], 1.0)
     assert json.loads(solid.json())["items"][0]["label"] == label
     shown = page("t", solids=[solid])
     assert label not in shown

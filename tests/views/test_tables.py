@@ -1,13 +1,18 @@
 """Tables: numbers written with as many digits as they have."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 import xarray as xr
 
 import earthspin
 from earthspin import EARTH
+from earthspin.questions.precession import Rates
+from earthspin.scenes import QUESTIONS
 from earthspin.views.of_question import drawings_for, scene_page, tables_for, what_ran
-from earthspin.views.table import with_error
+from earthspin.views.reading import answer_of
+from earthspin.views.table import quantities, table_along, with_error
 
 
 @pytest.mark.parametrize(
@@ -108,3 +113,36 @@ def test_another_ladder_says_so_and_has_no_band() -> None:
     assert "72000.0 s" in drawing.caption
     (ours,) = drawings_for(earthspin.run_tree("wobble"))
     assert "the band is the observed period" in ours.caption
+
+
+def test_headers_are_the_declared_labels_with_their_units() -> None:
+    data = xr.Dataset(
+        {
+            "rate": ("planet", [1.0, 2.0], {"units": "arcsec/yr", "short": "rate of the axis"}),
+            "rate_error": ("planet", [0.1, 0.2], {"units": "arcsec/yr"}),
+            "mean_ratio": ("planet", [1e-5, 2e-5], {"units": "1"}),
+        },
+        {"planet": ["earth", "mars"]},
+    )
+    table = table_along(data, "planet", "Rates", ["rate", "mean_ratio:.1e"])
+    assert table.headers == ("planet", "rate of the axis, arcsec/yr", "mean ratio")
+    assert table.rows == [("earth", "1.00(10)", "1.0e-5"), ("mars", "2.00(20)", "2.0e-5")]
+    assert quantities(data.isel(planet=0), "rate") == [("rate of the axis, arcsec/yr", "1.00(10)")]
+
+
+def test_a_view_reads_declared_labels_and_leaves_the_answer_as_it_is(
+    precession_tree: xr.DataTree,
+) -> None:
+    declared = Rates.schema["precession_rate"].short
+    assert answer_of(precession_tree).precession_rate.attrs["short"] == declared != ""
+    assert "short" not in precession_tree.precession_rate.attrs
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_figures_and_solids_need_sections_of_their_question(word: str) -> None:
+    sections = QUESTIONS[word].graph.sections
+    views = import_module(f"earthspin.views.{QUESTIONS[word].views}")
+    figures = getattr(views, "FIGURES", ())
+    needed = {name for figure in figures for name in (figure.section, *figure.uses)}
+    needed |= {name for name, _ in getattr(views, "SOLIDS", ())}
+    assert needed - {""} <= set(sections)
