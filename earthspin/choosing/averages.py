@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.choosing.choice import Choice, models
 from earthspin.constants import DAY
 from earthspin.torque.average import precessing_of_tensor
-
-FloatArray = NDArray[np.float64]
+from earthspin.units import FloatArray
 
 #: Orbits whose normals are closer than this are the one that was measured.
 SAME_ORBIT = 1e-6
@@ -42,8 +40,8 @@ class Averaging:
 
 
 @dataclass(frozen=True)
-class Turned:
-    """What decides how far an error of the mean tensor is one of the rate of precession.
+class AveragedBody:
+    """Numbers of a body by which an error of the mean tensor becomes one of the precession rate.
 
     Attributes
     ----------
@@ -77,12 +75,12 @@ class Pull(NamedTuple):
     slow_swing: float
 
 
-def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
+def average_choices(body: AveragedBody, cycles: float) -> list[Choice[Averaging]]:
     """Windows of an average with the relative error of the rate.
 
     Parameters
     ----------
-    body : Turned
+    body : AveragedBody
     cycles : float
         As many as there is room for.
 

@@ -1,4 +1,4 @@
-"""What came of the accuracy that was asked for: asked, estimated, chosen, or refused."""
+"""Report on a requested accuracy: asked, estimated and the method chosen, or a refusal."""
 
 from __future__ import annotations
 

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.choosing.choice import Choice, models
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.motion.axes import window_count
 from earthspin.motion.forces import Figure
 from earthspin.motion.sampling import turn_by_mean, turn_by_sampling
-
-FloatArray = NDArray[np.float64]
+from earthspin.units import FloatArray
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.choosing.averages import Averaging, Pull, Turned, average_choices
+from earthspin.choosing.averages import AveragedBody, Averaging, Pull, average_choices
 from earthspin.choosing.choice import Choice, cheapest
 from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.promises import MARGIN
@@ -31,14 +31,13 @@ def windows_on_offer(
     epochs: TimeGrid | TimeList,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where sky or effects were not measured."""
-    if not set(effects) <= set(MEASURED_WITH):
+    measured = set(effects) <= set(MEASURED_WITH)
+    if not measured or not all(member.naif for member in (body, *perturbers)):
         return []
     forces = forces_of(body, pulls, effects)
     _, epoch = start_of(body, pulls)
     first, last = (day * DAY - epoch for day in epochs.span())
     bodies = {name: BODIES[name] for name in PLANETS} | {p.name: p for p in perturbers}
-    if not all(member.naif for member in (body, *perturbers)):
-        return []
     masses: dict[int, float] = {}
     for name, gm in forces.gm.items():
         code = bodies[name].naif[0]
@@ -83,7 +82,7 @@ def averages_on_offer(
     cycle = max(p.cycle for p in perturbers)
     pole = body.needed("pole")
     normal = pole.orbit_normal(body.orbit_pole)
-    turned = Turned(
+    averaged = AveragedBody(
         code=body.naif[0],
         obliquity=angle(pole.true(0.0), normal),
         normal=normal,
@@ -92,7 +91,7 @@ def averages_on_offer(
         cycle=cycle,
     )
     widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    return average_choices(turned, widest.cycles)
+    return average_choices(averaged, widest.cycles)
 
 
 @part(unless=no_accuracy, chooses=True)

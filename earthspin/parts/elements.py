@@ -146,36 +146,36 @@ def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> No
 
 
 def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
-    """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law."""
+    """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law.
+
+    Raises
+    ------
+    SceneError
+        If size and period contradict each other, or the masses do not give the missing one.
+    """
     orbit = member.orbit
     assert orbit is not None
     a, period = orbit.a, orbit.period
-    if hasattr(member.gm, "dims") or hasattr(centre.gm, "dims"):
+    gm = member.gm + centre.gm
+    many = hasattr(gm, "dims")
+    if many or not gm > 0:
         if a is None or period is None:
+            array = "masses are an array here: give both a and period"
+            problem = array if many else "nothing here has a mass"
+            raise SceneError(f"{member.name}.orbit", str(orbit), problem)
+    elif a is None:
+        assert period is not None
+        a = math.cbrt(float(gm) * (period / (2 * math.pi)) ** 2)
+    else:
+        by_law = 2 * math.pi * math.sqrt(a / float(gm)) * a
+        period = by_law if period is None else period
+        if abs(period / by_law - 1) > THIRD_LAW:
             raise SceneError(
                 f"{member.name}.orbit",
-                str(orbit),
-                "masses are an array here: give both a and period",
+                f"a = {a:.6g} m, period = {period:.6g} s",
+                f"they contradict each other: about {float(gm):.6g} m3 s-2 this a has a period of "
+                f"{by_law:.6g} s; give one of the two",
             )
-        return a, 2 * math.pi / period
-    gm = float(member.gm + centre.gm)
-    if not gm > 0:
-        if a is None or period is None:
-            raise SceneError(f"{member.name}.orbit", str(orbit), "nothing here has a mass")
-        return a, 2 * math.pi / period
-    if a is None:
-        assert period is not None
-        return math.cbrt(gm * (period / (2 * math.pi)) ** 2), 2 * math.pi / period
-    by_law = 2 * math.pi * math.sqrt(a / gm) * a
-    if period is None:
-        return a, 2 * math.pi / by_law
-    if abs(period / by_law - 1) > THIRD_LAW:
-        raise SceneError(
-            f"{member.name}.orbit",
-            f"a = {a:.6g} m, period = {period:.6g} s",
-            f"they contradict each other: about {gm:.6g} m3 s-2 this a has a period of "
-            f"{by_law:.6g} s; give one of the two",
-        )
     return a, 2 * math.pi / period
 
 

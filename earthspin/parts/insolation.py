@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from earthspin.bodies import BODIES, SUN, Numeric
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
@@ -17,8 +16,6 @@ from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
 from earthspin.secular.sample import Quantiles, draws
 from earthspin.units import quantity
-
-FloatArray = NDArray[np.float64]
 
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
 _TURN = 2 * np.pi

@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
-from earthspin.units import Plain, real_numbers
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from earthspin.units import FloatArray, Plain, real_numbers
 
 #: Word for what a scene cannot hold.
 _LIVE = "live"
@@ -57,7 +55,7 @@ class OwnTorque:
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """The same over C, checked whenever it is called.
+        """Torque divided by C, checked whenever it is called.
 
         Parameters
         ----------
@@ -85,10 +83,11 @@ class OwnTorque:
                     f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
                     f"({times.size}, 3) and gives N m of the last shape"
                 ) from None
-            if not np.isfinite(values).all():
+            finite = np.isfinite(values).all(axis=1)
+            if not finite.all():
                 raise UndefinedError(
                     "the torque of your own is not finite "
-                    f"{float(times[~np.isfinite(values).all(axis=1)][0]):.6g} s from the "
+                    f"{float(times[~finite][0]):.6g} s from the "
                     "start; give N m for each time"
                 )
             return np.asarray(values / polar_moment)

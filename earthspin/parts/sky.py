@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
@@ -34,11 +33,10 @@ from earthspin.sky.sources import (
     open_source,
     place_of,
 )
+from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     from earthspin.sky.iau import Nutation
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

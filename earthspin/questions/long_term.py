@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
 from earthspin.choosing.promises import Report, refuse_unkept
@@ -31,13 +30,12 @@ from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.quadrupole import dot
-from earthspin.units import AngleError, Number
+from earthspin.units import AngleError, FloatArray, Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:
     import xarray as xr
 
-FloatArray = NDArray[np.float64]
 #: Relative half-width of the published contributions to the rate of the Earth: with them it lies so
 #: far from that of IAU 2006 (3.8 mas a century, `closure` of `precession`).
 CLOSURE = 7.5e-7
