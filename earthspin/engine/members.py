@@ -90,7 +90,7 @@ def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
     EarthspinError
         If the input does not take one, or it is told by more than text.
     """
-    names = tuple(several)
+    names = tuple(values)
     for word in names:
         kind.read(word, where)
         if not isinstance(word, str):
