@@ -85,20 +85,24 @@ def main(words: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m data_tools", description=__doc__)
     verbs = parser.add_subparsers(dest="verb", required=True)
     for verb, (_, words_of) in VERBS.items():
-        one = verbs.add_parser(verb, help=words_of)
+        command = verbs.add_parser(verb, help=words_of)
         if verb in WITH_KERNEL:
-            one.add_argument("--kernel", default="de440", help="name or path (default: de440)")
+            command.add_argument("--kernel", default="de440", help="name or path (default: de440)")
         if verb in OF_SEVERAL:
-            one.add_argument("--only", choices=OF_SEVERAL[verb], help="one of them (default: all)")
+            command.add_argument(
+                "--only", choices=OF_SEVERAL[verb], help="one of them (default: all)"
+            )
         if verb == "long-term":
-            one.add_argument("--solutions", nargs="+", help="files of other solutions to compare")
+            command.add_argument(
+                "--solutions", nargs="+", help="files of other solutions to compare"
+            )
         if verb == "orbits":
-            one.add_argument(
+            command.add_argument(
                 "--left-out", action="store_true", help="measure what the tables leave out instead"
             )
-    given = parser.parse_args(words)
+    arguments = parser.parse_args(words)
     try:
-        return VERBS[given.verb][0](given)
+        return VERBS[arguments.verb][0](arguments)
     except EarthspinError as error:
         print(f"data_tools: {error}", file=sys.stderr)
         return 2

@@ -28,11 +28,11 @@ def markdown(result: xr.Dataset) -> str:
     return "\n".join([f"**{result.attrs['sentence']}**", "", *lines, "", table.note, ""])
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write a fragment and a figure for one quantity, or for all; 1 if a method fails."""
     FOLDER.mkdir(exist_ok=True)
     failed = 0
-    for quantity in [given.only] if given.only else QUANTITIES:
+    for quantity in [arguments.only] if arguments.only else QUANTITIES:
         result = accuracy(quantity)
         (FOLDER / f"accuracy-{quantity}.inc").write_text(markdown(result), encoding="utf-8")
         (FOLDER / f"accuracy-{quantity}.svg").write_text(svg_of(result) + "\n", encoding="utf-8")

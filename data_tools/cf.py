@@ -33,8 +33,8 @@ def main(_given: argparse.Namespace) -> int:
             for name, path in files.items():
                 problems[name] = findings(path)
                 advance(1)
-    for name, told in problems.items():
-        for line in told:
+    for name, lines in problems.items():
+        for line in lines:
             print(f"{name}: {line}")
     wrong = sum(map(bool, problems.values()))
     scenes = len(shipped_scenes())
@@ -60,13 +60,13 @@ def findings(path: Path) -> list[str]:
     suite = CheckSuite()
     suite.load_all_available_checkers()
     results = suite.run_all(suite.load_dataset(str(path)), [STANDARD])
-    told: list[str] = []
+    problems: list[str] = []
     for checks, failures in results.values():
-        told += [f"the check failed: {name}: {why}" for name, why in failures.items()]
+        problems += [f"the check failed: {name}: {why}" for name, why in failures.items()]
         for check in checks:
-            told += _errors(check)
+            problems += _errors(check)
     from_start = _counts_from_start(path)
-    return [line for line in told if not (from_start and TIME_FROM_START in line)]
+    return [line for line in problems if not (from_start and TIME_FROM_START in line)]
 
 
 def _counts_from_start(path: Path) -> bool:

@@ -9,12 +9,13 @@ which `earthspin.interior.equations` starts. It shares neither equations nor met
 from __future__ import annotations
 
 from functools import partial
+from itertools import repeat
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from data_tools.rotation_reference import increment
+from data_tools.rotation_reference import increment, states
 from earthspin.interior.prem import PREM
 from tests.interior.another_integration import START, Slope, other_answers
 
@@ -40,15 +41,11 @@ def carry(longest: float, slope: Slope, y: LongArray, start: Any, stop: Any) -> 
     length = np.log(stop / start)
     count = int(np.ceil(float(length) / longest))
     state = np.concatenate([y, np.full((1, y.shape[1]), np.log(start), dtype=LONG)])
-    lost = np.zeros_like(state)
 
     def log_slope(now: LongArray) -> LongArray:
         r = np.exp(now[-1, 0])
         return np.concatenate([r * slope(r, now[:-1]), np.ones_like(now[-1:])])
 
-    for _ in range(count):
-        grown = increment(state, length / count, log_slope) + lost
-        after = state + grown
-        lost = grown - (after - state)  # what additions round away (Kahan 1965)
-        state = after
-    return state[:-1]
+    step = partial(increment, length=length / count, slope=log_slope)
+    *_, end = states(state, repeat(step, count))
+    return end[:-1]

@@ -87,7 +87,7 @@ def page() -> str:
     return head + "".join(row(name, number) for name, number in numbers.items())
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the page."""
     PAGE.write_text(page(), encoding="utf-8")
     print(f"wrote {PAGE.name}")

@@ -91,21 +91,21 @@ def terms() -> Terms:
     """Those of the comparison with the IAU."""
     planned = plan(earthspin.load_scene("iau"), ["core"])
     values = planned.question.keys()
-    for one in planned.parts:
+    for step in planned.parts:
         if "response_apart" not in values:
-            there = (*one.needs, *(name for name in one.uses if name in values))
-            values[one.name] = one(**{name: values[name] for name in there})
+            there = (*step.needs, *(name for name in step.uses if name in values))
+            values[step.name] = step(**{name: values[name] for name in there})
     apart, circles = values["response_apart"], values["pole_analysis"].our_circles
-    theirs = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
-    return Terms(circles.multiples, circles.frequency, apart.rigid, theirs, apart.added)
+    iau = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
+    return Terms(circles.multiples, circles.frequency, apart.rigid, iau, apart.added)
 
 
 def fitted(real: ComplexArray, without: Sequence[Sequence[int]] = ()) -> Response:
     """Response fitted to amplitudes of all terms but some."""
-    of = terms()
-    used = of.all_but(without)
+    known = terms()
+    used = known.all_but(without)
     h, spin = EARTH.number("dynamical_flattening"), float(EARTH.spin_rate)
-    return fit_response(of.frequency[used], of.rigid[used], real[used], h, spin)
+    return fit_response(known.frequency[used], known.rigid[used], real[used], h, spin)
 
 
 def blind() -> Response:
@@ -115,32 +115,32 @@ def blind() -> Response:
 
 def held(mode: complex) -> Response:
     """The same with the mode of the core held."""
-    of = terms()
+    known = terms()
     columns = []
     for strength in np.eye(4, dtype=complex):
-        one = replace(blind(), core_nutation=mode, strengths=strength)
-        columns.append(one.transfer(of.frequency))
+        response = replace(blind(), core_nutation=mode, strengths=strength)
+        columns.append(response.transfer(known.frequency))
     base = replace(blind(), core_nutation=mode, strengths=np.zeros(4, dtype=complex))
-    none = base.transfer(of.frequency)
-    design = (np.array(columns).T - none[:, np.newaxis]) * of.rigid[:, np.newaxis]
-    left = of.iau - none * of.rigid
-    used = of.all_but(list(ADDED_TO.values()))
+    none = base.transfer(known.frequency)
+    design = (np.array(columns).T - none[:, np.newaxis]) * known.rigid[:, np.newaxis]
+    left = known.iau - none * known.rigid
+    used = known.all_but(list(ADDED_TO.values()))
     strengths = np.linalg.lstsq(design[used], left[used], rcond=None)[0]
     return replace(base, strengths=np.asarray(strengths, dtype=np.complex128))
 
 
 def beside_ren_2000(multiple: Sequence[int]) -> float:
     """How far our rigid term is from that of REN-2000, uas."""
-    of = terms()
-    ours = 1j * of.rigid[of.place(multiple)] / OVER_REN_2000 / UAS
-    return float(abs(ours - REN_2000[tuple(multiple)]))
+    known = terms()
+    own = 1j * known.rigid[known.place(multiple)] / OVER_REN_2000 / UAS
+    return float(abs(own - REN_2000[tuple(multiple)]))
 
 
 def left_by(response: Response, multiple: Sequence[int]) -> complex:
     """What a response leaves of a term of IAU 2000A, in phase and out of phase, uas."""
-    of = terms()
-    left = of.iau - response.transfer(of.frequency) * of.rigid
-    return complex(1j * left[of.place(multiple)] / UAS)
+    known = terms()
+    left = known.iau - response.transfer(known.frequency) * known.rigid
+    return complex(1j * left[known.place(multiple)] / UAS)
 
 
 # --- the last rung -------------------------------------------------------------------------------
@@ -167,10 +167,10 @@ def in_time(amplitude: ComplexArray) -> tuple[float, float]:
 
 def coupled_to_mantle_alone() -> ComplexArray:
     """Terms of the last rung without what couples core and inner core, rad."""
-    of, models = terms(), _models()
+    known, models = terms(), _models()
     alone = models.rungs["anelastic"].coupled(complex(*(k.value for k in K_CMB)), 0.0)
     rung = at_observed_period(alone, models.spin_rate)
-    return np.asarray(rung.transfer(of.frequency / models.spin_rate - 1, models.e) * of.rigid)
+    return np.asarray(rung.transfer(known.frequency / models.spin_rate - 1, models.e) * known.rigid)
 
 
 def core_mode(rung: str) -> complex:
@@ -203,13 +203,13 @@ class Strength:
 
 def strength(rung: str = "coupling") -> Strength:
     """Least squares for one complex number."""
-    of, model = terms(), _models().rungs[rung]
+    known, model = terms(), _models().rungs[rung]
     unit = replace(
         blind(), core_nutation=core_mode(rung), strengths=np.array([0, 0, 1.0, 0], complex)
     )
     none = replace(unit, strengths=np.zeros(4, complex))
-    column = (unit.transfer(of.frequency) - none.transfer(of.frequency)) * of.rigid
-    left = of.iau - of.added - predicted(rung)
+    column = (unit.transfer(known.frequency) - none.transfer(known.frequency)) * known.rigid
+    left = known.iau - known.added - predicted(rung)
     wanted = np.vdot(column, left) / np.vdot(column, column)
     # The strength is the residue: from the response around the mode.
     mode = core_mode(rung)
@@ -225,18 +225,18 @@ def strength(rung: str = "coupling") -> Strength:
     return Strength(complex(wanted / residue), size(left), size(left - wanted * column))
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print all of it."""
-    of, known = terms(), fitted(predicted("coupling"))
-    for name, one in {
-        "as it is": fitted(of.iau),
+    known, last_rung = terms(), fitted(predicted("coupling"))
+    for name, response in {
+        "as it is": fitted(known.iau),
         "where most is added left out": blind(),
-        "what is added taken away": fitted(of.iau - of.added),
-        "the last rung in its place": known,
+        "what is added taken away": fitted(known.iau - known.added),
+        "the last rung in its place": last_rung,
     }.items():
-        print(f"{name}: {one.period / DAY:.2f} d, Q {one.quality:.0f}")
+        print(f"{name}: {response.period / DAY:.2f} d, Q {response.quality:.0f}")
     for name, multiple in {**ADDED_TO, "retrograde half year": HALF_YEAR}.items():
-        published = 1j * of.added[of.place(multiple)] / UAS
+        published = 1j * known.added[known.place(multiple)] / UAS
         print(f"{name}: {left_by(held(BUILT_IN), multiple):.1f} uas with the mode held; "
               f"published {published:.1f}")  # fmt: skip
     print(
@@ -248,7 +248,7 @@ def main(given: argparse.Namespace) -> int:
         "coupling": predicted("coupling"),
         "coupling to the mantle alone": coupled_to_mantle_alone(),
     }.items():
-        as_it_is, less = in_time(terms_of - of.iau), in_time(terms_of - of.iau + of.added)
+        as_it_is, less = in_time(terms_of - known.iau), in_time(terms_of - known.iau + known.added)
         print(
             f"{name}: leaves {as_it_is[0]:.2f} / {as_it_is[1]:.2f} mas, "
             f"{less[0]:.2f} / {less[1]:.2f} with what is added taken away"

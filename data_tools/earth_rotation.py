@@ -42,7 +42,7 @@ def observed(file: Path) -> tuple[FloatArray, FloatArray, FloatArray]:
     return mjd, np.stack([x, y], axis=-1), ut1 - erfa.dat(year, month, day, 0.0)
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print the largest changes over each length, arcsec."""
     folder = Path(skyfield_data.get_skyfield_data_path())
     mjd, pole, ut1 = observed(folder / "finals2000A.all")

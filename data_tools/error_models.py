@@ -85,8 +85,8 @@ def place_of(kernel: Ephemeris, body: Body, perturber: Body) -> Positions:
     target = {"it": kernel.code(perturber.naif, perturber.name)}
 
     def place(times: FloatArray) -> FloatArray:
-        found = kernel.positions(target, centre, times.ravel() / DAY)["it"]
-        return np.ascontiguousarray(found.T).reshape(3, *times.shape)
+        positions = kernel.positions(target, centre, times.ravel() / DAY)["it"]
+        return np.ascontiguousarray(positions.T).reshape(3, *times.shape)
 
     return place
 
@@ -130,8 +130,8 @@ def window_errors(
     rows: dict[str, Any] = {"integral": [], "value": [], "derivative": []}
     rows["mean"] = log_up(float(size(best[1]).mean()))
     for days, nodes in settings():
-        found = Integral(rate, days, nodes).at(times)
-        off = [size(a - b) for a, b in zip(found, best, strict=True)]
+        values = Integral(rate, days, nodes).at(times)
+        off = [size(a - b) for a, b in zip(values, best, strict=True)]
         rows["integral"].append([log_up(off[0][np.abs(times) <= r].max()) for r in reach])
         rows["value"].append(log_up(off[1].max()))
         rows["derivative"].append(log_up(off[2].max()))
@@ -291,9 +291,9 @@ def nutation_models() -> list[dict[str, Any]]:
     return found
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Measure everything and write the file."""
-    kernel = open_ephemeris(given.kernel)
+    kernel = open_ephemeris(arguments.kernel)
     models: dict[str, Any] = {
         "made by": f"python -m data_tools error-models --kernel {kernel.name}",
         "pole": pole_models(kernel),

@@ -119,7 +119,7 @@ def page(draws: dict[str, int]) -> str:
     return "".join(text).lstrip()
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the page."""
     PAGE.write_text(page(DRAWS), encoding="utf-8")
     print(f"wrote {PAGE.name}")

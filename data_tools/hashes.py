@@ -9,16 +9,16 @@ from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.kernel_checks import PUBLISHED
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Compare each kernel that is installed with its known hash."""
     failed = 0
     for name, known in PUBLISHED.items():
         try:
-            found = open_ephemeris(name).sha256
+            digest = open_ephemeris(name).sha256
         except MissingExtraError as error:
             print(f"{name}: {error}")
             continue
-        same = found == known
+        same = digest == known
         failed += not same
-        print(f"{name}: {found} {'as known' if same else 'NOT the known ' + known}")
+        print(f"{name}: {digest} {'as known' if same else 'NOT the known ' + known}")
     return int(failed > 0)

@@ -103,24 +103,24 @@ def effects() -> dict[str, tuple[float, float, float]]:
     settings = without()
     normal = settings["all"].orbit.at(at)[0]
     poles = {
-        name: solve(of.strength, of.orbit, of.start, (float(at[0]), 0.0)).at(at)
-        for name, of in settings.items()
+        name: solve(setting.strength, setting.orbit, setting.start, (float(at[0]), 0.0)).at(at)
+        for name, setting in settings.items()
     }
     mine = poles.pop("all")
     equinox = np.cross(mine, normal, axis=0)
-    found = {}
+    by_effect = {}
     for name, pole in poles.items():
         other = np.cross(pole, normal, axis=0)
         tilt = np.abs(np.arcsin(_length(other)) - np.arcsin(_length(equinox)))
         # along the orbit of date, from one equinox to the other
         sine = np.sum(normal * np.cross(equinox, other, axis=0), axis=0)
         along = np.abs(np.arctan2(sine, np.sum(equinox * other, axis=0)))
-        found[name] = (
+        by_effect[name] = (
             float(np.max(tilt[:-1])) / ARCSEC,
             math.degrees(np.max(along[:-1])),
             float(_length(pole - mine)[-1]) / ARCSEC,
         )
-    return found
+    return by_effect
 
 
 def _length(vectors: FloatArray) -> FloatArray:
@@ -128,9 +128,9 @@ def _length(vectors: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(np.sum(vectors**2, axis=0)))
 
 
-def _apart(one: FloatArray, other: FloatArray) -> float:
+def _apart(first: FloatArray, second: FloatArray) -> float:
     """Angle between two unit vectors that are close to one another, arcsec."""
-    return float(np.linalg.norm(np.cross(one, other))) / ARCSEC
+    return float(np.linalg.norm(np.cross(first, second))) / ARCSEC
 
 
 def beside() -> dict[int, tuple[float, float, float, float]]:
@@ -138,15 +138,15 @@ def beside() -> dict[int, tuple[float, float, float, float]]:
 
     IAU 2006 and the long-term series are ERFA's `pmat06` and `ltpb`, both from the GCRS.
     """
-    of = question.long_term(times=[f"{year} yr" for year in NEAR])
-    found = {}
+    answer = question.long_term(times=[f"{year} yr" for year in NEAR])
+    by_year = {}
     for place, year in enumerate(NEAR):
-        ours = of.pole.values[place]
+        own = answer.pole.values[place]
         iau, series = erfa.pmat06(J2000_JD, 365.25 * year)[2], erfa.ltpb(2000.0 + year)[2]
-        pairs = (ours, iau), (ours, series), (iau, series)
-        to_iau, to_series, between = (_apart(one, other) for one, other in pairs)
-        found[year] = to_iau, to_series, between, float(of.pole_error[place])
-    return found
+        pairs = (own, iau), (own, series), (iau, series)
+        to_iau, to_series, between = (_apart(first, second) for first, second in pairs)
+        by_year[year] = to_iau, to_series, between, float(answer.pole_error[place])
+    return by_year
 
 
 def read_solution(path: Path) -> dict[str, FloatArray]:
@@ -185,7 +185,7 @@ class Beside(NamedTuple):
 
     def line(self) -> str:
         """Return the row as a line of a Markdown table."""
-        numbers = (f"{of:.3g}" for of in (self.rms, self.largest, self.half_width))
+        numbers = (f"{number:.3g}" for number in (self.rms, self.largest, self.half_width))
         columns = (self.name, self.quantity, self.span, *numbers, f"{100 * self.inside:.0f} %")
         return f"| {' | '.join(columns)} |\n"
 
@@ -196,38 +196,42 @@ def beside_solution(path: Path) -> list[Beside]:
     A file of Mars has MARS in its name. The obliquity of the Earth is compared again, over a
     million years, without the lag of the Moon's plane.
     """
-    theirs = read_solution(path)
+    published = read_solution(path)
     body = "mars" if "MARS" in path.name else "earth"
     pulling = ("sun",) if body == "mars" else ("sun", "moon")
-    ours = question.long_term(times=theirs["time"] * 1000 * units.yr, body=body, perturbers=pulling)
-    quantities = {"eccentricity": ("`eccentricity`, $10^{-5}$", theirs["eccentricity"], 1e-5)}
-    if "obliquity" in theirs:
-        climate = theirs["eccentricity"] * np.sin(theirs["perihelion"])
-        quantities["obliquity"] = "`obliquity`, ″", np.degrees(theirs["obliquity"]), 1 / 3600
+    answer = question.long_term(
+        times=published["time"] * 1000 * units.yr, body=body, perturbers=pulling
+    )
+    quantities = {"eccentricity": ("`eccentricity`, $10^{-5}$", published["eccentricity"], 1e-5)}
+    if "obliquity" in published:
+        climate = published["eccentricity"] * np.sin(published["perihelion"])
+        quantities["obliquity"] = "`obliquity`, ″", np.degrees(published["obliquity"]), 1 / 3600
         quantities["climatic_precession"] = "`climatic_precession`, $10^{-5}$", climate, 1e-5
-    found = []
+    rows = []
     for name, (quantity, values, unit) in quantities.items():
-        half_width = ours[f"{name}_error"].values / unit
-        found += _by_span(path, quantity, theirs, (ours[name].values - values) / unit, half_width)
-    if body == "earth" and "obliquity" in theirs:
-        near = np.abs(theirs["time"]) < 1000
-        theirs = {name: column[near] for name, column in theirs.items()}
-        apart = (without_lag(theirs["time"]) - theirs["obliquity"]) / ARCSEC
-        half_width = ours.obliquity_error.values[near] * 3600
-        found += _by_span(path, "`obliquity` without the lag, ″", theirs, apart, half_width)
-    return found
+        half_width = answer[f"{name}_error"].values / unit
+        rows += _by_span(
+            path, quantity, published, (answer[name].values - values) / unit, half_width
+        )
+    if body == "earth" and "obliquity" in published:
+        near = np.abs(published["time"]) < 1000
+        published = {name: column[near] for name, column in published.items()}
+        apart = (without_lag(published["time"]) - published["obliquity"]) / ARCSEC
+        half_width = answer.obliquity_error.values[near] * 3600
+        rows += _by_span(path, "`obliquity` without the lag, ″", published, apart, half_width)
+    return rows
 
 
 def _by_span(
-    path: Path, quantity: str, theirs: dict[str, FloatArray], apart: FloatArray, half: FloatArray
+    path: Path, quantity: str, published: dict[str, FloatArray], apart: FloatArray, half: FloatArray
 ) -> list[Beside]:
     """Rows of one quantity."""
-    kyr, found = np.abs(theirs["time"]), []
-    way = "back" if theirs["time"][-1] < 0 else "ahead"
+    kyr, rows = np.abs(published["time"]), []
+    way = "back" if published["time"][-1] < 0 else "ahead"
     for first, last in itertools.pairwise(SPANS):
         at = (kyr >= first) & (kyr < last)
         if at.any():
-            found.append(
+            rows.append(
                 Beside(
                     f"`{path.name}`",
                     quantity,
@@ -238,7 +242,7 @@ def _by_span(
                     float(np.mean(np.abs(apart[at]) <= half[at])),
                 )
             )
-    return found
+    return rows
 
 
 def without_lag(kyr: FloatArray) -> FloatArray:
@@ -262,11 +266,11 @@ def by_cause() -> dict[str, list[float]]:
     }
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print every table, or write that of the solutions whose files are given."""
-    if given.solutions:
+    if arguments.solutions:
         rows: list[Beside] = []
-        for path in map(Path, given.solutions):
+        for path in map(Path, arguments.solutions):
             rows += beside_solution(path)
         LISTING.write_text(HEAD + "".join(row.line() for row in rows), encoding="utf-8")
         print(f"wrote {LISTING.name}")

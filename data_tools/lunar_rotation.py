@@ -221,7 +221,7 @@ def _torque_by_flattening(pole: FloatArray, earth: FloatArray, inertia: FloatArr
     return np.array([m[1, 2] - m[2, 1], m[2, 0] - m[0, 2], m[0, 1] - m[1, 0]])
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print how far each effect moves the attitude, arcsec, the largest over all starts."""
     print("days after the start:", *(f"{day:g}" for day in DAYS))
     sizes = {effect: np.zeros(len(DAYS)) for effect in EFFECTS}
@@ -232,5 +232,5 @@ def main(given: argparse.Namespace) -> int:
             apart = (rigid.inv() * attitudes(start, days, [effect])).magnitude() / ARCSEC
             sizes[effect][: len(days)] = np.maximum(sizes[effect][: len(days)], apart)
     for effect, size in sizes.items():
-        print(f"{effect}:", *(f"{one:.3g}" for one in np.maximum.accumulate(size)))
+        print(f"{effect}:", *(f"{largest:.3g}" for largest in np.maximum.accumulate(size)))
     return 0

@@ -70,43 +70,43 @@ def sky(kernel: str = "de421") -> Sky:
     return Sky(days, weights / weights.sum(), earth, sun, mean)
 
 
-def energy(of: Sky, position: FloatArray, gm: float, tilt: float) -> float:
+def energy(sky: Sky, position: FloatArray, gm: float, tilt: float) -> float:
     """Mean energy of the Moon's figure per M R2, s-2, at a tilt to the ecliptic, rad."""
     polar = MOON.number("j2") / MOON.number("dynamical_flattening")
     half = MOON.number("triaxiality") / 2
     moments = polar - MOON.number("j2") + np.array([-half, half])
-    node = math.radians(MOON_NODE.value) - NODE_RATE * DAY * of.days
+    node = math.radians(MOON_NODE.value) - NODE_RATE * DAY * sky.days
     sine, cosine, zero = np.sin(node), np.cos(node), np.zeros_like(node)
     up, across = math.cos(tilt), math.sin(tilt)
     axis = np.stack([-across * sine, across * cosine, zero + up], axis=-1)
     line = np.stack([cosine, sine, zero], axis=-1)
-    turned = (of.longitude - node)[:, np.newaxis]
+    turned = (sky.longitude - node)[:, np.newaxis]
     long = np.cos(turned) * line + np.sin(turned) * np.cross(axis, line)
     far = np.linalg.norm(position, axis=1)
     cosines = [np.sum(a * position, axis=1) / far for a in (long, np.cross(axis, long), axis)]
     figure = sum(m * c**2 for m, c in zip((*moments, polar), cosines, strict=True))
-    return float(1.5 * gm * np.sum(of.weights * figure / far**3))
+    return float(1.5 * gm * np.sum(sky.weights * figure / far**3))
 
 
-def obliquity(of: Sky, *, with_sun: bool, from_node: bool) -> float:
+def obliquity(sky: Sky, *, with_sun: bool, from_node: bool) -> float:
     """Obliquity to the mean orbit in the upright Cassini state, deg.
 
     Parameters
     ----------
-    of : Sky
+    sky : Sky
     with_sun : bool
         Whether the Sun pulls on the figure, too.
     from_node : bool
         Whether the spin counts from the node.
     """
     assert ORBIT is not None
-    pulls = [(of.earth, float(EARTH.gm)), *([(of.sun, float(SUN.gm))] if with_sun else [])]
+    pulls = [(sky.earth, float(EARTH.gm)), *([(sky.sun, float(SUN.gm))] if with_sun else [])]
     polar = MOON.number("j2") / MOON.number("dynamical_flattening")
     momentum = polar * (MOTION + NODE_RATE * from_node)
 
     def slope(tilt: float) -> float:
         more, less = (
-            sum(energy(of, position, gm, tilt + way * SLOPE) for position, gm in pulls)
+            sum(energy(sky, position, gm, tilt + way * SLOPE) for position, gm in pulls)
             for way in (1, -1)
         )
         return NODE_RATE * math.sin(tilt) - (more - less) / (2 * SLOPE * momentum)

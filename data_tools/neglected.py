@@ -94,8 +94,8 @@ def tightest(years: FloatArray, moved: FloatArray, *, bent: bool) -> Growth:
     """
     power = 2 if bent else 1
     columns = np.stack([np.ones_like(years), np.abs(years) ** power], axis=1)
-    found = linprog(columns.mean(axis=0), A_ub=-columns, b_ub=-moved, method="highs")
-    swing, growth = (rounded_up(float(value)) for value in found.x)
+    solution = linprog(columns.mean(axis=0), A_ub=-columns, b_ub=-moved, method="highs")
+    swing, growth = (rounded_up(float(value)) for value in solution.x)
     return Growth(swing, 0.0, growth) if bent else Growth(swing, growth)
 
 
@@ -112,7 +112,7 @@ def bound(growth: Growth, years: FloatArray) -> FloatArray:
     return growth.swing + growth.rate * np.abs(years) + growth.bend * years**2
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print the table beside what stands; 1 if what stands is too small anywhere."""
     years, moved = moved_by(RIGID, STEP)
     measured = {effect: (years, distance) for effect, distance in moved.items()}

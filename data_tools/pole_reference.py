@@ -14,11 +14,14 @@ and taken from l, again and again until none is left.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from data_tools.rotation_reference import extrapolated, states
 from earthspin.checks.ladders import of_pole
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, kernel
 from earthspin.constants import DAY, J2000_JD
@@ -39,7 +42,7 @@ def figure_axis() -> tuple[LongArray, LongArray]:
     path = integrate(momentum, axis, of_pole.DAYS, STEP)
     finer = integrate(momentum, axis, of_pole.DAYS, STEP / 2)[::2]
     places = np.rint(of_pole.days() / STEP).astype(int)
-    figure, again = (states[places, :3] - states[places, 3:] for states in (finer, path))
+    figure, again = (ends[places, :3] - ends[places, 3:] for ends in (finer, path))
     change = np.sqrt(np.max(np.sum((figure - again) ** 2, axis=1)))
     print(f"pole: steps of half the length change the figure axis by {float(change):.1g} rad")
     return momentum, figure
@@ -69,47 +72,19 @@ def slow_start(axis: LongArray, step: float) -> LongArray:
 
 def integrate(momentum: LongArray, axis: LongArray, days: float, step: float) -> LongArray:
     """States l, d at the ends of the steps, the start included, shape (n + 1, 6)."""
-    state = np.concatenate([momentum, momentum - axis])
-    carry = np.zeros_like(state)  # what additions round away (Kahan 1965)
-    states = [state]
-    count = round(days / step)
+    start = np.concatenate([momentum, momentum - axis])
+    return np.stack(list(states(start, _increments(round(days / step), step))))
+
+
+def _increments(count: int, step: float) -> Iterator[Callable[[LongArray], LongArray]]:
+    """Yield what each step adds to a state; the tensors of many steps are computed at once."""
     block = round(16 / step)
     for first in range(0, count, block):
         size = min(block, count - first)
         tides = tides_of_steps(np.asarray(step * np.arange(first, first + size)), step)
         for number in range(size):
-            grown = increment(state, [rows[number] for rows in tides], LONG(step) * DAY) + carry
-            after = state + grown
-            carry = grown - (after - state)
-            state = after
-            states.append(state)
-    return np.stack(states)
-
-
-def increment(state: LongArray, tides: list[LongArray], length: Any) -> LongArray:
-    """What a step adds, by midpoint rules of 2, 4, 6 ... parts, extrapolated to none.
-
-    Parameters
-    ----------
-    state : ndarray, shape (6,)
-    tides : list of ndarray
-        For each rule, the tensors at its nodes, shape (parts + 1, 3, 3).
-    length : float
-        Of the step, s.
-    """
-    table: list[LongArray] = []
-    for column, nodes in enumerate(tides):
-        parts = len(nodes) - 1
-        h = length / parts
-        before, here = np.zeros_like(state), h * _slope(nodes[0], state)
-        for node in nodes[1:-1]:
-            before, here = here, before + 2 * h * _slope(node, state + here)
-        row = [(before + here + h * _slope(nodes[-1], state + here)) / 2]
-        for k in range(column):
-            ratio = LONG((column + 1) ** 2) / LONG((column - k) ** 2)
-            row.append(row[-1] + (row[-1] - table[k]) / (ratio - 1))
-        table = row
-    return table[-1]
+            rules = [[partial(_slope, tide) for tide in rows[number]] for rows in tides]
+            yield partial(extrapolated, length=LONG(step) * DAY, rules=rules)
 
 
 def _slope(tide: LongArray, state: LongArray) -> LongArray:

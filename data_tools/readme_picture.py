@@ -12,7 +12,7 @@ from earthspin.views.precession import plot_chain
 PICTURE = Path(__file__).parents[1] / "docs" / "_static" / "chain.png"
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the picture."""
     precession = earthspin.run_tree("precession", ["convergence"])
     year = earthspin.torque_series("2000-01-01", "2001-01-01", "6 h", source="skyfield")

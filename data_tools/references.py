@@ -95,7 +95,7 @@ def elements() -> Made:
     days = of_elements.days().tolist()
     with mp.workdps(DIGITS):
         return of_elements.INPUTS, {
-            "places": _pairs([[place(one, day) for day in days] for one in of_elements.ORBITS])
+            "places": _pairs([[place(orbit, day) for day in days] for orbit in of_elements.ORBITS])
         }
 
 
@@ -191,9 +191,9 @@ def _pairs(values: Any) -> dict[str, Any]:
     return {"hi": float(values), "lo": float(values - float(values))}
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the files."""
-    for name in [given.only] if given.only else MAKERS:
+    for name in [arguments.only] if arguments.only else MAKERS:
         inputs, values = MAKERS[name]()
         text = json.dumps({"inputs": inputs, "values": values}, indent=None)
         path = stored.FOLDER / f"{name}.json"

@@ -9,7 +9,9 @@ with `earthspin.motion.march` the equations, and neither method nor code.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from itertools import repeat
 from typing import Any
 
 import numpy as np
@@ -77,31 +79,54 @@ def integrate(steps: int) -> LongArray:
     e = LONG(of_rotation.ECCENTRICITY)
     omega = np.array(of_rotation.OMEGA, dtype=LONG)
     place = [1 - e, 0, 0, 0, np.sqrt((1 + e) / (1 - e)), 0]
-    state: Any = np.array([*place, *(_moments() * omega), 1, 0, 0, 0], dtype=LONG)
-    carry, states = np.zeros_like(state), [state]
-    for _ in range(round(of_rotation.SPAN * steps)):
-        grown = increment(state, LONG(1) / steps) + carry
-        after = state + grown
-        carry = grown - (after - state)  # what additions round away (Kahan 1965)
-        state = after
-        states.append(state)
-    return np.stack(states)
+    start = np.array([*place, *(_moments() * omega), 1, 0, 0, 0], dtype=LONG)
+    step = partial(increment, length=LONG(1) / steps)
+    return np.stack(list(states(start, repeat(step, round(of_rotation.SPAN * steps)))))
 
 
 def increment(
     state: LongArray, length: Any, slope: Callable[[LongArray], LongArray] = _slope
 ) -> LongArray:
-    """What a step adds, by midpoint rules of 2, 4, 6 ... parts, extrapolated to none."""
+    """Return what a step adds if the slope depends on the state alone."""
+    return extrapolated(state, length, [[slope] * (2 * n + 1) for n in range(1, COLUMNS + 1)])
+
+
+def extrapolated(
+    state: LongArray, length: Any, rules: Iterable[Sequence[Callable[[LongArray], LongArray]]]
+) -> LongArray:
+    """Return what a step adds, by midpoint rules of 2, 4, 6 ... parts, extrapolated to none.
+
+    Parameters
+    ----------
+    state : ndarray
+    length : float
+        Of the step.
+    rules : iterable of sequences of callable
+        For each rule, the slopes at its nodes.
+    """
     table: list[LongArray] = []
-    first = slope(state)
-    for column in range(COLUMNS):
-        h = length / (2 * (column + 1))
-        before, here = np.zeros_like(state), h * first
-        for _ in range(2 * column + 1):
+    for column, slopes in enumerate(rules):
+        h = length / (len(slopes) - 1)
+        before, here = np.zeros_like(state), h * slopes[0](state)
+        for slope in slopes[1:-1]:
             before, here = here, before + 2 * h * slope(state + here)
-        row = [(before + here + h * slope(state + here)) / 2]
+        row = [(before + here + h * slopes[-1](state + here)) / 2]
         for k in range(column):
             ratio = LONG((column + 1) ** 2) / LONG((column - k) ** 2)
             row.append(row[-1] + (row[-1] - table[k]) / (ratio - 1))
         table = row
     return table[-1]
+
+
+def states(
+    state: LongArray, increments: Iterable[Callable[[LongArray], LongArray]]
+) -> Iterator[LongArray]:
+    """Yield the start and the state after each step, by compensated sums (Kahan 1965)."""
+    carry: Any = np.zeros_like(state)  # what additions round away
+    yield state
+    for step in increments:
+        grown = step(state) + carry
+        after = state + grown
+        carry = grown - (after - state)
+        state = after
+        yield state

@@ -130,7 +130,7 @@ def integrate(
     stops = math.ceil(reach / STOP)
     angle = moons_turn(gm) * a_stop * step
     turns = direction * a_stop * step * left_out(simulation.particles) if complete else ()
-    found = np.empty((stops + 1, len(WORLDS), 2, 3))
+    samples = np.empty((stops + 1, len(WORLDS), 2, 3))
     for stop in range(stops + 1):
         if stop:
             simulation.steps(1)
@@ -142,15 +142,15 @@ def integrate(
                 turn_in_plane(simulation.particles, planet, 2 * along)
         for world, name in enumerate(WORLDS):
             place = 1 + PLANETS.index(name)
-            found[stop, world] = orbit(simulation.particles, place, direction)
+            samples[stop, world] = orbit(simulation.particles, place, direction)
         advance(1)
-    return found
+    return samples
 
 
 def relative(particles: Any, planet: int) -> tuple[FloatArray, FloatArray]:
     """Place and velocity of a planet as seen from the Sun, in the units of the simulation."""
-    sun, one = particles[0], particles[planet]
-    return np.subtract(one.xyz, sun.xyz), np.subtract(one.vxyz, sun.vxyz)
+    sun, body = particles[0], particles[planet]
+    return np.subtract(body.xyz, sun.xyz), np.subtract(body.vxyz, sun.vxyz)
 
 
 def orbit(particles: Any, planet: int, direction: int) -> FloatArray:
@@ -248,7 +248,7 @@ def growth(kernel: Path) -> dict[str, FloatArray]:
     times = -STOP * np.arange(len(samples))
     inside = np.abs(times) < COVERS
     bins = np.digitize(-times[inside] / (1e6 * JULIAN_YEAR), BINS) - 1
-    found = {}
+    by_vector = {}
     for world, name in enumerate(WORLDS):
         table = orbit_table.shipped(name)
         assert table is not None
@@ -256,14 +256,14 @@ def growth(kernel: Path) -> dict[str, FloatArray]:
         for place, vector in enumerate(("normal", "eccentricity")):
             apart = np.sum((slow[:, place] - table.at(times[inside])[place].T) ** 2, axis=1) / 2
             counts = np.bincount(bins, minlength=len(BINS) - 1)
-            found[f"{vector} of {name}"] = np.sqrt(np.bincount(bins, apart) / counts)
-    return found
+            by_vector[f"{vector} of {name}"] = np.sqrt(np.bincount(bins, apart) / counts)
+    return by_vector
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Make the tables; more than an hour on one core."""
-    kernel = open_ephemeris(given.kernel).path
-    if given.left_out:
+    kernel = open_ephemeris(arguments.kernel).path
+    if arguments.left_out:
         print("rms of each direction, 1e-5, by Myr into the past:", *BINS[1:])
         for name, row in growth(kernel).items():
             print(f"{name:24}", *(f"{1e5 * value:7.2f}" for value in row))

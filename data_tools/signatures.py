@@ -88,21 +88,21 @@ def _definition(question: type[Question]) -> list[str]:
     """A call with its arguments, each with what may be given."""
     lines = [f"def {question.call}("]
     named = False
-    for name, one in arguments_of(question).items():
+    for name, argument in arguments_of(question).items():
         if name not in question.positional and not named:
             named = True
             lines.append("    *,")
-        lines.append(f"    {name}: {_hint(name, one)},")
+        lines.append(f"    {name}: {_hint(name, argument)},")
     return [*lines, ") -> xr.Dataset: ..."]
 
 
-def _hint(name: str, one: Key | None) -> str:
-    if one is None:
+def _hint(name: str, argument: Key | None) -> str:
+    if argument is None:
         return "Date | None = ..."
-    return one.kind.hint if one.required else f"{one.kind.hint} | None = ..."
+    return argument.kind.hint if argument.required else f"{argument.kind.hint} | None = ..."
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the file."""
     FILE.write_text(signatures(), encoding="utf-8")
     INDEX.write_text(index(), encoding="utf-8")

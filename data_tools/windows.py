@@ -65,9 +65,9 @@ def scatter(
     return float(np.sqrt(np.mean(off**2))), float(off.max()), float(np.mean(off <= errors))
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print the table."""
-    kernel = open_ephemeris(given.kernel)
+    kernel = open_ephemeris(arguments.kernel)
     half_span = min(abs(day) for day in kernel.coverage({10, 301, 399})) - 1
     rate, times = rates(kernel, half_span)
     reach = times[-1] - 4.01 * MOON.cycle

@@ -112,18 +112,18 @@ def world(name: str) -> World:
         tree = earthspin.run_tree(Precession(body=name), ["neglected"])
     except EarthspinError as error:
         return World(name, refused=str(error))
-    found = tree.to_dataset().isel(perturber=-1)
-    obliquity = float(found.obliquity)
+    answer = tree.to_dataset().isel(perturber=-1)
+    obliquity = float(answer.obliquity)
     published = PUBLISHED[name]
     along = math.cos(math.radians(obliquity)) if published.of_constant else 1.0
     return World(
         name,
         obliquity,
-        abs(float(found.precession_rate)),
-        float(found.precession_rate_error),
+        abs(float(answer.precession_rate)),
+        float(answer.precession_rate_error),
         left_out(tree),
-        float(found.precession_period),
-        float(found.precession_period_error),
+        float(answer.precession_period),
+        float(answer.precession_period_error),
         abs(published.rate.value) * along,
     )
 
@@ -155,15 +155,16 @@ def table(rows: list[World]) -> str:
     for row in rows:
         if row.refused:
             continue
-        of = PUBLISHED[row.name].rate
-        error = "" if of.uncertainty is None else f"{1.96 * of.uncertainty:.2g}"
+        known = PUBLISHED[row.name].rate
+        error = "" if known.uncertainty is None else f"{1.96 * known.uncertainty:.2g}"
         lines.append(
             f"| {proper(row.name)} | {row.obliquity:.2f} | {_to(row.error, row.rate)} "
             f"| {row.error:.2g} | {in_all(row.error, row.left_out)} "
-            f"| {_to(row.period_error, row.period)} | {row.published:.4g} | {error} | {of.source} |"
+            f"| {_to(row.period_error, row.period)} "
+            f"| {row.published:.4g} | {error} | {known.source} |"
         )
     lines += ["", "| world | reason for the difference |", "|---|---|"]
-    lines += [f"| {proper(name)} | {one.why} |" for name, one in PUBLISHED.items()]
+    lines += [f"| {proper(name)} | {published.why} |" for name, published in PUBLISHED.items()]
     lines += ["", "| world | why there is no rate |", "|---|---|"]
     lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
     return "\n".join([*lines, ""])
@@ -254,17 +255,21 @@ def table_of_locked(rows: list[Locked]) -> str:
     for row in rows:
         if row.refused:
             continue
-        of = OBSERVED[row.name].obliquity
+        known = OBSERVED[row.name].obliquity
         small = row.obliquity < SMALL
         sign, factor = ("′", 60.0) if small else ("°", 1.0)
         error = f"{factor * row.error:.2g}{sign}" if row.error else ""
-        theirs = ["", "", ""]
-        if of is not None:
-            half = "" if of.uncertainty is None else f"{1.96 * of.uncertainty:.2g}{UNITS[of.unit]}"
-            theirs = [f"{of.value:g}{UNITS[of.unit]}", half, of.source]
+        columns = ["", "", ""]
+        if known is not None:
+            half = (
+                ""
+                if known.uncertainty is None
+                else f"{1.96 * known.uncertainty:.2g}{UNITS[known.unit]}"
+            )
+            columns = [f"{known.value:g}{UNITS[known.unit]}", half, known.source]
         lines.append(
             f"| {proper(row.name)} | {factor * row.obliquity:.3g}{sign} | {error} "
-            f"| {in_all(factor * row.error, factor * row.left_out, sign)} | {' | '.join(theirs)} |"
+            f"| {in_all(factor * row.error, factor * row.left_out, sign)} | {' | '.join(columns)} |"
         )
     lines += ["", "| locked spin | reason for the difference |", "|---|---|"]
     lines += [f"| {proper(row.name)} | {OBSERVED[row.name].why} |" for row in rows]
@@ -279,7 +284,7 @@ def _to(error: float, value: float) -> str:
     return f"{round(value, digits):,.{max(0, digits)}f}"
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Write the table into the page."""
     made = f"{table(worlds())}\n{table_of_locked(locked())}"
     print(made)

@@ -12,7 +12,7 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import NoneType, UnionType
@@ -479,10 +479,11 @@ class Word:
 
     Attributes
     ----------
-    allowed : tuple of str
+    allowed : collection of str
+        A mapping to which words are added later is read when it is needed.
     """
 
-    allowed: tuple[str, ...]
+    allowed: Collection[str]
 
     by_name: ClassVar[bool] = True
 

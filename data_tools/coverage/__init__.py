@@ -13,6 +13,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 #: Topics, each a module of this package.
 TOPICS: tuple[str, ...] = ("pole", "long_term", "worlds", "chandler", "rotation")
 FOLDER = Path(__file__).parents[2] / "docs" / "measured"
@@ -44,6 +47,15 @@ class Row:
     inside: float
     count: int
 
+    @classmethod
+    def comparing(
+        cls, quantity: str, span: str, counterpart: str, differences: ArrayLike, errors: ArrayLike
+    ) -> Row:
+        """Compare differences with the claimed half-widths."""
+        ratio = np.abs(differences) / np.asarray(errors)
+        inside = float(np.mean(ratio <= 1))
+        return cls(quantity, span, counterpart, float(ratio.max()), inside, ratio.size)
+
     def line(self) -> str:
         """Return the row as a line of a Markdown table."""
         columns = (
@@ -62,9 +74,9 @@ def table(rows: Iterable[Row]) -> str:
     return HEAD + "".join(row.line() for row in rows)
 
 
-def main(given: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Measure all topics, or the one that was named, and write their tables."""
-    for topic in (given.only,) if given.only else TOPICS:
+    for topic in (arguments.only,) if arguments.only else TOPICS:
         rows = importlib.import_module(f"data_tools.coverage.{topic}").rows()
         path = FOLDER / f"coverage-{topic.replace('_', '-')}.inc"
         path.write_text(table(rows), encoding="utf-8")

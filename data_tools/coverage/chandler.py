@@ -37,9 +37,7 @@ def rows() -> Iterator[Row]:
             truth = np.array([quality for quality, _ in fits])
             period, error, q, low, high = np.array([row for _, row in fits]).T
             span = f"65 and 130 yr, memory {memory:.0f} d"
-            offset = abs(period - NEAR) / error
-            inside = float((offset <= 1).mean())
-            yield Row(f"period, {method}", span, "truth", offset.max(), inside, q.size)
+            yield Row.comparing(f"period, {method}", span, "truth", period - NEAR, error)
             # Q has an interval of two ends: the ratio is that of the logarithms.
             side = np.where(truth > q, np.log(high / q), np.log(q / np.maximum(low, 1e-9)))
             offset = abs(np.log(truth / q)) / side

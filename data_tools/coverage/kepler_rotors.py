@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from data_tools.rotation_reference import increment
 from earthspin import Body, Orbit
 from earthspin.constants import DAY
 from earthspin.dates import datetime64
@@ -21,8 +22,8 @@ FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
 LONG = np.longdouble
 
-#: Columns of the extrapolation (order 20), radians of the fastest angle in a step.
-COLUMNS, STEP = 10, 0.7
+#: Radians of the fastest angle in a step.
+STEP = 0.7
 #: Rounds of Newton's method for Kepler's equation, from E = M + e sin M.
 ROUNDS = 12
 
@@ -113,11 +114,11 @@ def reference(cases: list[Case]) -> tuple[FloatArray, FloatArray]:
     """
     rotors = _Rotors(cases)
     fastest = max(float(np.max(rotors.fastest * rotors.end)), 1.0)
-    state = rotors.start
     steps = int(np.ceil(fastest / STEP))
-    for k in range(steps):
-        state = _step(rotors, LONG(k) / steps, LONG(1) / steps, state)
-    q = state[3:] / np.sqrt(np.sum(state[3:] ** 2, axis=0))
+    state = np.concatenate([rotors.start, np.zeros_like(rotors.start[:1])])
+    for _ in range(steps):
+        state = state + increment(state, LONG(1) / steps, rotors.rates)
+    q = state[3:7] / np.sqrt(np.sum(state[3:7] ** 2, axis=0))
     return np.asarray(q.T, dtype=float), np.asarray(state[:3].T, dtype=float)
 
 
@@ -161,11 +162,10 @@ class _Rotors:
         spin = np.sqrt(np.sum(omega**2, axis=0))
         self.fastest = 1.5 * spin + 2 * self.motion / (1 - self.e) ** 1.5
 
-    def rates(self, time: LongArray, state: LongArray) -> LongArray:
-        """Rates of angular velocity and quaternion over the whole time."""
+    def rates(self, state: LongArray) -> LongArray:
+        """Rates of angular velocity, quaternion and time over the whole time."""
+        wx, wy, wz, w, x, y, z, time = state
         place, distance = self._place(time * self.end)
-        wx, wy, wz = state[:3]
-        w, x, y, z = state[3:]
         a, b, c = self.moments
         square = w * w + x * x + y * y + z * z
         rows = (
@@ -183,6 +183,7 @@ class _Rotors:
             (w * wx + y * wz - z * wy) / 2,
             (w * wy + z * wx - x * wz) / 2,
             (w * wz + x * wy - y * wx) / 2,
+            1 / self.end,
         ])  # fmt: skip
         return np.asarray(rates * self.end)
 
@@ -196,20 +197,3 @@ class _Rotors:
         y = self.a * np.sqrt((1 - self.e) * (1 + self.e)) * np.sin(anomaly)
         distance = self.a * (1 - self.e * np.cos(anomaly))
         return x * self.ahead + y * self.across, distance
-
-
-def _step(rotors: _Rotors, time: Any, step: Any, start: LongArray) -> LongArray:
-    """One step of the extrapolated midpoint rule."""
-    table: list[LongArray] = []
-    first = rotors.rates(time, start)
-    for k in range(1, COLUMNS + 1):
-        h = step / (2 * k)
-        before, now = start, start + h * first
-        for j in range(1, 2 * k):
-            before, now = now, before + 2 * h * rotors.rates(time + j * h, now)
-        row = [(before + now + h * rotors.rates(time + step, now)) / 2]
-        for m, left in enumerate(table, start=1):
-            ratio = (LONG(k) / (k - m)) ** 2
-            row.append(row[-1] + (row[-1] - left) / (ratio - 1))
-        table = row
-    return table[-1]

@@ -56,19 +56,17 @@ def beside_iau() -> list[Row]:
         )
     }
     for name, matrix in (("pole", erfa.pmat06), ("ecliptic_pole", erfa.ecm06)):
-        theirs = matrix(J2000_JD, days)[:, 2]
-        apart[name] = np.linalg.norm(claimed[name].values - theirs, axis=1) / ARCSEC
-    ratios = {name: of / claimed[f"{name}_error"].values for name, of in apart.items()}
+        published = matrix(J2000_JD, days)[:, 2]
+        apart[name] = np.linalg.norm(claimed[name].values - published, axis=1) / ARCSEC
     return [
-        Row(
+        Row.comparing(
             f"`{name}` of Earth",
             "1,000 years either way",
             "IAU 2006 (ERFA)",
-            float(ratio.max()),
-            float(np.mean(ratio <= 1)),
-            ratio.size,
+            difference,
+            claimed[f"{name}_error"].values,
         )
-        for name, ratio in ratios.items()
+        for name, difference in apart.items()
     ]
 
 
@@ -101,14 +99,14 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
             worst[name] = np.maximum(worst[name], ratio)
             inside[name] += ratio <= 1
     years = np.abs(claimed.epoch.values) / 1e3
-    found = []
+    rows = []
     for name in QUANTITIES:
         for first in range(0, 1000 * reach, BIN):
             for sign, word in ((-1, "before"), (1, "after")):
                 at = (years > first) & (years <= first + BIN)
                 at &= np.sign(claimed.epoch.values) == sign
                 stretch = f"{first // 1000} to {(first + BIN) // 1000} Myr {word} J2000.0"
-                found.append(
+                rows.append(
                     Row(
                         f"`{name}` of {body.name.title()}",
                         stretch,
@@ -118,7 +116,7 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
                         members * int(at.sum()),
                     )
                 )
-    return found
+    return rows
 
 
 def _pulling(body: Body) -> tuple[str, ...]:

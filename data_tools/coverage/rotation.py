@@ -97,14 +97,11 @@ def rows() -> Iterator[Row]:
     differences, errors = kepler()
     span = f"{BODIES} random bodies, {ORBITS:g} Kepler orbits"
     for name, apart, error in zip(("attitude", "omega"), differences, errors, strict=True):
-        yield _row(name, span, "integration in long double", apart, error)
-    found = np.array([moon(start, MOON_DAYS) for start in STARTS])
+        yield Row.comparing(name, span, "integration in long double", apart, error)
+    starts = np.array([moon(start, MOON_DAYS) for start in STARTS])
     for n, day in enumerate(MOON_DAYS):
-        apart, error, neglected = found[:, :, n].T
+        apart, error, neglected = starts[:, :, n].T
         span = f"Moon, {day:g} d after {len(STARTS)} starts"
-        yield _row("attitude, error and neglected", span, "DE421", apart, error + neglected)
-
-
-def _row(name: str, span: str, other: str, apart: FloatArray, error: FloatArray) -> Row:
-    ratio = apart / error
-    return Row(name, span, other, float(ratio.max()), float(np.mean(ratio <= 1)), apart.size)
+        yield Row.comparing(
+            "attitude, error and neglected", span, "DE421", apart, error + neglected
+        )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -46,23 +46,15 @@ def vector(angles: tuple[float, float]) -> FloatArray:
     return np.array([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)])
 
 
-def row(
-    quantity: str, span: str, counterpart: str, difference: Sequence[float], half: Sequence[float]
-) -> Row:
-    """Return the row of some differences with their half-widths."""
-    ratio = np.abs(difference) / np.asarray(half)
-    return Row(
-        quantity, span, counterpart, float(ratio.max()), float(np.mean(ratio <= 1)), ratio.size
-    )
-
-
 def poles() -> Iterator[Row]:
     """Compare the poles of J2000.0 with other solutions."""
     for name, others in OTHER_POLES.items():
         pole = BODIES[name].needed("pole").without_nutation().mean(np.zeros(1))[0]
         half = NORMAL_95 * (BODIES[name].pole_uncertainty or math.nan)
         off = [float(np.linalg.norm(pole - vector(other))) for other in others.values()]
-        yield row("start of the pole", name.capitalize(), "; ".join(others), off, [half] * len(off))
+        yield Row.comparing(
+            "start of the pole", name.capitalize(), "; ".join(others), off, [half] * len(off)
+        )
 
 
 def like_la2004(start: float | None = None, rate: float | None = None) -> xr.Dataset:
@@ -76,7 +68,7 @@ def like_la2004(start: float | None = None, rate: float | None = None) -> xr.Dat
         Rate of precession then, geodesic precession included, arcsec/yr; ours if not given.
     """
     now = earthspin.long_term(times=["0 kyr"], body="mars")
-    torques, own = (float(of) for of in now.precession_rate[:, 0])
+    torques, own = (float(rate) for rate in now.precession_rate[:, 0])
     h = MARS.number("dynamical_flattening") * (1 + ((rate or own) - own) / torques)
     body = MARS.replace(dynamical_flattening=h, relative_uncertainty=MARS.relative_uncertainty)
     shift = (start or float(now.obliquity[0])) - float(now.obliquity[0])
@@ -94,7 +86,7 @@ def la2004() -> FloatArray:
 def obliquity_of_mars() -> Iterator[Row]:
     """Compare the obliquity of Mars with the Viking landers and with La2004."""
     then = earthspin.long_term(times=["1980-01-01"], body="mars")
-    yield row(
+    yield Row.comparing(
         "obliquity of Mars",
         "1980",
         "Yoder & Standish 1997",
@@ -110,33 +102,36 @@ def obliquity_of_mars() -> Iterator[Row]:
             ("0 to 100 kyr back", ours.epoch.values >= -1e5),
             ("100 kyr to 1 Myr back", ours.epoch.values < -1e5),
         ):
-            yield row("obliquity of Mars", words, counterpart, off[inside], half[inside])
+            yield Row.comparing("obliquity of Mars", words, counterpart, off[inside], half[inside])
 
 
 def rates() -> Iterator[Row]:
     """Compare rates with observed ones: half-widths hold what is left out, and theirs."""
-    for of in worlds():
-        if of.refused or math.isnan(of.left_out):
+    for world in worlds():
+        if world.refused or math.isnan(world.left_out):
             continue
-        known = PUBLISHED[of.name].rate.uncertainty or 0.0
-        others = RATES_OF_MARS if of.name == "mars" else ((of.published, known),)
-        yield row(
+        known = PUBLISHED[world.name].rate.uncertainty or 0.0
+        others = RATES_OF_MARS if world.name == "mars" else ((world.published, known),)
+        yield Row.comparing(
             "rate of precession",
-            of.name.capitalize(),
+            world.name.capitalize(),
             "published rates",
-            [of.rate - rate for rate, _ in others],
-            [math.hypot(of.error + of.left_out, NORMAL_95 * u) for _, u in others],
+            [world.rate - rate for rate, _ in others],
+            [math.hypot(world.error + world.left_out, NORMAL_95 * u) for _, u in others],
         )
 
 
 def cassini_states() -> Iterator[Row]:
     """Compare obliquities of locked spins with observed ones: half-widths hold what is left out."""
     observed = {"moon": MOON_OBLIQUITY, "titan": TITAN_OBLIQUITY}
-    for of in locked():
-        if of.name in observed:
-            off, half = of.obliquity - observed[of.name].value, of.error + of.left_out
-            yield row(
-                "obliquity in a Cassini state", of.name.capitalize(), "observed", [off], [half]
+    for world in locked():
+        if world.name in observed:
+            yield Row.comparing(
+                "obliquity in a Cassini state",
+                world.name.capitalize(),
+                "observed",
+                [world.obliquity - observed[world.name].value],
+                [world.error + world.left_out],
             )
 
 

@@ -17,22 +17,9 @@ if TYPE_CHECKING:
 
 #: Parts of the package that have cases, in the order in which they run.
 PARTS = (
-    "numerics",
-    "mass",
-    "rotor",
-    "top",
-    "torque",
-    "motion",
-    "rotation",
-    "secular",
-    "wobble",
-    "nutation",
-    "sky",
-    "scene",
-    "many",
-    "units",
-    "storage",
-)
+    "numerics", "mass", "rotor", "top", "torque", "motion", "rotation", "secular", "wobble",
+    "nutation", "sky", "scene", "many", "units", "storage",
+)  # fmt: skip
 
 _CASE = ("case",)
 _MIXED = (("comment", "in the unit that 'unit' names for the case"),)

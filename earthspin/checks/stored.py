@@ -35,9 +35,9 @@ class Values:
     def __neg__(self) -> Values:
         return Values(-self.hi, -self.lo)
 
-    def error_of(self, found: FloatArray) -> FloatArray:
+    def error_of(self, values: FloatArray) -> FloatArray:
         """How far numbers are from these, to the digits that they share."""
-        return np.asarray((found - self.hi) - self.lo)
+        return np.asarray((values - self.hi) - self.lo)
 
 
 def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
@@ -47,7 +47,7 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
     ----------
     name : str
     inputs : mapping
-        Plain numbers and lists that the values hang on.
+        Plain numbers and lists that the values depend on.
 
     Raises
     ------
@@ -66,28 +66,28 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
     }
 
 
-def attitude_error(found: FloatArray, true: Values) -> float:
+def attitude_error(values: FloatArray, true: Values) -> float:
     """Largest angle between attitudes given as unit quaternions, rad.
 
     Parameters
     ----------
-    found : ndarray, shape (n, 4)
+    values : ndarray, shape (n, 4)
         q and -q are the same attitude.
     true : Values, shape (n, 4)
     """
-    same = np.where(np.sum(found * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
-    return float(2 * np.max(np.linalg.norm(true.error_of(same * found), axis=1)))
+    same = np.where(np.sum(values * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
+    return float(2 * np.max(np.linalg.norm(true.error_of(same * values), axis=1)))
 
 
-def rotation_error(found: tuple[FloatArray, FloatArray], omega: Values, attitude: Values) -> float:
+def rotation_error(values: tuple[FloatArray, FloatArray], omega: Values, attitude: Values) -> float:
     """Larger of the errors of angular velocity, relative to its size, and of attitude, rad.
 
     Parameters
     ----------
-    found : pair of ndarray, shapes (n, 3) and (n, 4)
+    values : pair of ndarray, shapes (n, 3) and (n, 4)
         Angular velocity along the body's axes (rad/s), and unit quaternions.
     omega, attitude : Values
         The same, as stored.
     """
-    off = np.linalg.norm(omega.error_of(found[0]), axis=1) / np.linalg.norm(omega.hi, axis=1)
-    return max(float(np.max(off)), attitude_error(found[1], attitude))
+    off = np.linalg.norm(omega.error_of(values[0]), axis=1) / np.linalg.norm(omega.hi, axis=1)
+    return max(float(np.max(off)), attitude_error(values[1], attitude))

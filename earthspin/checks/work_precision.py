@@ -37,23 +37,11 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
-#: Quantities, and the module of `earthspin.checks.ladders` that measures each.
-QUANTITIES: dict[str, str] = {
-    "precession": "of_precession",
-    "torque": "of_torque",
-    "pole": "of_pole",
-    "long-term": "of_long_term",
-    "elements": "of_elements",
-    "mean-orbit": "of_mean_orbit",
-    "rotation": "of_rotation",
-    "free-rotor": "of_free_rotor",
-    "top": "of_top",
-    "spheroid": "of_spheroid",
-    "excitation": "of_excitation",
-    "chandler": "of_chandler",
-    "compliances": "of_compliances",
-    "ensemble": "of_ensemble",
-}
+#: Quantities, each with a module of `earthspin.checks.ladders`.
+QUANTITIES = (
+    "precession", "torque", "pole", "long-term", "elements", "mean-orbit", "rotation",
+    "free-rotor", "top", "spheroid", "excitation", "chandler", "compliances", "ensemble",
+)  # fmt: skip
 
 #: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
 SHORTEST_SAMPLE = 2e-3
@@ -357,7 +345,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
     """
     if not isinstance(quantity, str) or quantity not in QUANTITIES:
         raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
-    module = import_module(f"earthspin.checks.ladders.{QUANTITIES[quantity]}")
+    module = import_module(f"earthspin.checks.ladders.of_{quantity.replace('-', '_')}")
     ladder: Ladder = module.ladder(quick)
     return ladder
 

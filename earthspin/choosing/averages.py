@@ -114,14 +114,14 @@ def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
         }
         for plane in ("in_plane", "out_of_plane")
     )
-    found = []
+    choices = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
             off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in body.pulls}
             precessing = {
                 name: precessing_of_tensor(*pair, body.obliquity) for name, pair in off.items()
             }
-            found.append(
+            choices.append(
                 Choice(
                     words=f"sin4 taper over {turns} cycles, a sample each {days} d",
                     settings=Averaging(
@@ -134,4 +134,4 @@ def average_choices(body: Turned, cycles: float) -> list[Choice[Averaging]]:
                     evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
                 )
             )
-    return found
+    return choices

@@ -40,8 +40,8 @@ class Choice(Generic[S]):
 @lru_cache
 def models() -> dict[str, Any]:
     """Read what was measured."""
-    found: dict[str, Any] = json.loads(DATA.read_text(encoding="utf-8"))
-    return found
+    table: dict[str, Any] = json.loads(DATA.read_text(encoding="utf-8"))
+    return table
 
 
 def cheapest(choices: Iterable[Choice[S]], allowed: float) -> Choice[S] | None:

@@ -43,7 +43,7 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice[Nutati
     list of Choice of NutationNodes
         The first one leaves nutation out.
     """
-    found: list[Choice[NutationNodes | None]] = []
+    choices: list[Choice[NutationNodes | None]] = []
     measured = max(abs(first), abs(last)) <= NUTATION_MEASURED
     for row in models()["nutation"]:
         if row["model"] == "2000B" and not measured:
@@ -54,7 +54,7 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice[Nutati
             if row["terms"]
             else "no nutation: the mean equator is near enough"
         )
-        found.append(
+        choices.append(
             Choice(
                 words=words,
                 settings=NutationNodes(row["model"], row["step"]) if row["terms"] else None,
@@ -62,4 +62,4 @@ def nutation_choices(first: float, last: float, size: int) -> list[Choice[Nutati
                 evaluations=row["terms"] * min(nodes, size),
             )
         )
-    return found
+    return choices

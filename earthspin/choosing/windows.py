@@ -96,9 +96,9 @@ def window_choices(
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
     """Errors of all settings within a reach in s; beyond the last one they grow with it."""
-    found = 10.0 ** np.asarray(rows)
-    if found.ndim == 1:
-        return found
+    reached = 10.0 ** np.asarray(rows)
+    if reached.ndim == 1:
+        return reached
     years = reach / JULIAN_YEAR
     place = min(int(np.searchsorted(reaches, years)), len(reaches) - 1)
-    return np.asarray(found[:, place] * max(1.0, years / reaches[-1]))
+    return np.asarray(reached[:, place] * max(1.0, years / reaches[-1]))

@@ -7,30 +7,29 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.choosing.averages import Averaging
+from earthspin.choosing.choice import Choice
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
+from earthspin.numerics.estimate import Estimate
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
 from earthspin.torque import average, locking, mean_orbit, rates
-from earthspin.torque.average import best_window, precessing_torque, window_mean_and_error
+from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
+from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.choosing.averages import Averaging
-    from earthspin.choosing.choice import Choice
-    from earthspin.numerics.estimate import Estimate
-    from earthspin.torque.average import Window
 
 #: A day apart is dense enough: torques have no strong period under four days (two days give
 #: the same rate to 1e-12, four days are off by 3e-6).
@@ -66,13 +65,13 @@ class Samples:
         torques are then those of masses of 1.
     """
 
-    times: NDArray[np.float64]
+    times: FloatArray
     labels: list[str]
-    precessing: NDArray[np.float64]
-    torque: NDArray[np.float64]
+    precessing: FloatArray
+    torque: FloatArray
     window: Window
     obliquity: float
-    nearness: NDArray[np.float64]
+    nearness: FloatArray
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
     strength: xr.DataArray | None = None
@@ -108,10 +107,9 @@ def torque_samples(
     # In the axes of the equator of date the figure axis is z, and the orbit's normal moves.
     axis = np.array([0.0, 0.0, 1.0])
     normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
-    names = [p.name for p in perturbers]
     return Samples(
         times=times,
-        labels=names + ["total"] * (len(names) > 1),
+        labels=_labels(perturbers),
         precessing=np.stack([precessing_torque(t, axis, normals) for t in torques], axis=1),
         torque=np.stack(torques, axis=1),
         window=window,
@@ -123,6 +121,11 @@ def torque_samples(
     )
 
 
+def _labels(perturbers: tuple[Body, ...]) -> list[str]:
+    """Names of the perturbers, and of their total if there are several."""
+    return [p.name for p in perturbers] + ["total"] * (len(perturbers) > 1)
+
+
 def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
     """Masses of perturbers that stand for many, along `perturber`; None if each stands for one."""
     if not any(hasattr(p.gm, "dims") for p in perturbers):
@@ -132,7 +135,7 @@ def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
     return xr.concat(xr.broadcast(*(xr.DataArray(p.gm) for p in perturbers)), "perturber")
 
 
-def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: NDArray[np.float64]) -> None:
+def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
     """Refuse a spin that is locked to the orbit about a perturber: its average is another."""
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
@@ -194,13 +197,13 @@ class MeanTorques:
     """
 
     labels: list[str]
-    precessing: NDArray[np.float64]
-    precessing_error: NDArray[np.float64]
-    torque: NDArray[np.float64]
-    torque_error: NDArray[np.float64]
+    precessing: FloatArray
+    precessing_error: FloatArray
+    torque: FloatArray
+    torque_error: FloatArray
     epoch: float
     obliquity: float
-    nearness: NDArray[np.float64]
+    nearness: FloatArray
     over: str
     method: str
     evaluations: int
@@ -260,21 +263,21 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    found = ellipse_chains(body, perturbers)
+    by_name = ellipse_chains(body, perturbers)
     torques, errors, nearness = [], [], []
-    for one in perturbers:
-        ((ellipse, _),) = found[one.name].ellipses
+    for p in perturbers:
+        ((ellipse, _),) = by_name[p.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
         for spin_rate in np.ravel(body.spin_rate):
             turns = locking.locked_turns(float(spin_rate), forward)
             if turns is not None:
-                raise _locked(body, one.name, turns)
+                raise _locked(body, p.name, turns)
         square = (
             mean_orbit.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate
             else mean_orbit.square_of_normal(ellipse.normal)
         )
-        tide = mean_orbit.mean_tide(float(one.gm), ellipse.a, ellipse.e, square)
+        tide = mean_orbit.mean_tide(float(p.gm), ellipse.a, ellipse.e, square)
         torques.append(mean_orbit.mean_torque(tide, axis))
         errors.append(mean_orbit.rounding(tide))
         nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
@@ -282,7 +285,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     error = average.with_total(np.array(errors)[np.newaxis])[0]
     obliquity = angle(axis, normal)
     return MeanTorques(
-        labels=[one.name for one in perturbers] + ["total"] * (len(perturbers) > 1),
+        labels=_labels(perturbers),
         precessing=average.precessing_torque(vectors, axis, normal),
         precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
         torque=vectors @ equator.T,
@@ -302,9 +305,9 @@ def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
     """Means of the torque per unit of C - A: exact ones if there are, else over windows."""
-    found = orbit_means if window_means is None else window_means
-    assert found is not None  # a plan that has neither leaves this part out
-    return found
+    means = orbit_means if window_means is None else window_means
+    assert means is not None  # a plan that has neither leaves this part out
+    return means
 
 
 @dataclass(frozen=True)
@@ -316,7 +319,8 @@ class MeanRates:
 
     Attributes
     ----------
-    labels : list of str
+    means : MeanTorques
+        That they follow from, with the labels of the perturbers.
     rate : Estimate
         Of precession, rad/s.
     torque : Estimate
@@ -326,22 +330,13 @@ class MeanRates:
     second_order : float
         Bound on what a first-order average leaves out of the rate of all, rad/s; the largest of
         many.
-    method : str
-        Window and sampling in words.
-    evaluations : int
-        Epochs at which the sky was evaluated.
-    no_error : str
-        Why errors are not given; empty if they are.
     """
 
-    labels: list[str]
+    means: MeanTorques
     rate: Estimate
     torque: Estimate
     ratio: Numeric
     second_order: float
-    method: str
-    evaluations: int
-    no_error: str
 
     def total(self) -> tuple[Numeric, Numeric]:
         """Rate by all perturbers and its error, rad/s."""
@@ -385,14 +380,11 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         u_gm,
     )
     return MeanRates(
-        labels=means.labels,
+        means=means,
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
         second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(of_all(rate.value))),
-        method=means.method,
-        evaluations=means.evaluations,
-        no_error=means.no_error,
     )
 
 
@@ -401,13 +393,13 @@ def _shares(
 ) -> tuple[Numeric, Numeric]:
     """Rate of precession over the mean motions of what pulls, and over the spin."""
     by_orbit = sum(
-        abs(of_one(rate, place)) / ((body.gm + one.gm) * near) ** 0.5
-        for place, (one, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+        abs(of_one(rate, place)) / ((body.gm + p.gm) * near) ** 0.5
+        for place, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
     return by_orbit, abs(of_all(rate) / body.spin_rate)
 
 
-def _labelled(means: MeanTorques) -> Callable[[NDArray[np.float64]], xr.DataArray]:
+def _labelled(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
     """What lays an array along perturbers and cases."""
     import xarray as xr
 
@@ -427,11 +419,10 @@ def taken(window: Window) -> str:
 
 def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, None]:
+) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
     """Errors of the precessing torque and of all torque, as measured for a choice, s-2."""
     if choice is None:
         return None, None
-    of_precessing = [choice.settings.precessing_errors[p.name] for p in perturbers]
-    return np.array(of_precessing), np.array(
-        [choice.settings.torque_errors[p.name] for p in perturbers]
-    )
+    precessing, torque = choice.settings.precessing_errors, choice.settings.torque_errors
+    names = [p.name for p in perturbers]
+    return np.array([precessing[n] for n in names]), np.array([torque[n] for n in names])

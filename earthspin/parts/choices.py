@@ -3,32 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.choosing.averages import Pull, Turned, average_choices
-from earthspin.choosing.choice import cheapest
-from earthspin.choosing.nutation import nutation_choices
+from earthspin.choosing.averages import Averaging, Pull, Turned, average_choices
+from earthspin.choosing.choice import Choice, cheapest
+from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.promises import MARGIN
-from earthspin.choosing.windows import window_choices
+from earthspin.choosing.windows import PoleWindows, window_choices
 from earthspin.constants import DAY
+from earthspin.dates import TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.motion.effects import GEODESIC, MEASURED_WITH
-from earthspin.parts.pulls import forces_of, start_of
+from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.equator import angle
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.average import best_window
 from earthspin.torque.rates import left_for_method
-
-if TYPE_CHECKING:
-    from earthspin.choosing.averages import Averaging
-    from earthspin.choosing.choice import Choice
-    from earthspin.choosing.nutation import NutationNodes
-    from earthspin.choosing.windows import PoleWindows
-    from earthspin.dates import TimeGrid, TimeList
-    from earthspin.parts.pulls import Pulls
-    from earthspin.parts.sky import Sky, Stretch
 
 
 def windows_on_offer(
@@ -41,7 +33,6 @@ def windows_on_offer(
     """Windows of the pole; none where sky or effects were not measured."""
     if not set(effects) <= set(MEASURED_WITH):
         return []
-
     forces = forces_of(body, pulls, effects)
     _, epoch = start_of(body, pulls)
     first, last = (day * DAY - epoch for day in epochs.span())

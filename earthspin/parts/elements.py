@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from earthspin.bodies import Body
 from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
-
-if TYPE_CHECKING:
-    from earthspin.sky.elements import Ellipse
 
 #: How far half the long axis and the period of one orbit may be from Kepler's third law, relative:
 #: the Sun makes the Moon's month 0.3 per cent longer than its mean distance says.
@@ -20,22 +17,22 @@ THIRD_LAW = 0.01
 
 
 class EllipseChain(NamedTuple):
-    """How one comes to a body by ellipses.
+    """Ellipses that lead from one body to another.
 
     Attributes
     ----------
     start : Body
         Where the first ellipse begins.
     ellipses : tuple of (Ellipse, int)
-        One after the other; the number is -1 where one goes an ellipse back.
+        One after the other; the number is -1 where an ellipse is followed backward.
     """
 
     start: Body
-    ellipses: tuple[tuple[Ellipse, int], ...]
+    ellipses: tuple[tuple[Ellipse, int], ...] = ()
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Ways to each perturber that elements place, by its name.
+    """Ellipses to each perturber that elements place, by its name.
 
     They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
     without elements.
@@ -48,52 +45,51 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
     UndefinedError
         If the body has no such plane as the elements are counted from.
     """
-    known = {one.name: one for one in (body, *perturbers)}
+    known = {member.name: member for member in (body, *perturbers)}
     centres = {
-        one.name: centre
-        for one in known.values()
-        if one.orbit is not None and (centre := _centre(one, body, known))
+        name: centre
+        for name, member in known.items()
+        if member.orbit is not None and (centre := _centre(member, body, known))
     }
     _refuse_circles(centres)
     links: dict[str, dict[str, tuple[Ellipse, int]]] = {name: {} for name in known}
     for name, about in centres.items():
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
-    chains: dict[str, EllipseChain] = {}
-    for start in (body, *(one for one in perturbers if one.orbit is None)):
-        if start.name not in chains:
-            _walk(start, start.name, (), links, chains)
-    return {name: chain for name, chain in chains.items() if chain.ellipses}
+    reached: dict[str, EllipseChain] = {}
+    for start in (body, *(member for member in perturbers if member.orbit is None)):
+        if start.name not in reached:
+            _follow(EllipseChain(start), start.name, links, reached)
+    return {name: chain for name, chain in reached.items() if chain.ellipses}
 
 
-def _walk(
-    start: Body,
-    at: str,
-    so_far: tuple[tuple[Ellipse, int], ...],
+def _follow(
+    chain: EllipseChain,
+    end: str,
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
-    chains: dict[str, EllipseChain],
+    reached: dict[str, EllipseChain],
 ) -> None:
     """Note the chain to a body, and go on to its neighbours."""
-    chains[at] = EllipseChain(start, so_far)
-    for name, step in links[at].items():
-        if name not in chains:
-            _walk(start, name, (*so_far, step), links, chains)
+    reached[end] = chain
+    for name, link in links[end].items():
+        if name not in reached:
+            _follow(EllipseChain(chain.start, (*chain.ellipses, link)), name, links, reached)
 
 
-def _centre(one: Body, body: Body, known: Mapping[str, Body]) -> str:
+def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
     """Name of what a body goes round; empty if its orbit places nothing that pulls."""
-    assert one.orbit is not None
-    about = one.orbit.about
+    assert member.orbit is not None
+    about = member.orbit.about
     if about:
-        if about not in known or about == one.name:
-            others = [name for name in known if name != one.name]
-            raise SceneError(f"{one.name}.orbit.about", about, nearest(about, others))
+        if about not in known or about == member.name:
+            others = [name for name in known if name != member.name]
+            raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
         return about
-    if one is not body:
+    if member is not body:
         return body.name
     left = [name for name, other in known.items() if other.orbit is None and other is not body]
     if len(left) > 1:
-        raise SceneError(f"{one.name}.orbit.about", "", f"say which it is: {', '.join(left)}")
+        raise SceneError(f"{member.name}.orbit.about", "", f"say which it is: {', '.join(left)}")
     return left[0] if left else ""
 
 
@@ -112,58 +108,60 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
             seen.append(at)
 
 
-def _ellipse(one: Body, centre: Body, body: Body) -> Ellipse:
+def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     """Elements in SI, with the plane that they are counted from."""
-    given = one.orbit
-    assert given is not None
-    a, motion = size_and_motion(one, centre)
-    refuse_overlap(one, centre, a)
-    node = 0.0 if given.node_period is None else 2 * math.pi / given.node_period
-    turn = 0.0 if given.pericentre_period is None else 2 * math.pi / given.pericentre_period
+    orbit = member.orbit
+    assert orbit is not None
+    a, motion = size_and_motion(member, centre)
+    refuse_overlap(member, centre, a)
+    node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
+    turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
     return Ellipse(
         a=a,
-        e=given.e,
-        i=given.i,
-        node=given.node,
-        pericentre=given.pericentre,
-        mean_anomaly=given.mean_anomaly,
-        epoch=given.epoch,
+        e=orbit.e,
+        i=orbit.i,
+        node=orbit.node,
+        pericentre=orbit.pericentre,
+        mean_anomaly=orbit.mean_anomaly,
+        epoch=orbit.epoch,
         motion=motion - node - turn,
         node_rate=node,
         pericentre_rate=turn,
-        plane=Plane.of(given.plane, body.pole, body.orbit_pole),
+        plane=Plane.of(orbit.plane, body.pole, body.orbit_pole),
     )
 
 
-def refuse_overlap(one: Body, centre: Body, a: float, advice: str = "") -> None:
+def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
     """Refuse an orbit of half the long axis `a` (m) whose pericentre lies inside a body.
 
     Raises
     ------
     SceneError
     """
-    assert one.orbit is not None
-    reach, names = extent(one) + extent(centre), (f"'{one.name}'", f"'{centre.name}'")
-    if inside := overlap(a * (1 - one.orbit.e), reach, *names):
-        shown = f"a = {a:.6g} m, e = {one.orbit.e:g}"
-        raise SceneError(f"{one.name}.orbit", shown, f"{inside}{advice}")
+    assert member.orbit is not None
+    reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
+    if inside := overlap(a * (1 - member.orbit.e), reach, *names):
+        shown = f"a = {a:.6g} m, e = {member.orbit.e:g}"
+        raise SceneError(f"{member.name}.orbit", shown, f"{inside}{advice}")
 
 
-def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
+def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law."""
-    given = one.orbit
-    assert given is not None
-    a, period = given.a, given.period
-    if hasattr(one.gm, "dims") or hasattr(centre.gm, "dims"):
+    orbit = member.orbit
+    assert orbit is not None
+    a, period = orbit.a, orbit.period
+    if hasattr(member.gm, "dims") or hasattr(centre.gm, "dims"):
         if a is None or period is None:
             raise SceneError(
-                f"{one.name}.orbit", str(given), "masses are an array here: give both a and period"
+                f"{member.name}.orbit",
+                str(orbit),
+                "masses are an array here: give both a and period",
             )
         return a, 2 * math.pi / period
-    gm = float(one.gm + centre.gm)
+    gm = float(member.gm + centre.gm)
     if not gm > 0:
         if a is None or period is None:
-            raise SceneError(f"{one.name}.orbit", str(given), "nothing here has a mass")
+            raise SceneError(f"{member.name}.orbit", str(orbit), "nothing here has a mass")
         return a, 2 * math.pi / period
     if a is None:
         assert period is not None
@@ -173,7 +171,7 @@ def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
         return a, 2 * math.pi / by_law
     if abs(period / by_law - 1) > THIRD_LAW:
         raise SceneError(
-            f"{one.name}.orbit",
+            f"{member.name}.orbit",
             f"a = {a:.6g} m, period = {period:.6g} s",
             f"they contradict each other: about {gm:.6g} m3 s-2 this a has a period of "
             f"{by_law:.6g} s; give one of the two",
@@ -183,21 +181,19 @@ def size_and_motion(one: Body, centre: Body) -> tuple[float, float]:
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Whether elements alone place everything that pulls, as seen from the body."""
-    if not any(one.orbit is not None for one in (body, *perturbers)):
+    if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
-    chains = ellipse_chains(body, perturbers)
-    return all(one.name in chains and chains[one.name].start is body for one in perturbers)
+    by_name = ellipse_chains(body, perturbers)
+    return all(p.name in by_name and by_name[p.name].start is body for p in perturbers)
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
-    if not any(one.orbit is not None for one in (body, *perturbers)):
+    by_name = ellipse_chains(body, perturbers)
+    single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
+    if len(by_name) < len(perturbers) or not single:
         return None
-    chains = ellipse_chains(body, perturbers)
-    single = len(chains) == len(perturbers) and all(
-        chain.start is body and len(chain.ellipses) == 1 for chain in chains.values()
-    )
-    return "orbits by their elements have exact means" if single else None
+    return "orbits by their elements have exact means"
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:

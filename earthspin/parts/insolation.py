@@ -92,11 +92,11 @@ def daily_insolation(
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
     phi = _angle(latitude, "latitude", np.pi / 2)
     sun = _angle(solar_longitude, "solar_longitude", _TURN)
-    of = partial(
+    insolation = partial(
         _insolation, latitude=phi, longitude=sun, true=true_longitude, share=_share(days, body)
     )
     middle = [si(result[name]) for name in _NEEDED]
-    value = of(*middle)
+    value = insolation(*middle)
     squares = xr.zeros_like(value)
     for place, name in enumerate(_NEEDED):
         half = si(result[f"{name}_error"])
@@ -104,7 +104,7 @@ def daily_insolation(
         def moved(by: Numeric, place: int = place, half: xr.DataArray = half) -> xr.DataArray:
             changed = list(middle)
             changed[place] = changed[place] + by * half
-            return of(*changed)
+            return insolation(*changed)
 
         share = (moved(1) - moved(-1)) / 2
         if name == _TURNING and bool((half > SAMPLED_FROM).any()):
@@ -113,16 +113,16 @@ def daily_insolation(
     constant = _constant(solar_constant, body)
     error: xr.DataArray = constant * squares**0.5
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    found = (constant * value).rename("daily_insolation")
+    answer = (constant * value).rename("daily_insolation")
     kind = "true" if true_longitude else "mean"
-    found.attrs = {
+    answer.attrs = {
         "units": "W m-2",
         "long_name": "sunlight at the top of the atmosphere, mean over a day",
         "solar_constant": constant,
         "comment": f"{kind} longitude of the Sun from the moving equinox",
         "references": "Berger 1978, J. Atmos. Sci. 35, 2362",
     }
-    return found.assign_coords(daily_insolation_error=error)
+    return answer.assign_coords(daily_insolation_error=error)
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
@@ -145,11 +145,11 @@ def _insolation(
 ) -> xr.DataArray:
     """As a share of the solar constant; plain arithmetic on labelled arrays."""
     arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
-    eps, e, w, phi, sun = (one.values for one in arrays)
+    eps, e, w, phi, sun = (array.values for array in arrays)
     season = Season(eps, e, w)
     sun = sun if true else true_longitude(season, sun)
-    found = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
-    return arrays[0].copy(data=found)
+    mean = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
+    return arrays[0].copy(data=mean)
 
 
 def _angle(given: Any, name: str, most: float) -> xr.DataArray:

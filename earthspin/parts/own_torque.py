@@ -72,10 +72,10 @@ class OwnTorque:
 
         def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
             try:
-                given: Any = self.law(times, q, omega)
-                if hasattr(given, "to_value"):  # a Quantity
-                    given = given.to_value("N m")
-                found = np.broadcast_to(real_numbers(given), omega.shape)
+                returned: Any = self.law(times, q, omega)
+                if hasattr(returned, "to_value"):  # a Quantity
+                    returned = returned.to_value("N m")
+                values = np.broadcast_to(real_numbers(returned), omega.shape)
             except EarthspinError:
                 raise
             except Exception as error:  # whatever somebody's function meets
@@ -85,12 +85,12 @@ class OwnTorque:
                     f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
                     f"({times.size}, 3) and gives N m of the last shape"
                 ) from None
-            if not np.isfinite(found).all():
+            if not np.isfinite(values).all():
                 raise UndefinedError(
                     "the torque of your own is not finite "
-                    f"{float(times[~np.isfinite(found).all(axis=1)][0]):.6g} s from the "
+                    f"{float(times[~np.isfinite(values).all(axis=1)][0]):.6g} s from the "
                     "start; give N m for each time"
                 )
-            return np.asarray(found / polar_moment)
+            return np.asarray(values / polar_moment)
 
         return torque

@@ -11,11 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
+from earthspin.choosing.choice import Choice
+from earthspin.choosing.windows import PoleWindows
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.dates import TimeGrid, TimeList
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
-from earthspin.motion.axes import error_of_input
+from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.figure import fastest_sweep
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
@@ -29,13 +32,11 @@ from earthspin.sky.kernel_differences import DRIFT_FROM, growth
 from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
-    from earthspin.choosing.choice import Choice
-    from earthspin.choosing.windows import PoleWindows
-    from earthspin.dates import TimeGrid, TimeList
-    from earthspin.motion.axes import AxisPath
     from earthspin.nutation.analysis import PoleAnalysis, Secular
     from earthspin.nutation.nutation import Circles
     from earthspin.nutation.response import Response
+
+ComplexArray = NDArray[np.complex128]
 
 #: Half of the stretch about J2000.0 that is analysed, as far as the kernel has it: four turns of
 #: the node each way, in which slow changes are a short polynomial.
@@ -74,11 +75,11 @@ def axis_path(
                 raise
             continue  # windows that are too wide for the slow manifold of this spin
         tried.append(path)
-        if choice is None or _largest(path, epochs, body, pulls) <= (accuracy or 0.0):
+        if choice and _largest_shares(path, epochs, body, pulls)["total"] <= (accuracy or 0.0):
             break
-    if not tried[1:]:
+    if len(tried) == 1:
         return tried[0]
-    return min(tried, key=lambda path: _largest(path, epochs, body, pulls))
+    return min(tried, key=lambda path: _largest_shares(path, epochs, body, pulls)["total"])
 
 
 @dataclass(frozen=True)
@@ -133,14 +134,14 @@ def errors_of(
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return Errors(
         method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
-        given=error_of_input(path, figure, u_h),
+        given=axes.error_of_input(path, figure, u_h),
         kernel=_error_of_sky(path, figure, epochs, body, pulls),
         response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
     )
 
 
 @dataclass(frozen=True)
-class Largest:
+class LargestError:
     """Largest error of a series.
 
     Attributes
@@ -162,7 +163,7 @@ def largest_error(
     body: Body,
     pulls: Pulls,
     interior_shift: Shift | None = None,
-) -> Largest:
+) -> LargestError:
     """The largest error of the whole series, before the first of its stretches is written."""
     remedies = {
         "kernel": "the sky is no better known that far from J2000.0",
@@ -171,18 +172,20 @@ def largest_error(
         "method": "the integration takes the finest windows",
     }
     shares = _largest_shares(axis_path, epochs, body, pulls, interior_shift)
-    return Largest(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
-
-
-def _largest(path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls) -> float:
-    """Largest error that windows decide on: the response has none."""
-    return _largest_shares(path, epochs, body, pulls, None)["total"]
+    return LargestError(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
 
 
 def _largest_shares(
-    path: AxisPath, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls, shift: Shift | None
+    path: AxisPath,
+    epochs: TimeGrid | TimeList,
+    body: Body,
+    pulls: Pulls,
+    shift: Shift | None = None,
 ) -> dict[str, float]:
-    """Largest error of a direction at the times wanted, total and by share, rad."""
+    """Largest error of a direction at the times wanted, total and by share, rad.
+
+    Windows decide on all shares but that of the response, which is left out without a shift.
+    """
     largest: dict[str, float] = {}
     for first in range(0, epochs.size, _AT_ONCE):
         days = epochs.days(first, min(first + _AT_ONCE, epochs.size))
@@ -227,8 +230,8 @@ def _error_of_sky(
 ) -> FloatArray:
     """95 % half-width of a direction from where the bodies may be off, rad, shape (t,)."""
     _, epoch = start_of(body, pulls)
-    found = pulls.sky.positions(np.array([epoch / DAY]))
-    distance = {name: float(np.linalg.norm(place)) for name, place in found.items()}
+    positions = pulls.sky.positions(np.array([epoch / DAY]))
+    distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
     drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
     speed = fastest_sweep(
         body.number("dynamical_flattening"),
@@ -248,17 +251,15 @@ def _follow(
     start: FloatArray | None,
 ) -> AxisPath:
     """Integrate on chosen windows, or on the finest, from the body's own pole or another start."""
-    from earthspin.motion.axes import WINDOW, axis_path, window_count
-
     pulls.sky.check_times(epochs.span(), pulls.targets)
     own, epoch = start_of(body, pulls)
     axis = own if start is None else start
     first, last = epochs.span()
     span = first * DAY, last * DAY
     settings = {} if choice is None else vars(choice.settings)
-    window = WINDOW if choice is None else choice.settings.window
-    with progress("pole", window_count(epoch, span, window)) as advance:
-        path = axis_path(
+    window = axes.WINDOW if choice is None else choice.settings.window
+    with progress("pole", axes.window_count(epoch, span, window)) as advance:
+        path = axes.axis_path(
             forces_of(body, pulls, effects),
             axis,
             epoch,
@@ -275,7 +276,7 @@ def _follow(
 
 
 @dataclass(frozen=True)
-class Analysed:
+class PoleComparison:
     """Our pole and the IAU's, analysed alike.
 
     Attributes
@@ -294,8 +295,8 @@ class Analysed:
         Our rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
     """
 
-    days: NDArray[np.float64]
-    start: NDArray[np.float64]
+    days: FloatArray
+    start: FloatArray
     epoch: float
     path: AxisPath
     analysis: PoleAnalysis
@@ -303,33 +304,31 @@ class Analysed:
     theirs: Secular
     our_circles: Circles
     their_circles: Circles
-    difference: NDArray[np.complex128]
+    difference: ComplexArray
 
-    def pole(
-        self, path: AxisPath, days: NDArray[np.float64], axis: str = "figure"
-    ) -> NDArray[np.float64]:
-        """Unit vectors of one axis without the semidiurnal motion."""
-        return path.at(days * DAY, semidiurnal=False)[axis]
+
+def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
+    """Unit vectors of the figure axis without the semidiurnal motion, shape (t, 3)."""
+    return path.at(days * DAY, semidiurnal=False)["figure"]
 
 
 def path_over(
     body: Body,
     pulls: Pulls,
     effects: Sequence[str],
-    start: NDArray[np.float64],
-    days: NDArray[np.float64],
+    start: FloatArray,
+    days: FloatArray,
 ) -> AxisPath:
-    """Axes over some days, the sky kept for the next run over the same."""
-    from earthspin.motion.axes import axis_path
-
+    """Axes of the rigid body over some days, the sky kept for the next run over the same."""
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
-    return axis_path(forces, start, epoch, (days[0] * DAY, days[-1] * DAY), limits=pulls.limits)
+    span = days[0] * DAY, days[-1] * DAY
+    return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
 
 
 def iau_nutation(
     pulls: Pulls, epochs: TimeGrid | TimeList
-) -> tuple[FloatArray, FloatArray, NDArray[np.complex128]]:
+) -> tuple[FloatArray, FloatArray, ComplexArray]:
     """Nutation of the IAU at the days of a series.
 
     Returns
@@ -358,7 +357,7 @@ def iau_nutation(
     return days, ends, complex_nutation(angles)
 
 
-def residual_error(analysed: Analysed, body: Body, eta: NDArray[np.complex128]) -> float:
+def residual_error(analysed: PoleComparison, body: Body, eta: ComplexArray) -> float:
     """95 % half-width of either angle of a residual, from the integration and H in nutation."""
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
@@ -370,7 +369,7 @@ def rigid(effects: Sequence[str]) -> list[str]:
 
 
 @part(unless=no_iau_model)
-def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analysed:
+def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
     from earthspin.nutation.nutation import complex_nutation
@@ -386,9 +385,9 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
         )
     start, epoch = start_of(body, pulls)
 
-    def follow(start: NDArray[np.float64]) -> tuple[AxisPath, NDArray[np.float64]]:
+    def follow(start: FloatArray) -> tuple[AxisPath, FloatArray]:
         path = path_over(body, pulls, effects, start, days)
-        return path, path.at(days * DAY, semidiurnal=False)["figure"]
+        return path, steady_figure(path, days)
 
     with progress("analysis", 4) as advance:
         analysis = PoleAnalysis(
@@ -407,7 +406,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
         their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
         advance(1)
     eta = complex_nutation(iau.nutation_of(pole, days))
-    return Analysed(
+    return PoleComparison(
         days=days,
         start=start,
         epoch=epoch,
@@ -422,23 +421,35 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> Analyse
 
 
 @part
-def core_response(pole_analysis: Analysed, body: Body) -> Response:
+def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
     """Resonance form fitted to IAU 2000A over our rigid amplitudes."""
-    from earthspin.nutation.response import SUN_SYNCHRONOUS, fit_response
-
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    used = np.any(ours.multiples != SUN_SYNCHRONOUS, axis=1)
+    return _fitted(ours, ours.amplitude, theirs.amplitude, body)
+
+
+def _fitted(circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body) -> Response:
+    """Response by which circles of one amplitude follow from those of a rigid body."""
+    from earthspin.nutation.response import fit_response
+
+    used = _used(circles)
     return fit_response(
-        ours.frequency[used],
-        ours.amplitude[used],
-        theirs.amplitude[used],
+        circles.frequency[used],
+        rigid[used],
+        other[used],
         body.number("dynamical_flattening"),
         float(body.spin_rate),
     )
 
 
+def _used(circles: Circles) -> NDArray[np.bool_]:
+    """Circles that a response is fitted to: all but the prograde year."""
+    from earthspin.nutation.response import SUN_SYNCHRONOUS
+
+    return np.asarray(np.any(circles.multiples != SUN_SYNCHRONOUS, axis=1))
+
+
 @dataclass(frozen=True)
-class Apart:
+class ResponseFit:
     """A response that is not allowed to absorb what no response makes.
 
     Attributes
@@ -458,19 +469,18 @@ class Apart:
 
     response: Response
     used: NDArray[np.bool_]
-    rigid: NDArray[np.complex128]
-    left: NDArray[np.complex128]
-    added: NDArray[np.complex128]
+    rigid: ComplexArray
+    left: ComplexArray
+    added: ComplexArray
 
 
 @part
 def response_apart(
-    pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
-) -> Apart:
+    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+) -> ResponseFit:
     """Resonance form fitted with geodesic nutation and additive terms taken away."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.nutation import complex_nutation
-    from earthspin.nutation.response import SUN_SYNCHRONOUS, fit_response
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -480,20 +490,14 @@ def response_apart(
         # A turn of the frame is no torque: the body does not answer to it.
         rest = [effect for effect in effects if effect != GEODESIC.name]
         path = path_over(body, pulls, rest, done.start, done.days)
-        eta = complex_nutation(iau.nutation_of(done.pole(path, done.days), done.days))
+        pole = steady_figure(path, done.days)
+        eta = complex_nutation(iau.nutation_of(pole, done.days))
         torques = done.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
-    used = np.any(ours.multiples != SUN_SYNCHRONOUS, axis=1)
-    response = fit_response(
-        ours.frequency[used],
-        torques[used],
-        (theirs - added)[used],
-        body.number("dynamical_flattening"),
-        float(body.spin_rate),
-    )
+    response = _fitted(ours, torques, theirs - added, body)
     left = theirs - response.transfer(ours.frequency) * torques
-    return Apart(response, used, torques, left, added)
+    return ResponseFit(response, _used(ours), torques, left, added)
 
 
 @dataclass(frozen=True)
@@ -516,34 +520,30 @@ class Shift:
         Half-width that, with the departure, contains 95 % of the distances from it, rad.
     """
 
-    start: NDArray[np.float64]
+    start: FloatArray
     epoch: float
     circles: Circles
     rate: float
     closure: float
     residual: float
 
-    def eta(self, days: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Shift in nutation as dpsi sin(eps0) + i deps, rad."""
+    def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
+        """Move the axes in place: all of them precess, those of the mantle also nutate."""
         from earthspin.sky import iau
 
-        return self.circles.at(iau.delaunay_arguments(days))
-
-    def apply(self, axes: dict[str, NDArray[np.float64]], days: NDArray[np.float64]) -> None:
-        """Move the axes in place: all of them precess, those of the mantle also nutate."""
-        from earthspin.sky.iau import moved_by_nutation
-
-        precession, nutation = self.rate * (days * DAY - self.epoch), self.eta(days)
-        for name in axes:
+        precession = self.rate * (days * DAY - self.epoch)
+        nutation = self.circles.at(iau.delaunay_arguments(days))
+        for name, axis in directions.items():
             of_mantle = 0.0 if name == "angular_momentum" else 1.0
-            axes[name] = moved_by_nutation(axes[name], precession + of_mantle * nutation, days)
+            shift = precession + of_mantle * nutation
+            directions[name] = iau.moved_by_nutation(axis, shift, days)
 
-    def half_width(self, days: NDArray[np.float64]) -> NDArray[np.float64]:
+    def half_width(self, days: FloatArray) -> FloatArray:
         """95 % half-width of the direction, from the response and the closure of the rates, rad."""
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
-def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Sequence[str]) -> Shift:
+def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
     """Shift by circles of given amplitudes, and what it leaves of the distance from the IAU."""
     from earthspin.sky import iau
 
@@ -570,7 +570,7 @@ def _shift(analysed: Analysed, amplitude: NDArray[np.complex128], effects: Seque
 
 @part
 def nonrigid_shift(
-    pole_analysis: Analysed, response_apart: Apart, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
 ) -> Shift:
     """What core, mantle, oceans and atmosphere add to rigid nutation, fitted to IAU 2000A."""
     factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
@@ -580,7 +580,7 @@ def nonrigid_shift(
 
 @part(unless=no_layers)
 def predicted_shift(
-    pole_analysis: Analysed, prediction: Prediction, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
 ) -> Shift:
     """What the interior adds to the rigid nutations, predicted from its layers."""
     circles = pole_analysis.our_circles

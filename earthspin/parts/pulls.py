@@ -5,56 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Annotated
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Annotated
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, Body
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
-from earthspin.errors import Where
 from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import Series
-from earthspin.units import Plain, Several, Word
-
-if TYPE_CHECKING:
-    from earthspin.motion.forces import Figure, Forces
-    from earthspin.sky.protocol import Place
-
-
-class EffectWord:
-    """Kind of an effect: its word."""
-
-    @property
-    def hint(self) -> str:
-        """Type for editors."""
-        return Word(tuple(EFFECTS)).hint
-
-    @property
-    def words(self) -> str:
-        """What may be given."""
-        return Word(tuple(EFFECTS)).words
-
-    def read(self, given: object, where: Where) -> str:
-        """Check."""
-        return Word(tuple(EFFECTS)).read(given, where)
-
-    def write(self, value: str) -> Plain:
-        """Give the word."""
-        return value
+from earthspin.sky.protocol import Place
+from earthspin.units import FloatArray, Several, Word
 
 
 class AxisMotion(Series):
     """Keys of every question about axes that move under torques."""
 
-    effects: Annotated[tuple[str, ...], Several(EffectWord())] = key(
+    effects: Annotated[tuple[str, ...], Several(Word(EFFECTS))] = key(
         RIGID, doc="effects besides the torque of the perturbers on the bulge"
     )
 
@@ -85,8 +56,6 @@ class Pulls:
         m3 s-2; the question's perturbers first, planets behind them.
     targets : dict of str to Place
         Where the source finds them.
-    near : tuple of str
-        The question's perturbers.
     limits : tuple of float
         s from J2000.0 TDB between which all of them can be placed.
     """
@@ -94,15 +63,14 @@ class Pulls:
     sky: Sky
     gm: dict[str, float]
     targets: dict[str, Place]
-    near: tuple[str, ...]
     limits: tuple[float, float]
-    _seen: dict[tuple[float, float, int], dict[str, NDArray[np.float64]]] = field(
+    _seen: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
         default_factory=dict, repr=False
     )
 
     def positions(
-        self, names: Sequence[str], times: NDArray[np.float64], keep: bool
-    ) -> dict[str, NDArray[np.float64]]:
+        self, names: Sequence[str], times: FloatArray, keep: bool
+    ) -> dict[str, FloatArray]:
         """Places of some of them at times in s; kept for runs that ask for the same again."""
         at = (float(times[0]), float(times[-1]), times.size)
         known = self._seen.setdefault(at, {}) if keep else {}
@@ -123,17 +91,18 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
                 masses[name] = float(BODIES[name].gm)
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)
-    return Pulls(sky, masses, targets, tuple(sky.targets), (start * DAY, end * DAY))
+    return Pulls(sky, masses, targets, (start * DAY, end * DAY))
 
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Forces with some effects switched on and no other evaluated."""
+    near = tuple(pulls.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
-        gm={name: pulls.gm[name] for name in pulls.near},
-        far={name: gm for name, gm in pulls.gm.items() if name not in pulls.near},
+        gm={name: pulls.gm[name] for name in near},
+        far={name: gm for name, gm in pulls.gm.items() if name not in near},
         positions=lambda times: {},
-        near=pulls.near,
+        near=near,
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
     forces = switched_on(forces, body, effects)
@@ -161,7 +130,7 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
     return forces
 
 
-def start_of(body: Body, pulls: Pulls) -> tuple[NDArray[np.float64], float]:
+def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
     """Figure axis to start with, and when (s): J2000.0, or as near as the kernel reaches."""
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
     return body.needed("pole").true(epoch / DAY), epoch

@@ -32,18 +32,18 @@ class SideBySide:
     labels: Mapping[Any, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, **given: Any) -> Self:
+    def of(cls, **values: Any) -> Self:
         """Lay numbers and labelled arrays against one another."""
-        arrays = {name: one for name, one in given.items() if hasattr(one, "dims")}
+        arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
         if not arrays:
-            return cls(given)
+            return cls(values)
         import xarray as xr
 
         laid = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
         first = next(iter(laid.values()))
         numbers = {
-            name: np.broadcast_to(laid[name].values if name in laid else one, first.shape)
-            for name, one in given.items()
+            name: np.broadcast_to(laid[name].values if name in laid else value, first.shape)
+            for name, value in values.items()
         }
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 

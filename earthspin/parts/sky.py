@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.equator import rotate, spherical
+from earthspin.sky.poles import Pole
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,
@@ -35,9 +36,7 @@ from earthspin.sky.sources import (
 )
 
 if TYPE_CHECKING:
-    from earthspin.sky.elements import Ellipse
     from earthspin.sky.iau import Nutation
-    from earthspin.sky.poles import Pole
 
 FloatArray = NDArray[np.float64]
 
@@ -153,54 +152,24 @@ def unmeasured(body: Body) -> bool:
     return body.position is not None and not is_measured(body.position)
 
 
-class Address(NamedTuple):
-    """How a body is known to a source.
-
-    Attributes
-    ----------
-    name : str
-    codes : tuple of int
-        NAIF; of a body that has ellipses, the codes of where the first one begins.
-    position : vector function or Trajectory or None
-        Its own place, if it has one.
-    ellipses : tuple of (Ellipse, int)
-        That lead to it, if it has elements; -1 where one is gone back.
-    """
-
-    name: str
-    codes: tuple[int, ...]
-    position: Any = None
-    ellipses: tuple[tuple[Ellipse, int], ...] = ()
-
-    def in_source(self, source: Source) -> Place:
-        """Where a source finds it."""
-        if not self.ellipses:
-            return place_of(source, self.name, self.codes, self.position)
-        return self.by_elements(source.code(self.codes, self.name))
-
-    def by_elements(self, centre: int) -> Place:
-        """Where ellipses put it, from a NAIF code on."""
-        return ByElements(self.ellipses, centre)
-
-
 @dataclass(frozen=True)
 class Places:
-    """How the bodies of a question are known to a source of positions.
+    """What places the bodies of a question.
 
     Attributes
     ----------
-    centre : Address
-        Of the body that spins.
-    targets : tuple of Address
-        Of each perturber.
+    body : Body
+        That spins.
+    targets : dict of str to EllipseChain
+        Ellipses that lead to each perturber; a chain without ellipses starts from itself.
     reach : dict of str to float
         How near each perturber may come, m: the radii of both bodies, the largest of arrays.
     by_elements : bool
-        Whether ellipses lead from the centre to all of them: no kernel is needed.
+        Whether ellipses lead from the body to all of them: no kernel is needed.
     """
 
-    centre: Address
-    targets: tuple[Address, ...]
+    body: Body
+    targets: dict[str, EllipseChain]
     reach: dict[str, float]
     by_elements: bool = False
 
@@ -233,8 +202,10 @@ class Sky:
             for name, place in self.targets.items()
             if not isinstance(place, int) and self.source.name != BY_ELEMENTS
         }
-        told = {"own_positions": "; ".join(f"{n}: {of}" for n, of in own.items())} if own else {}
-        return self.source.provenance | {"pyerfa_version": version("pyerfa")} | told
+        attributes = self.source.provenance | {"pyerfa_version": version("pyerfa")}
+        if own:
+            attributes["own_positions"] = "; ".join(f"{name}: {text}" for name, text in own.items())
+        return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """How far a body may be from where it is seen, at the worst of some days: rad and m."""
@@ -264,7 +235,7 @@ class Sky:
 
     def place(self, body: Body) -> Place:
         """Where the source finds another body."""
-        return place_of(self.source, body.name, body.naif, body.position)
+        return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
         """First and last day on which the bodies can be placed; the perturbers by default."""
@@ -296,10 +267,10 @@ class Sky:
             If a perturber overlaps the body: torques on the bulge hold outside alone.
         """
         targets = self.targets if targets is None else targets
-        found = self.source.positions(targets, self.centre, days)
-        for name, place in found.items():
-            self._refuse_inside(name, np.einsum("ti,ti->t", place, place))
-        return found
+        positions = self.source.positions(targets, self.centre, days)
+        for name, position in positions.items():
+            self._refuse_inside(name, np.einsum("ti,ti->t", position, position))
+        return positions
 
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
         """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
@@ -352,7 +323,7 @@ class Sky:
             return seen
         axes = equator(days)
         positions = self.positions(days, targets)
-        return {name: spherical(rotate(axes, place)) for name, place in positions.items()}
+        return {name: spherical(rotate(axes, position)) for name, position in positions.items()}
 
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
@@ -369,33 +340,26 @@ class Stretch:
     last: float
 
 
-def address(body: Body) -> Address:
-    """How a body is known to a source."""
-    return Address(body.name, body.naif, body.position)
-
-
-def _address_by_chain(body: Body, chain: EllipseChain | None) -> Address:
-    """How a body is known to a source, or where ellipses to it begin."""
-    if chain is None:
-        return address(body)
-    start = chain.start
-    if start.position is not None:
-        raise SceneError(
-            f"{body.name}.orbit",
-            str(body.orbit),
-            f"'{start.name}' has no NAIF code, but a position",
-        )
-    return Address(body.name, start.naif, None, chain.ellipses)
+def _place(source: Source, name: str, chain: EllipseChain) -> Place:
+    """Where a source finds a body: by itself, or at the end of its ellipses."""
+    if chain.ellipses:
+        return ByElements(chain.ellipses, source.code(chain.start.naif, name))
+    return place_of(source, name, chain.start.naif, chain.start.position)
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Names, codes, own places and elements of the bodies."""
-    chains = ellipse_chains(body, perturbers)
+    targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
+    for p in perturbers:
+        start = targets[p.name].start
+        if targets[p.name].ellipses and start.position is not None:
+            problem = f"'{start.name}' has no NAIF code, but a position"
+            raise SceneError(f"{p.name}.orbit", str(p.orbit), problem)
     return Places(
-        address(body),
-        tuple(_address_by_chain(one, chains.get(one.name)) for one in perturbers),
-        {one.name: extent(body) + extent(one) for one in perturbers},
+        body,
+        targets,
+        {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
     )
 
@@ -404,25 +368,27 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Say which source the positions come from."""
     if all_by_elements(body, perturbers):
         return "positions by the elements of orbits; no kernel is opened"
-    told = [f"positions {describe_source(source, ephemeris)}"]
-    told += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
-    told += [
-        f"{one.name} by {describe_position(one.position)}"
-        for one in (body, *perturbers)
-        if one.position is not None
+    phrases = [f"positions {describe_source(source, ephemeris)}"]
+    phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
+    phrases += [
+        f"{member.name} by {describe_position(member.position)}"
+        for member in (body, *perturbers)
+        if member.position is not None
     ]
-    return "; ".join(told)
+    return "; ".join(phrases)
 
 
 @part(tells=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:
-        ellipses = {one.name: one.by_elements(CENTRE) for one in places.targets}
+        ellipses: dict[str, Place] = {
+            name: ByElements(chain.ellipses, CENTRE) for name, chain in places.targets.items()
+        }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
-    centre = places.centre.in_source(opened)
-    targets = {one.name: one.in_source(opened) for one in places.targets}
+    centre = _place(opened, places.body.name, EllipseChain(places.body))
+    targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")

@@ -31,10 +31,10 @@ from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
-from earthspin.nutation.budget import budget_of, published_effects
+from earthspin.nutation.budget import Budget, budget_of, published_effects
 from earthspin.parts.path import (
-    Analysed,
-    Apart,
+    PoleComparison,
+    ResponseFit,
     Shift,
     core_response,
     iau_nutation,
@@ -45,6 +45,7 @@ from earthspin.parts.path import (
     residual_error,
     response_apart,
     rigid,
+    steady_figure,
 )
 from earthspin.parts.predicted import prediction
 from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_of
@@ -53,7 +54,6 @@ from earthspin.parts.times import Dated, epochs
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
-    from earthspin.nutation.budget import Budget
     from earthspin.nutation.response import Response
 
 #: The terms of the nutation table.
@@ -110,7 +110,7 @@ class IAU(AxisMotion, word="iau", call="compare_iau", positional=("start", "stop
 
 @part
 def rates_by_effect(
-    pole_analysis: Analysed, pulls: Pulls, body: Body, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
     """Rates at J2000.0 effect by effect, each measured by switching it off."""
     from earthspin.sky.iau import precession_rates
@@ -121,7 +121,7 @@ def rates_by_effect(
         for effect in on:
             rest = [e for e in on if e != effect]
             path = path_over(body, pulls, rest, done.start, done.days)
-            without[effect] = done.analysis.secular(done.pole(path, done.days))
+            without[effect] = done.analysis.secular(steady_figure(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
@@ -251,7 +251,7 @@ class Differences:
 
 @part
 def differences(
-    pole_analysis: Analysed,
+    pole_analysis: PoleComparison,
     nonrigid_shift: Shift,
     pulls: Pulls,
     epochs: TimeGrid | TimeList,
@@ -426,7 +426,7 @@ class Nutation(Variables, along=("term",)):
 
 
 @part
-def nutation(pole_analysis: Analysed, core_response: Response) -> Nutation:
+def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.nutation.nutation import phases, term_names
@@ -509,7 +509,9 @@ class Core(Variables):
 
 
 @part
-def core(pole_analysis: Analysed, core_response: Response, response_apart: Apart) -> Core:
+def core(
+    pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
+) -> Core:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
     from earthspin.nutation.nutation import phases, term_names
     from earthspin.nutation.response import added_half_width
@@ -555,7 +557,7 @@ class Angles(Variables, along=("angle", "degree")):
 
 
 @part
-def angles(pole_analysis: Analysed, body: Body) -> Angles:
+def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
     from earthspin.nutation.nutation import SLOW_DEGREE
     from earthspin.sky import iau

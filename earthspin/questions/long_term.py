@@ -190,7 +190,7 @@ def numbers(
     return SideBySide.of(
         **{
             name: of_one(mean_rates.rate.value, place)
-            for place, name in enumerate(mean_rates.labels)
+            for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
         published=_published() * as_published,
@@ -382,7 +382,7 @@ def series(
     accuracy: float | None,
 ) -> LongTermSeries:
     """Angles, eccentricity, poles and rates at every epoch, each with its error."""
-    mine, lay = readings.mine, numbers.lay
+    nominal, lay = readings.mine, numbers.lay
     pole_error = readings.direction_half_width("pole")
     refuse_unkept(
         accuracy,
@@ -392,19 +392,19 @@ def series(
     )
     with_moon = solved.setting.strength.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
-    rate = np.stack([mine.values[name] for name in names], axis=-2)
+    rate = np.stack([nominal.values[name] for name in names], axis=-2)
     error = np.stack([readings.half_width(name) for name in names], axis=-2)
     window = np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR
 
     return (
         LongTermSeries(
             **{
-                name: numbers.lay_pair(mine.values[name], readings.half_width(name), "epoch")
+                name: numbers.lay_pair(nominal.values[name], readings.half_width(name), "epoch")
                 for name in _READ
             },
-            pole=lay(np.moveaxis(mine.pole, 0, -1), "epoch", "component"),
+            pole=lay(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
             pole_error=lay(pole_error, "epoch"),
-            ecliptic_pole=lay(mine.normal.T, "epoch", "component"),
+            ecliptic_pole=lay(nominal.normal.T, "epoch", "component"),
             ecliptic_pole_error=lay(readings.direction_half_width("normal"), "epoch"),
             precession_rate=numbers.lay_pair(rate, error, "perturber", "epoch"),
             precession_period=numbers.lay_pair(

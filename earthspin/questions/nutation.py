@@ -30,12 +30,12 @@ from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.rotation import mode_period
 from earthspin.nutation import ladder
 from earthspin.parts.path import (
-    Analysed,
+    PoleComparison,
     iau_nutation,
     path_over,
     pole_analysis,
     residual_error,
-    rigid,
+    steady_figure,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import AxisMotion, Pulls, pulls
@@ -114,7 +114,7 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 
 @dataclass(frozen=True)
-class Left:
+class RungResiduals:
     """What is left of each model against IAU 2000A, a constant and a rate removed.
 
     Attributes
@@ -138,21 +138,21 @@ class Left:
 
 @part
 def left(
-    pole_analysis: Analysed,
+    pole_analysis: PoleComparison,
     models: Prediction,
     pulls: Pulls,
     epochs: TimeGrid | TimeList,
     body: Body,
     effects: tuple[str, ...],
-) -> Left:
+) -> RungResiduals:
     """Computed pole with the response of each rung minus the IAU's, in time."""
     from earthspin.nutation.nutation import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(body, pulls, rigid(effects), done.start, ends)
-    own = complex_nutation(iau.nutation_of(done.pole(path, days), days))
+    path = path_over(body, pulls, effects, done.start, ends)
+    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
@@ -167,7 +167,7 @@ def left(
             angles = np.stack([eta.real, eta.imag], axis=1)
             series[name] = without_line(days / DAYS_PER_CENTURY, angles)
             advance(1)
-    return Left(days, series, residual_error(done, body, theirs))
+    return RungResiduals(days, series, residual_error(done, body, theirs))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -190,7 +190,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 
 @part
-def rung_sizes(left: Left, models: Prediction) -> RungSizes:
+def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
     """What is left against IAU 2000A, rung by rung."""
     names = models.ladder
     longitude, obliquity = left.rms(names)
@@ -216,7 +216,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 
 @part
-def beside(left: Left) -> ModelSizes:
+def beside(left: RungResiduals) -> ModelSizes:
     """The same of two models beside the ladder."""
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
@@ -254,7 +254,7 @@ class Terms(Variables, along=("term",)):
 
 
 @part
-def terms(pole_analysis: Analysed, models: Prediction) -> Terms:
+def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     """The largest circular terms of each rung, in phase and out of phase."""
     from earthspin.nutation.neighbours import amplitude_error
     from earthspin.nutation.nutation import phases, term_names
@@ -356,7 +356,7 @@ class Residuals(Dated, along=("time", "rung"), error="residual_error"):
 
 
 @part
-def residuals(left: Left, models: Prediction) -> Residuals:
+def residuals(left: RungResiduals, models: Prediction) -> Residuals:
     """Predicted pole minus the IAU's in time, rung by rung."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
     return Residuals(

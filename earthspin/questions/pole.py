@@ -15,12 +15,12 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
-from earthspin.motion.axes import AXES
+from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
-    Largest,
+    LargestError,
     Shift,
     Turns,
     axis_path,
@@ -41,8 +41,6 @@ from earthspin.units import AngleError, FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.motion.axes import AxisPath
 
 
 class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
@@ -176,7 +174,7 @@ def axes(
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
-    largest_error: Largest | None = None,
+    largest_error: LargestError | None = None,
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
@@ -293,7 +291,7 @@ class DirectionAccuracy(Report, units="uas", error_of="in direction"):
 
 @part(unless=no_accuracy)
 def pole_accuracy(
-    axes: xr.Dataset, largest_error: Largest, accuracy: float | None
+    axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
     """Accuracy of the pole: asked, estimated, and the method chosen."""
     by = axes.direction_error.attrs
@@ -316,7 +314,7 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList)
         return Neglected({"start": half}, "mas", what)
     reach = max(abs(day) for day in epochs.span())
     return Neglected(
-        {name: of.size_at(reach) for name, of in EFFECTS.items() if name not in effects},
+        {name: effect.size_at(reach) for name, effect in EFFECTS.items() if name not in effects},
         "mas",
         "largest change of direction that the model leaves out",
         SOURCE,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,6 +26,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
+from earthspin.numerics.estimate import Estimate
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
@@ -47,9 +46,6 @@ from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
 from earthspin.units import Relative
-
-if TYPE_CHECKING:
-    from earthspin.numerics.estimate import Estimate
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
@@ -114,13 +110,13 @@ def _check_accuracy(asked: float | None, rate: Estimate) -> None:
         return
     if not all_of(of_all(rate.value) != 0):
         raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, given, best = (
+    method, by_input, best = (
         float((of_all(share) / abs(of_all(rate.value))).max())
         for share in (rate.method, rate.given, rate.error)
     )
     remedy = (
-        f"the given numbers are known to {given:.2g}: give the body a better known H"
-        if given > method
+        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
+        if by_input > method
         else f"the average is known to {method:.2g}: give a longer span"
     )
     refuse_unkept(asked, best, "1", remedy)
@@ -171,17 +167,17 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         mean_torque=mean_rates.torque,
         obliquity=mean_torques.obliquity,
         reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
-        perturber=mean_rates.labels,
+        perturber=mean_torques.labels,
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         precession_rate={
             "window": mean_torques.over,
             "pole": str(body.needed("pole")),
             "plane": _plane(body),
         },
         precession_rate_error={
-            "method": mean_rates.method,
-            "evaluations": mean_rates.evaluations,
+            "method": mean_torques.method,
+            "evaluations": mean_torques.evaluations,
         },
     )
 
@@ -205,8 +201,8 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy
     return RateAccuracy(
         error_asked=accuracy,
         error_estimated=float((error / abs(rate)).max()),
-        method_chosen=mean_rates.method,
-        evaluations=mean_rates.evaluations,
+        method_chosen=mean_rates.means.method,
+        evaluations=mean_rates.means.evaluations,
     )
 
 
@@ -217,9 +213,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     """Rate against the length of the averaging window."""
 
     rate_by_window: Value = number(
-        "arcsec/yr",
-        "rate of precession by all perturbers",
-        along=("window", "window_cycles"),
+        "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
     window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
     window: Labels = labels()
@@ -382,7 +376,7 @@ def seasons(
             year, calendar.GREGORIAN_YEAR
         ),
     ).with_attributes(
-        no_error=mean_rates.no_error,
+        no_error=mean_torques.no_error,
         general_precession={
             "effects": f"torques of Sun and Moon alone; no published effects apply: {another}"
             if another
@@ -416,7 +410,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
         closure=(closure(rate, iau_rate), error),
-    ).with_attributes(no_error=mean_rates.no_error)
+    ).with_attributes(no_error=mean_torques.no_error)
 
 
 class Standstills(Variables, along=("standstill",)):

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.choosing.choice import Choice
+from earthspin.choosing.nutation import NutationNodes
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
 from earthspin.engine.asking import public_call
@@ -28,8 +30,6 @@ from earthspin.units import AngleError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from earthspin.choosing.choice import Choice
-    from earthspin.choosing.nutation import NutationNodes
     from earthspin.sky.iau import Nutation
 
 

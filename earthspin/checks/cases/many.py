@@ -34,21 +34,21 @@ TIMES = (0.0, 7.0, 90.0)
 def _beside(
     question: Question, names: Sequence[str], rows: ArrayLike, alone: Callable[..., xr.Dataset]
 ) -> Iterator[ArrayLike]:
-    """Where numbers of members side by side are not those of each asked for alone."""
+    """Yield where numbers of members side by side differ from those of each member alone."""
     values = np.array(rows, dtype=float).reshape(-1, len(names))
-    given = xr.Dataset({name: (MEMBER, of) for name, of in zip(names, values.T, strict=True)})
-    yield Ensemble(question.replace(members=given)).width == 1  # not one by one
-    many = ensemble(question, given)
+    members = xr.Dataset({n: (MEMBER, column) for n, column in zip(names, values.T, strict=True)})
+    yield Ensemble(question.replace(members=members)).width == 1  # not one by one
+    many = ensemble(question, members)
     for place, row in enumerate(values.tolist()):
-        for name, of in alone(*row).data_vars.items():
-            found = many[name]
-            found = found.isel({MEMBER: place}) if MEMBER in found.dims else found
-            yield found.values != of.values
+        for name, expected in alone(*row).data_vars.items():
+            result = many[name]
+            result = result.isel({MEMBER: place}) if MEMBER in result.dims else result
+            yield result.values != expected.values
 
 
 def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
     question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
-    return _beside(question, ROTOR, rows, lambda *of: free_rotor(of[:3], of[3:], TIMES))
+    return _beside(question, ROTOR, rows, lambda *row: free_rotor(row[:3], row[3:], TIMES))
 
 
 @holds(bound=0.0)
@@ -150,8 +150,8 @@ def _last() -> Distances:
     number = 10**7 - 1
     sequence = np.random.SeedSequence(5, spawn_key=(number,))
     own = np.random.Generator(np.random.Philox(sequence)).standard_normal(2)
-    found = _drawn(10**7, seed=5, only=[number])
-    yield [found[f"omega.{axis}"][0] - own[axis] for axis in range(2)]
+    result = _drawn(10**7, seed=5, only=[number])
+    yield [result[f"omega.{axis}"][0] - own[axis] for axis in range(2)]
 
 
 @holds(bound=2e-13)
@@ -164,9 +164,9 @@ def _correlated() -> Distances:
     r = 0.999999
     first, second = "omega.0", "omega.1"
     x, y = _drawn(200).values()
-    found = _drawn(200, correlations=[[first, second, r]])
-    yield found[first] - x
-    yield found[second] - (r * x + np.sqrt((1 - r) * (1 + r)) * y)
+    result = _drawn(200, correlations=[[first, second, r]])
+    yield result[first] - x
+    yield result[second] - (r * x + np.sqrt((1 - r) * (1 + r)) * y)
 
 
 @refused("write them to a store")
@@ -179,7 +179,7 @@ def _too_many() -> None:
     ensemble(decade, {"n": 30_000, J2_OF_BODY: {"uniform": [1.082e-3, 1.083e-3]}})
 
 
-# --- told ----------------------------------------------------------------------------------------
+# --- read ----------------------------------------------------------------------------------------
 
 
 @holds(bound=0.0)
@@ -191,8 +191,8 @@ def _one() -> Distances:
     """
     h = 1.5 * H
     alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
-    told = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
-    yield told.precession_period.values != alone.values
+    ends = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
+    yield ends.precession_period.values != alone.values
 
 
 @refused("take at least 3 members")
@@ -212,8 +212,8 @@ def _no_spread() -> Distances:
     Held against: no slope, no share and nothing unexplained
     """
     normal = {"normal": [H, 1e-30]}
-    told = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
-    yield from (of.values for of in told.data_vars.values())
+    shares = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
+    yield from (share.values for share in shares.data_vars.values())
 
 
 @holds(bound=2e-14)
@@ -226,7 +226,7 @@ def _additive() -> Distances:
     spread = np.array([1e-12, 1e-3, 1.0, 1e12])
     inputs = spread * (3 + np.random.default_rng(1).standard_normal((300, 4)))
     weights = np.array([1.0, -2.0, 0.5, 3.0]) / spread
-    told = sampling.shares_of_variance(inputs, inputs @ weights)
-    yield told.slope / weights - 1
-    yield told.share.sum() - 1
-    yield told.unexplained
+    shares = sampling.shares_of_variance(inputs, inputs @ weights)
+    yield shares.slope / weights - 1
+    yield shares.share.sum() - 1
+    yield shares.unexplained

@@ -35,8 +35,8 @@ def _one_ulp() -> Distances:
     Hard because: C - A is as small as a float can tell, and taken from eigenvalues
     Held against: that unit itself, over the moment
     """
-    found = principal_axes(np.diag([1.0, 1.0, 1.0 + EPS]))
-    yield found.c_minus_a - EPS
+    result = principal_axes(np.diag([1.0, 1.0, 1.0 + EPS]))
+    yield result.c_minus_a - EPS
 
 
 @holds(bound=5e-15)
@@ -101,13 +101,13 @@ def _far_field() -> Distances:
     f, theta = 1 / 298.25, np.radians(33.0)
     distance = np.geomspace(1.0 + 1e-12, 1e6, 40)
     r = distance[:, np.newaxis] * np.array([np.sin(theta), 0.0, np.cos(theta)])
-    found = spheroid_potential(1.0, 1.0, f, r)
+    result = spheroid_potential(1.0, 1.0, f, r)
     zonals = spheroid_zonals(f, 20)
     degrees = np.arange(21)
     powers = distance[:, np.newaxis] ** -(degrees + 1.0)
     legendre = np.array([np.polynomial.Legendre.basis(n)(np.cos(theta)) for n in degrees])
     series = np.sum(zonals * powers * legendre, axis=1)
-    yield found / series - 1
+    yield result / series - 1
 
 
 @holds(bound=0.0)
@@ -159,9 +159,9 @@ def _hardly_converging() -> Distances:
     """
     one, other = np.array([1.0, 0.2, -0.3]), 0.9 * np.array([0.3, 1.0, 0.2])
     exact = 1 / np.linalg.norm(one - other)
-    found = float(inverse_distance(one, other, 300))
+    result = float(inverse_distance(one, other, 300))
     claimed = float(inverse_distance_bound(one, other, 300))
-    yield (found - exact) / (claimed + 20 * EPS * exact)
+    yield (result - exact) / (claimed + 20 * EPS * exact)
 
 
 @holds(bound=5e-12)

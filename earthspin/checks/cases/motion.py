@@ -16,12 +16,11 @@ from scipy.spatial.transform import Rotation
 from earthspin.bodies import MOON, SUN
 from earthspin.checks.case import Distances, holds, relative_error
 from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.attitude import attitude_about, attitude_motion
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces
-from earthspin.motion.triaxial import equatorial_basis
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.averages import Samples, torque_samples
 from earthspin.parts.sky import Stretch, places, sky, stretch
@@ -103,7 +102,7 @@ def _exact_and_attitude() -> Distances:
     days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
     start, tide = _momentum(_path(days), 0.0), Tide(days * DAY)
     _, axis = axisymmetric_motion(tide, H, SPIN, start, NORTH, times)
-    _, turn = attitude_motion(tide, H, 0.0, SPIN, start, _attitude(NORTH, 0.3), times)
+    _, turn = attitude_motion(tide, H, 0.0, SPIN, start, attitude_about(NORTH, 0.3), times)
     yield _angle(Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2], axis)
 
 
@@ -116,19 +115,11 @@ def _triaxial() -> Distances:
     """
     days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
     path = _path(days, _figure(triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
-    found = path.at(times)
-    start = np.linalg.norm(_momentum(path, 0.0)) * found["angular_momentum"][0]
-    turned = _attitude(found["figure"][0], float(BODY.meridian))
+    result = path.at(times)
+    start = np.linalg.norm(_momentum(path, 0.0)) * result["angular_momentum"][0]
+    turned = attitude_about(result["figure"][0], float(BODY.meridian))
     _, turn = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, turned, times)
-    yield _angle(found["figure"], Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2])
-
-
-def _attitude(axis: FloatArray, turned: float) -> FloatArray:
-    """Quaternion of a body whose third axis is given, turned about it."""
-    first, second = equatorial_basis(axis)
-    x = np.cos(turned) * first + np.sin(turned) * second
-    frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
-    return np.asarray(frame.as_quat(scalar_first=True))
+    yield _angle(result["figure"], Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2])
 
 
 @holds(bound=2e-5, unit="arcsec/yr")
@@ -218,7 +209,7 @@ def _cost_of_attitude() -> Distances:
     Hard because: the step is bound to the turn of the body
     Held against: exponent 1 of the number of evaluations, over 8 to 32 d
     """
-    start, turned = _momentum(_path(8.0), 0.0), _attitude(NORTH, 0.3)
+    start, turned = _momentum(_path(8.0), 0.0), attitude_about(NORTH, 0.3)
 
     def count(days: float) -> int:
         tide = Tide(days * DAY)
@@ -352,8 +343,8 @@ def _obliquities() -> Distances:
     times = np.linspace(0.0, 100 * DAY, 50)
     for axis in ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]):
         forces = _forces(gm={"moon": GM["moon"]}, places=circle)
-        found = axis_path(forces, np.array(axis), 0.0, (0.0, times[-1])).at(times)["figure"]
-        yield found - axis if axis[2] else np.linalg.norm(found, axis=1) - 1
+        result = axis_path(forces, np.array(axis), 0.0, (0.0, times[-1])).at(times)["figure"]
+        yield result - axis if axis[2] else np.linalg.norm(result, axis=1) - 1
 
 
 @holds(bound=3.0, unit="uas")
@@ -364,8 +355,8 @@ def _kernel_ends() -> Distances:
     Held against: what a second of precession and nutation moves the figure axis by, 0.2 to 2 uas
     """
     times = ["1899-07-29T00:00:00", "1899-07-29T00:00:01", "2053-10-08T23:59:59", "2053-10-09"]
-    found = pole(times=times).sel(axis="figure")
-    place = np.stack([found.X, found.Y, found.Z], axis=-1)
+    result = pole(times=times).sel(axis="figure")
+    place = np.stack([result.X, result.Y, result.Z], axis=-1)
     yield _angle(place[0], place[1])
     yield _angle(place[2], place[3])
 
@@ -391,9 +382,9 @@ def _three_axes() -> Distances:
     Hard because: the three are a few milliarcseconds apart, and on one arc
     Held against: L = A w + (C - A)(w . F) F: the part of L across (1 - H) w + H F
     """
-    found = pole("2010-01-01", "2010-03-01", "1 d", effects=[])
+    result = pole("2010-01-01", "2010-03-01", "1 d", effects=[])
     momentum, rotation, figure = (
-        np.stack([found[c].sel(axis=axis).values for c in "XYZ"], axis=-1)
+        np.stack([result[c].sel(axis=axis).values for c in "XYZ"], axis=-1)
         for axis in ("angular_momentum", "rotation", "figure")
     )
     # w . F is 1 but for 1e-15

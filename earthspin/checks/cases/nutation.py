@@ -33,9 +33,9 @@ def _angles_at_the_pole() -> Distances:
     """
     for omega in (1e-150, 1e-12, 1e-3, np.pi / 2, np.pi - 1e-3):
         psi = np.linspace(-3.1, 3.1, 21)
-        found = on_fixed_ecliptic(pole_from(psi, np.full(21, omega)), np.eye(3))
-        yield (found[:, 0] - psi) / np.pi
-        yield found[:, 1] / omega - 1
+        result = on_fixed_ecliptic(pole_from(psi, np.full(21, omega)), np.eye(3))
+        yield (result[:, 0] - psi) / np.pi
+        yield result[:, 1] / omega - 1
 
 
 @holds(bound=2e-4, unit="uas")
@@ -46,9 +46,9 @@ def _still_ecliptic() -> Distances:
     Held against: eps_A = omega_A, chi_A = 0, p_A = psi_A
     """
     psi, omega = np.linspace(-2.0, 2.0, 41), np.full(41, 0.409)
-    found = precession_angles(psi, omega, np.broadcast_to([0.0, 0.0, 1.0], (41, 3)))
+    result = precession_angles(psi, omega, np.broadcast_to([0.0, 0.0, 1.0], (41, 3)))
     exact = np.column_stack([psi, omega, omega, 0 * psi, psi])
-    yield (found - exact) / UAS
+    yield (result - exact) / UAS
 
 
 @holds(bound=2000.0, unit="uas")
@@ -60,8 +60,8 @@ def _angles_of_eleven_centuries() -> Distances:
     """
     days = np.linspace(-164_000.0, 237_000.0, 60)
     exact = iau.precession_angles(days)
-    found = precession_angles(exact[:, 0], exact[:, 1], iau.ecliptic_of_date(days))
-    yield (found - exact) / UAS
+    result = precession_angles(exact[:, 0], exact[:, 1], iau.ecliptic_of_date(days))
+    yield (result - exact) / UAS
 
 
 @holds(bound=1e-7, slow=True)
@@ -74,8 +74,8 @@ def _faint_line() -> Distances:
     arguments, rates = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
     faint = np.exp(-1j * (MULTIPLES[40] @ arguments))
     eta = 1e9 * np.exp(1j * (MULTIPLES[0] @ arguments)) + faint
-    found = FrequencyAnalysis(DAYS / DAYS_PER_CENTURY, arguments, rates)(eta)
-    yield complex(found.amplitude[len(MULTIPLES) + 40]) - 1
+    result = FrequencyAnalysis(DAYS / DAYS_PER_CENTURY, arguments, rates)(eta)
+    yield complex(result.amplitude[len(MULTIPLES) + 40]) - 1
 
 
 @holds(bound=1e-9, unit="d")
@@ -91,8 +91,8 @@ def _resonance() -> Distances:
     rng = np.random.default_rng(8)
     both = ARCSEC * rng.normal(size=(2, frequency.size))
     rigid = both[0] + 1j * both[1]
-    found = fit_response(frequency, rigid, true.transfer(frequency) * rigid, H, SPIN)
-    yield (found.period - true.period) / DAY
+    result = fit_response(frequency, rigid, true.transfer(frequency) * rigid, H, SPIN)
+    yield (result.period - true.period) / DAY
 
 
 @holds(bound=5e-15)

@@ -98,8 +98,8 @@ def _rotor_without_period() -> Distances:
         ((1.0, 2.0, 2.5), (0.0, 1.0, 0.0)),
         ((2.0, 2.0, 2.0), (0.3, 0.4, 0.5)),
     ):
-        found = free_rotor(moments, omega, np.linspace(0.0, 50.0, 60))
-        yield found.energy / found.energy[0] - 1
+        result = free_rotor(moments, omega, np.linspace(0.0, 50.0, 60))
+        yield result.energy / result.energy[0] - 1
 
 
 @holds(bound=0.0)
@@ -111,9 +111,9 @@ def _still_top() -> Distances:
     """
     moments = {"transverse_moment": 2.0, "axial_moment": 1.0, "weight_moment": 0.0}
     for theta in (0.0, 1.0):
-        found = heavy_top([0.0, 1e6], **moments, theta=theta, spin=0.0)
-        yield found.theta - theta
-        yield found.phi
+        result = heavy_top([0.0, 1e6], **moments, theta=theta, spin=0.0)
+        yield result.theta - theta
+        yield result.phi
 
 
 @refused("did you mean 'torque'")

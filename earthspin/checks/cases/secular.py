@@ -44,9 +44,9 @@ class _Still:
 
 @lru_cache
 def _table() -> OrbitTable:
-    found = shipped(BODY.name)
-    assert found is not None
-    return found
+    result = shipped(BODY.name)
+    assert result is not None
+    return result
 
 
 def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:

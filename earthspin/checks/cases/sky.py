@@ -8,7 +8,6 @@ from pathlib import Path
 
 import erfa
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import MARS, MOON
 from earthspin.checks.case import Distances, holds, refused, relative_error, without_folder
@@ -19,8 +18,6 @@ from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.equator import fixed_equator, spherical
 from earthspin.sky.iau import Nutation
 from earthspin.sky.standstill import find_standstills
-
-FloatArray = NDArray[np.float64]
 
 
 def _ends() -> tuple[float, float]:
@@ -116,8 +113,8 @@ def _beside_the_pole() -> Distances:
     vectors = 4e8 * np.stack([np.sin(away), 0 * away, np.cos(away)], axis=1)
     both = np.concatenate([vectors, vectors * [1, 1, -1]])
     _, declination, _ = spherical(both)
-    found = np.pi / 2 - np.abs(declination)
-    yield found - np.concatenate([away, away])
+    result = np.pi / 2 - np.abs(declination)
+    yield result - np.concatenate([away, away])
 
 
 @holds(bound=5e-15)
@@ -142,9 +139,9 @@ def _legs() -> Distances:
     Held against: Moon from planet less barycentre from planet, over the distance
     """
     days = np.linspace(-30000.0, 15000.0, 50)
-    found = positions(days)
+    result = positions(days)
     from_moon = kernel().positions({"sun": CODES["sun"]}, CODES["moon"], days)["sun"]
-    yield relative_error(found["moon"] + from_moon, found["sun"])
+    yield relative_error(result["moon"] + from_moon, result["sun"])
 
 
 @holds(bound=0.0)

@@ -50,12 +50,12 @@ def _just_below() -> Distances:
     Held against: sqrt(omega_c (omega_c - omega)/2) I3/I1 and the fall to 2 arccos(omega/omega_c)
     """
     spin = np.nextafter(CRITICAL, 0.0)
-    found = sleeping_top(_top(theta=0.0, spin=spin))
+    result = sleeping_top(_top(theta=0.0, spin=spin))
     gap = CRITICAL - spin
     growth = math.sqrt(2 * CRITICAL * gap) / 2 / 2
     fall = 2 * math.sqrt(2 * gap / CRITICAL)
-    yield found.growth_rate / growth - 1
-    yield found.fall_angle / fall - 1
+    yield result.growth_rate / growth - 1
+    yield result.fall_angle / fall - 1
 
 
 @holds(bound=5e-15)
@@ -66,11 +66,11 @@ def _just_above() -> Distances:
     Held against: circling rates a/2 and their difference from the exact difference of the spins
     """
     spin = np.nextafter(CRITICAL, 9.0)
-    found = sleeping_top(_top(theta=0.0, spin=spin))
+    result = sleeping_top(_top(theta=0.0, spin=spin))
     difference = math.sqrt((spin - CRITICAL) * (spin + CRITICAL)) / 2
-    yield found.nutation_rate / difference - 1
-    yield found.growth_rate
-    yield not found.stable
+    yield result.nutation_rate / difference - 1
+    yield result.growth_rate
+    yield not result.stable
 
 
 @holds(bound=3e-13)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 import xarray as xr
@@ -39,11 +38,6 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
     samples = torque_samples(above, stretch(above, None), *both)
     means = mean_torques(window_means(samples, both[1]))
     return precession_rates(mean_rates(means, *both), means, body).dataset()
-
-
-@lru_cache
-def _usual() -> xr.Dataset:
-    return _rate()
 
 
 def _leaning(angle: float) -> Body:
@@ -84,7 +78,7 @@ def _tiny_h() -> Distances:
     Held against: the rate in proportion to H, relative
     """
     tiny = _rate(BODY.replace(j2=1e-12 / 3, dynamical_flattening=1e-12))
-    yield tiny.precession_rate[0] / _usual().precession_rate[0] * H / 1e-12 - 1
+    yield tiny.precession_rate[0] / _rate().precession_rate[0] * H / 1e-12 - 1
 
 
 @holds(bound=1e-14)
@@ -192,9 +186,9 @@ def _harmonics() -> Distances:
     u = np.linspace(-0.99, 0.99, 41)
     place = np.stack([np.sqrt(1 - u * u), 0 * u, u])
     axis = np.broadcast_to(NORTH[:, np.newaxis], place.shape)
-    found = zonal_torque(30, 1.0, 1.0, 1.0, place, axis)[1] / -place[0]
+    result = zonal_torque(30, 1.0, 1.0, 1.0, place, axis)[1] / -place[0]
     slope = 30 * (eval_legendre(29, u) - u * eval_legendre(30, u)) / (1 - u * u)
-    yield relative_error(found, slope)
+    yield relative_error(result, slope)
 
 
 @holds(bound=2e-13)
@@ -280,8 +274,8 @@ def _next_to_a_parabola() -> Distances:
     """
     e, a = 1 - 1e-9, 1e20
     body, normal = _leaning(0.4), ecliptic_pole()
-    found = precession(body=body, perturbers=[SUN.replace(orbit={"a": a, "e": e})])
+    result = precession(body=body, perturbers=[SUN.replace(orbit={"a": a, "e": e})])
     obliquity = math.acos(float(np.dot(body.needed("pole").vector(), normal)))
     torque = circular_orbit_torque(float(SUN.gm), a, obliquity) * ((1 - e) * (1 + e)) ** -1.5
     spin = float(body.needed("dynamical_flattening") / body.spin_rate)
-    yield float(found.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1
+    yield float(result.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1

@@ -43,8 +43,8 @@ def _leap_second() -> Distances:
     Held against: one second of TDB from each second of UTC to the next
     """
     stamps = [f"2016-12-31T23:59:{s}" for s in ("58", "59", "60")] + ["2017-01-01T00:00:00"]
-    found = _days(_time(stamps, "utc"))
-    yield np.diff(found) * DAY - 1
+    result = _days(_time(stamps, "utc"))
+    yield np.diff(result) * DAY - 1
 
 
 @holds(bound=2e-3, unit="s")
@@ -70,9 +70,9 @@ def _reform() -> Distances:
     Held against: Python's own proleptic ordinals, years 1 to 9999
     """
     known = ["1582-10-04", "1582-10-15", "0001-01-01", "1600-02-29", "1900-03-01", "9999-12-31"]
-    found = _days(known)
+    result = _days(known)
     exact = [dt.date.fromisoformat(d).toordinal() - dt.date(2000, 1, 1).toordinal() for d in known]
-    yield found - (np.array(exact) - 0.5)
+    yield result - (np.array(exact) - 0.5)
 
 
 @holds(bound=0.0, unit="d")
@@ -149,9 +149,9 @@ def _years() -> Distances:
     import astropy.units as u
 
     chi = excitation(polar_motion(span=("1990-01-01", "1995-01-01")))
-    found, same = (polar_motion_from(chi, period=period) for period in (1.2 * u.yr, 438.3))
+    result, same = (polar_motion_from(chi, period=period) for period in (1.2 * u.yr, 438.3))
     for name in ("x", "y"):
-        yield found[name].values - same[name].values
+        yield result[name].values - same[name].values
 
 
 @refused("give it")

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.sky import GM, unit_vectors
+from earthspin.checks.stored import FOLDER
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position
@@ -29,54 +30,9 @@ PERIGEE, ECCENTRICITY, SEMI_MAJOR_AXIS = 282.93735, 0.016708634, 1.495978707e11
 OBLIQUITY = np.radians(23.4392911)
 
 #: Multiples of D, l', l, F; longitude (1e-6 deg, sine), distance (m, cosine).
-LONGITUDE_AND_DISTANCE = np.array(
-    [
-        (0, 0, 1, 0, 6288774, -20905355),
-        (2, 0, -1, 0, 1274027, -3699111),
-        (2, 0, 0, 0, 658314, -2955968),
-        (0, 0, 2, 0, 213618, -569925),
-        (0, 1, 0, 0, -185116, 48888),
-        (0, 0, 0, 2, -114332, -3149),
-        (2, 0, -2, 0, 58793, 246158),
-        (2, -1, -1, 0, 57066, -152138),
-        (2, 0, 1, 0, 53322, -170733),
-        (2, -1, 0, 0, 45758, -204586),
-        (0, 1, -1, 0, -40923, -129620),
-        (1, 0, 0, 0, -34720, 108743),
-        (0, 1, 1, 0, -30383, 104755),
-        (2, 0, 0, -2, 15327, 10321),
-        (0, 0, 1, 2, -12528, 0),
-        (0, 0, 1, -2, 10980, 79661),
-        (4, 0, -1, 0, 10675, -34782),
-        (0, 0, 3, 0, 10034, -23210),
-        (4, 0, -2, 0, 8548, -21636),
-        (2, 1, -1, 0, -7888, 24208),
-        (2, 1, 0, 0, -6766, 30824),
-        (1, 0, -1, 0, -5163, -8379),
-        (1, 1, 0, 0, 4987, -16675),
-        (2, -1, 1, 0, 4036, -12831),
-    ],
-    dtype=float,
-)
+LONGITUDE_AND_DISTANCE = np.loadtxt(FOLDER / "moon-longitude-distance.txt")
 #: Multiples of D, l', l, F; latitude (1e-6 deg, sine).
-LATITUDE = np.array(
-    [
-        (0, 0, 0, 1, 5128122),
-        (0, 0, 1, 1, 280602),
-        (0, 0, 1, -1, 277693),
-        (2, 0, 0, -1, 173237),
-        (2, 0, -1, 1, 55413),
-        (2, 0, -1, -1, 46271),
-        (2, 0, 0, 1, 32573),
-        (0, 0, 2, 1, 17198),
-        (2, 0, 1, -1, 9266),
-        (0, 0, 2, -1, 8822),
-        (2, -1, 0, -1, 8216),
-        (2, 0, -2, -1, 4324),
-        (2, 0, 1, 1, 4200),
-    ],
-    dtype=float,
-)
+LATITUDE = np.loadtxt(FOLDER / "moon-latitude.txt")
 MEAN_DISTANCE = 385000560.0  # m
 
 #: Axis of the equator and normal of the ecliptic, along ecliptic and equinox.

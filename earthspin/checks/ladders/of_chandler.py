@@ -30,7 +30,7 @@ QUICK_EXCESS = 2.0  # few records tell a scatter to a third
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     years, records = (QUICK_YEARS, FEW_RECORDS) if quick else (YEARS, RECORDS)
     excess, scatter = QUICK_EXCESS if quick else 1.0, best_scatter(years[-1])
     bounds = {name: EXCESS[name] * excess * scatter * DAY for name in METHODS}

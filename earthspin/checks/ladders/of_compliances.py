@@ -26,7 +26,7 @@ from earthspin.numerics.collocation import carry as by_collocation
 Array = NDArray[Any]
 Matrix = Callable[[Array], Array]
 
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {
     "G": G.value,
     "layers": [
@@ -42,7 +42,7 @@ BOUND = 1e-11
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("compliances", INPUTS)["answers"]
     fine = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
@@ -77,10 +77,10 @@ def ladder(quick: bool) -> Ladder:
     )
 
 
-def scaled_error(true: Values, found: Array) -> float:
+def scaled_error(true: Values, result: Array) -> float:
     """Largest error of an answer over the geometric mean of the two on the diagonal."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
-    return float(np.max(abs(true.error_of(found)) / np.outer(own, own)))
+    return float(np.max(abs(true.error_of(result)) / np.outer(own, own)))
 
 
 def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:

@@ -50,7 +50,7 @@ ORBIT = Ellipse(**ELEMENTS, plane=PLANE)
 ORBITS = tuple(Ellipse(**ELEMENTS | {"e": e}, plane=PLANE) for e in ECCENTRICITIES)
 #: So many places on each in so many turns; every second one in a quick run.
 TURNS, TIMES = 30, 100
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = ELEMENTS | {
     "turns": TURNS,
     "times": TIMES,
@@ -66,7 +66,7 @@ def days() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("elements", INPUTS)["places"]
     wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
     t = days()[wanted]
@@ -79,6 +79,10 @@ def ladder(quick: bool) -> Ladder:
         ("universal variables by Skyfield", "", _skyfield, (0.0,)),
     ]
     by_ellipse = settings("", lambda: (np.stack([e.positions(t) for e in ORBITS]), t.size * 3))
+    methods = [Method("ellipses by their elements", by_ellipse, 1e-13)]
+    for name, words, run, values in by_hand:
+        few = values[1:3] if quick and len(values) > 1 else values
+        methods.append(Method(name, settings(words, partial(_placed, run, t), few)))
     return Ladder(
         quantity="elements",
         unit="1",
@@ -88,14 +92,7 @@ def ladder(quick: bool) -> Ladder:
         subject="places by elements",
         reference="Kepler's equation with 50 digits, kept to 32",
         reference_error=ROUNDING,
-        methods=[
-            Method("ellipses by their elements", by_ellipse, 1e-13),
-            *(
-                Method(name, settings(words, partial(_placed, run, t), values))
-                for name, words, run, all_values in by_hand
-                for values in ((quick and all_values[1:3]) or all_values,)
-            ),
-        ],
+        methods=methods,
         error=lambda places: _error(true[:, wanted].error_of(places)),
         useful=0.1,
     )
@@ -108,12 +105,12 @@ def _error(off: FloatArray) -> float:
 
 def _placed(run: InPlane, t: FloatArray, setting: float) -> Found:
     """Places on all ellipses by a method that finds them in the plane, x to the pericentre."""
-    found, calls = [], 0
+    result, calls = [], 0
     for one in ORBITS:
         x, y, more = run(one, one.mean_anomaly + one.motion * DAY * t, setting)
-        found.append(_turned(one, t, x, y))
+        result.append(_turned(one, t, x, y))
         calls += more
-    return np.stack(found), calls
+    return np.stack(result), calls
 
 
 def _turned(one: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:

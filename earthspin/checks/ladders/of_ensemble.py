@@ -40,7 +40,7 @@ EXCESS, QUICK_EXCESS = 1.5, 2.0
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     seeds = FEW_SEEDS if quick else SEEDS
     members = QUICK_MEMBERS if quick else MEMBERS
     scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])

@@ -40,7 +40,7 @@ TO, FROM = "excitation from polar motion", "polar motion from excitation"
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     span = SHORT_SPAN if quick else SPAN
     steps = (10.0, 1.0) if quick else STEPS
     return Ladder(

@@ -18,12 +18,12 @@ FloatArray = NDArray[np.float64]
 #: kg m2 and rad/s: three different moments, a start that is near no axis.
 MOMENTS = (1.0, 1.7, 2.4)
 OMEGA = (0.5, 0.2, 0.8)
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {"moments": MOMENTS, "omega": OMEGA}
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
     stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
     return ladder_of_rotation(

@@ -51,10 +51,10 @@ BOUND = 0.02 * ARCSEC
 
 @lru_cache
 def _orbit() -> OrbitTable:
-    found = shipped(BODY.name)
-    if found is None:
+    result = shipped(BODY.name)
+    if result is None:
         raise LookupError(BODY.name)
-    return found
+    return result
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     span = FEW if quick else SPAN
     start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0])
     motion = Motion(start, np.linspace(-span, 0.0, TIMES))
@@ -122,8 +122,8 @@ def _newton(pieces: int, motion: Motion, order: int) -> Found:
 
 def _lanes(motion: Motion, step: float) -> Found:
     starts = np.repeat(motion.start[:, np.newaxis], MEMBERS, axis=1)
-    found = lanes.solve_many(STRENGTH, _orbit(), starts, motion.times, step * KYR)
-    return found[..., 0], 12 * int(np.ceil(-motion.times[0] / KYR / step))
+    result = lanes.solve_many(STRENGTH, _orbit(), starts, motion.times, step * KYR)
+    return result[..., 0], 12 * int(np.ceil(-motion.times[0] / KYR / step))
 
 
 # --- what one would do ---------------------------------------------------------------------------
@@ -180,15 +180,15 @@ def _scipy(slope: Slope, motion: Motion, rtol: float) -> Found:
         rtol=rtol,
         atol=rtol,
     )
-    found = done.y[:, ::-1]
-    return found / np.linalg.norm(found, axis=0), done.nfev
+    result = done.y[:, ::-1]
+    return result / np.linalg.norm(result, axis=0), done.nfev
 
 
 def _by_hand(slope: Slope, motion: Motion, kyr: float) -> Found:
     """Runge and Kutta's rule in equal steps that meet the times."""
     each = max(round(-motion.times[0] / (TIMES - 1) / (kyr * KYR)), 1)
     step = motion.times[0] / (TIMES - 1) / each
-    s, found, calls = motion.start, [motion.start], 0
+    s, result, calls = motion.start, [motion.start], 0
     for number in range((TIMES - 1) * each):
         t = number * step
         k1 = slope(t, s)
@@ -197,8 +197,8 @@ def _by_hand(slope: Slope, motion: Motion, kyr: float) -> Found:
         k4 = slope(t + step, s + step * k3)
         s, calls = s + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4), calls + 4
         if (number + 1) % each == 0:
-            found.append(s)
-    axes = np.array(found[::-1]).T
+            result.append(s)
+    axes = np.array(result[::-1]).T
     return axes / np.linalg.norm(axes, axis=0), calls
 
 
@@ -221,13 +221,13 @@ def reference(motion: Motion, step: float) -> FloatArray:
     root = (np.sqrt(on.constant) * on.axis).reshape(3, count, -1)
     geodesic = on.geodesic.reshape(3, count, -1)
     places = [np.searchsorted(shares, np.arange(n + 1) / n - 1e-12) for n in DIVIDED]
-    s, found = motion.start, [motion.start]
+    s, result = motion.start, [motion.start]
     for number in range(count):
         m, g = root[:, number].T, geodesic[:, number].T
         s = _extrapolated(s, h, m, g, places)
         if (number + 1) % each == 0:
-            found.append(s)
-    return np.array(found[::-1]).T
+            result.append(s)
+    return np.array(result[::-1]).T
 
 
 def _extrapolated(

@@ -26,7 +26,7 @@ Found = tuple[float, int]
 
 #: Of what pulls, m3 s-2; the tilt of the axis that it turns, rad.
 GM, TILT = 4e14, 0.4
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = ELEMENTS | {"gm": GM, "tilt": TILT}
 #: Turns of the node, and days between samples.
 WINDOWS = ((3, 4), (3, 2), (3, 1), (4, 1), (6, 1), (8, 1))
@@ -35,7 +35,7 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("mean-orbit", INPUTS)["mean"]
     cycle = 2 * math.pi / abs(ORBIT.node_rate)
     counts = (8, 32) if quick else (8, 16, 32, 64, 120)

@@ -12,14 +12,13 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.checks.ladders import taylor
 from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_motion
+from earthspin.checks.solvers.attitude import attitude_about, attitude_motion
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.checks.stored import Values, load
 from earthspin.checks.work_precision import Ladder, Method, settings
 from earthspin.constants import DAY, J2000_JD, UAS
 from earthspin.motion.axes import axis_path
 from earthspin.motion.forces import Figure, Forces
-from earthspin.motion.triaxial import equatorial_basis
 
 FloatArray = NDArray[np.float64]
 #: Figure axes, and how often the sky or a slope was asked for.
@@ -28,7 +27,7 @@ Found = tuple[FloatArray, int]
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {
     "h": H,
     "spin_rate": SPIN,
@@ -80,7 +79,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("pole", INPUTS)
     wanted = slice(0, FEW_TIMES if quick else TIMES)
     span = FEW_DAYS if quick else DAYS
@@ -153,10 +152,7 @@ def _exact(motion: Motion) -> Found:
 
 def _attitude(motion: Motion) -> Found:
     tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
-    x = equatorial_basis(motion.start)[0]
-    start = Rotation.from_matrix(
-        np.stack([x, np.cross(motion.start, x), motion.start], axis=1)
-    ).as_quat(scalar_first=True)
+    start = attitude_about(motion.start, 0.0)
     _, turned = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
     return Rotation.from_quat(turned[1:], scalar_first=True).as_matrix()[:, :, 2], tide.calls
 

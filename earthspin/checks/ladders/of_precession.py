@@ -33,7 +33,7 @@ QUICK_BOUND = 1e-3
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     epochs = EPOCHS[::4] if quick else EPOCHS
     true, cycle = model_sky.torus_mean(TORUS), model_sky.turn_of_the_node()
     windows, years = (QUICK_WINDOWS, BY_HAND[1:3]) if quick else (WINDOWS, BY_HAND)

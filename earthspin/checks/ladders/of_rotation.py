@@ -28,7 +28,7 @@ OMEGA = (0.5, 0.3, 1.5)
 #: Time that is followed, of which the first part in a quick run; asked for at so many times.
 SPAN, SHORT = 16.0, 4.0
 TIMES, FEW = 32, 8
-#: What the stored reference hangs on.
+#: Numbers that the stored reference was made for.
 INPUTS = {
     "h": H,
     "triaxiality": TRIAXIALITY,
@@ -46,7 +46,7 @@ def times() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     true = load("rotation", INPUTS)
     wanted = slice(0, FEW if quick else TIMES)
     t = times()[wanted]
@@ -107,8 +107,8 @@ def _windows(t: FloatArray, tolerance: float) -> Rotation:
     above = Above(gm={"planet": 1.0}, positions=lambda times: {"planet": _places(times)})
     start = start_of(body, np.array([1.0, 0.0, 0.0, 0.0]), np.array(OMEGA))
     motion = Motion(body, above, start, float(t[-1]), tolerance=tolerance)
-    found = motion.at(t)
-    return (found.omega, found.attitude), motion.evaluations
+    result = motion.at(t)
+    return (result.omega, result.attitude), motion.evaluations
 
 
 def _attitude(t: FloatArray, rtol: float) -> Rotation:

@@ -40,7 +40,7 @@ def points() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     place = points()
     true = load("spheroid", {"flattening": FLATTENING, "points": place.tolist()})
     degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
@@ -76,15 +76,15 @@ def ladder(quick: bool) -> Ladder:
     )
 
 
-def _error(found: Any, true: dict[str, Values]) -> float:
+def _error(result: Any, true: dict[str, Values]) -> float:
     """Largest relative error of both, over all points."""
-    return max(float(np.max(relative_errors(found, true)[name])) for name in true)
+    return max(float(np.max(relative_errors(result, true)[name])) for name in true)
 
 
-def relative_errors(found: Any, true: dict[str, Values]) -> dict[str, FloatArray]:
+def relative_errors(result: Any, true: dict[str, Values]) -> dict[str, FloatArray]:
     """Relative errors of attraction and torque at each point."""
     errors = {}
-    for values, (name, of) in zip(found, true.items(), strict=True):
+    for values, (name, of) in zip(result, true.items(), strict=True):
         off = np.linalg.norm(of.error_of(np.asarray(values)), axis=1)
         errors[name] = np.asarray(off / np.linalg.norm(of.hi, axis=1), dtype=np.float64)
     return errors

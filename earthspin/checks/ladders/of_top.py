@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from earthspin.checks.ladders.rotation import FEW_FINE, FINE, Rotation, ladder_of_rotation
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from earthspin.checks.solvers.heavy_top import integrate_heavy_top, state_of_angles
 from earthspin.checks.work_precision import Ladder
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
@@ -30,7 +30,7 @@ TOP = {
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     fine = FEW_FINE if quick else FINE
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     return ladder_of_rotation(
@@ -76,31 +76,6 @@ def _by_hand(method: str, t: FloatArray, rtol: float) -> Rotation:
 
     start = [TOP["theta"], TOP["theta_rate"], 0.0, TOP["psi"]]
     done = solve_ivp(rates, (0.0, t[-1]), start, method, t_eval=t, rtol=rtol, atol=1e-2 * rtol)
-    return _of_euler_angles(done.y, a, b, spin), done.nfev
-
-
-def _of_euler_angles(
-    state: FloatArray, a: float, b: float, spin: float
-) -> tuple[FloatArray, FloatArray]:
-    """Angular velocity in the body (I.7.3) and attitude Rz(phi) Rx(theta) Rz(psi)."""
-    theta, theta_rate, phi, psi = state
+    theta, theta_rate, phi, psi = done.y
     across = (b - a * np.cos(theta)) / np.sin(theta)
-    omega = np.stack(
-        [
-            across * np.sin(psi) + theta_rate * np.cos(psi),
-            across * np.cos(psi) - theta_rate * np.sin(psi),
-            np.full_like(theta, spin),
-        ],
-        axis=-1,
-    )
-    tilt, total, split = theta / 2, (phi + psi) / 2, (phi - psi) / 2
-    attitude = np.stack(
-        [
-            np.cos(tilt) * np.cos(total),
-            np.sin(tilt) * np.cos(split),
-            np.sin(tilt) * np.sin(split),
-            np.cos(tilt) * np.sin(total),
-        ],
-        axis=-1,
-    )
-    return omega, attitude
+    return state_of_angles(theta, phi, psi, across, theta_rate, spin), done.nfev

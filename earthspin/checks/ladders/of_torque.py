@@ -40,7 +40,7 @@ SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 
 
 def ladder(quick: bool) -> Ladder:
-    """Make the ladder."""
+    """Return the methods, their settings and the reference."""
     days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
     ends = float(days[0]), float(days[-1])
     true = reference(days)
@@ -86,8 +86,8 @@ def ladder(quick: bool) -> Ladder:
 def reference(days: FloatArray) -> LongArray:
     """True directions of Sun and Moon, shape (2, n, 3)."""
     turn = long_matrix(days)
-    found = positions(days)
-    place = np.stack([found[name] for name in CODES]).astype(np.longdouble)
+    result = positions(days)
+    place = np.stack([result[name] for name in CODES]).astype(np.longdouble)
     seen = np.sum(turn * place[:, :, np.newaxis, :], axis=-1)
     return np.asarray(seen / np.sqrt(np.sum(seen * seen, axis=-1))[..., np.newaxis])
 
@@ -158,8 +158,8 @@ def _about(axis: int, angle: LongArray) -> LongArray:
 
 def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
     """Directions of Sun and Moon, shape (2, n, 3)."""
-    found = positions(days)
-    seen = np.stack([rotate(turn, found[name]) for name in CODES])
+    result = positions(days)
+    seen = np.stack([rotate(turn, result[name]) for name in CODES])
     return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
 
 
@@ -185,10 +185,10 @@ def _skyfield(days: FloatArray) -> Callable[[], tuple[Any, int]]:
 
     def run() -> tuple[Any, int]:
         t = scale.tdb_jd(J2000_JD, days)
-        here, found = _skyfield_kernel()[CENTRE], []
+        here, result = _skyfield_kernel()[CENTRE], []
         for code in CODES.values():
             ra, dec, _ = (_skyfield_kernel()[code] - here).at(t).radec(epoch="date")
-            found.append(unit_vectors(ra.radians, dec.radians))
-        return np.stack(found), days.size
+            result.append(unit_vectors(ra.radians, dec.radians))
+        return np.stack(result), days.size
 
     return run

@@ -54,26 +54,26 @@ def figure_axis(
     integrator.time = 0.0
     integrator.state[:] = np.concatenate([momentum, start])
     pieces = _pieces(float(days[-1]))
-    found, steps, asked = np.empty((days.size, 3)), 0, 0
+    result, steps, asked = np.empty((days.size, 3)), 0, 0
     for number, coefficients in enumerate(pieces):
         edge = FIRST_EDGE + PIECE * number
         integrator.pars[:-1] = coefficients
         integrator.pars[-1] = (edge + PIECE / 2) * DAY
         while asked < days.size and days[asked] <= edge + PIECE:
             steps += integrator.propagate_until(days[asked] * DAY)[3]
-            found[asked] = integrator.state[3:]
+            result[asked] = integrator.state[3:]
             asked += 1
         if asked < days.size:
             steps += integrator.propagate_until((edge + PIECE) * DAY)[3]
-    return found, steps
+    return result, steps
 
 
 def _pieces(end: float) -> FloatArray:
     """Coefficients of powers of x in [-1, 1], per piece, for Sun and Moon, m."""
 
     def sun_and_moon(days: FloatArray) -> FloatArray:
-        found = positions(days)
-        return np.stack([found[name] for name in GM], axis=1)
+        result = positions(days)
+        return np.stack([result[name] for name in GM], axis=1)
 
     count = int((end - FIRST_EDGE) / PIECE) + 1
     series = chebyshev_pieces(sun_and_moon, FIRST_EDGE, PIECE, count, DEGREE + 1)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.checks.solvers.momentum_and_figure import Tide, integrate
+from earthspin.motion.triaxial import equatorial_basis
 
 FloatArray = NDArray[np.float64]
 
@@ -86,3 +87,19 @@ def attitude_motion(
         slope, np.concatenate([momentum, quaternion]), times, rtol, 1 / abs(spin_rate)
     )
     return state[:, :3], state[:, 3:]
+
+
+def attitude_about(axis: FloatArray, turned: float) -> FloatArray:
+    """Quaternion, scalar first, of a body whose third axis is given, turned about it.
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3,)
+        Unit vector in the axes of the sky.
+    turned : float
+        Angle of the body's first axis from the first of `equatorial_basis`, rad.
+    """
+    first, second = equatorial_basis(axis)
+    x = np.cos(turned) * first + np.sin(turned) * second
+    frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
+    return np.asarray(frame.as_quat(scalar_first=True))

@@ -67,7 +67,9 @@ def integrate_heavy_top(
     if not np.all(steps >= 0):
         bad = float(times[~(steps >= 0)][0])
         raise BodyError("heavy top", "times", bad, "give ascending times from 0 on")
-    state = np.concatenate([_start_attitude(top), _start_omega(top)])
+    across = top.phi_rate * np.sin(top.theta)
+    omega, attitude = state_of_angles(top.theta, top.phi, top.psi, across, top.theta_rate, top.spin)
+    state = np.concatenate([attitude, omega])
     scale = np.abs(state[4:]).max() + np.sqrt(abs(top.weight_moment) / top.transverse_moment)
     solution = solve_ivp(
         _state_rate,
@@ -86,29 +88,43 @@ def integrate_heavy_top(
     return IntegratedMotion(attitude / norm, solution.y[4:].T, int(solution.nfev))
 
 
-def _start_attitude(top: HeavyTop) -> FloatArray:
-    """Quaternion of Rz(phi) Rx(theta) Rz(psi)."""
-    tilt, total, split = top.theta / 2, (top.phi + top.psi) / 2, (top.phi - top.psi) / 2
-    return np.array(
-        [
-            np.cos(tilt) * np.cos(total),
-            np.sin(tilt) * np.cos(split),
-            np.sin(tilt) * np.sin(split),
-            np.cos(tilt) * np.sin(total),
-        ]
-    )
+def state_of_angles(
+    theta: FloatArray,
+    phi: FloatArray,
+    psi: FloatArray,
+    across: FloatArray,
+    theta_rate: FloatArray,
+    spin: ArrayLike,
+) -> tuple[FloatArray, FloatArray]:
+    """Angular velocity in the body (I.7.3) and attitude Rz(phi) Rx(theta) Rz(psi).
 
+    Parameters
+    ----------
+    theta, phi, psi : ndarray
+        Euler angles, rad.
+    across : ndarray
+        Rate of phi times sin(theta), rad/s.
+    theta_rate, spin : ndarray
+        rad/s.
 
-def _start_omega(top: HeavyTop) -> FloatArray:
-    """Angular velocity in the body (I.7.3)."""
-    across = top.phi_rate * np.sin(top.theta)
-    return np.array(
-        [
-            across * np.sin(top.psi) + top.theta_rate * np.cos(top.psi),
-            across * np.cos(top.psi) - top.theta_rate * np.sin(top.psi),
-            top.spin,
-        ]
+    Returns
+    -------
+    omega : ndarray, shape (..., 3)
+    attitude : ndarray, shape (..., 4)
+    """
+    tilt, total, split = theta / 2, (phi + psi) / 2, (phi - psi) / 2
+    omega = (
+        across * np.sin(psi) + theta_rate * np.cos(psi),
+        across * np.cos(psi) - theta_rate * np.sin(psi),
+        np.full_like(theta, spin),
     )
+    attitude = (
+        np.cos(tilt) * np.cos(total),
+        np.sin(tilt) * np.cos(split),
+        np.sin(tilt) * np.sin(split),
+        np.cos(tilt) * np.sin(total),
+    )
+    return np.stack(omega, axis=-1), np.stack(attitude, axis=-1)
 
 
 def _state_rate(_time: float, state: FloatArray, top: HeavyTop) -> list[Any]:

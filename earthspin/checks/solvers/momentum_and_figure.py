@@ -96,7 +96,7 @@ def integrate(
     radian : float
         Time in which the fastest mode turns by a radian, s; no step is longer than that.
     """
-    found = solve_ivp(
+    result = solve_ivp(
         slope,
         (times[0], times[-1]),
         start,
@@ -106,6 +106,6 @@ def integrate(
         atol=rtol,
         max_step=radian,
     )
-    if not found.success:
-        raise UndefinedError(f"the integration stopped at {found.t[-1]:.6g} s: {found.message}")
-    return np.asarray(found.y.T)
+    if not result.success:
+        raise UndefinedError(f"the integration stopped at {result.t[-1]:.6g} s: {result.message}")
+    return np.asarray(result.y.T)
