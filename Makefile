@@ -21,7 +21,7 @@ test: $(VENV)/.test
 
 # What takes some seconds each: random scenes, clusters, other processes, simulated records.
 slow: $(VENV)/.test
-	$(BIN)/python -m pytest -q -m slow --numprocesses=auto --dist=load
+	$(BIN)/python -m pytest -q -m slow --numprocesses=auto --dist=worksteal
 
 # The oldest versions that pyproject.toml allows; what they themselves need is the newest.
 test-lowest: $(LOWEST)/.test

@@ -23,8 +23,8 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS, UAS
 from earthspin.engine.plan import plan
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.published import K_CMB
+from earthspin.nutation.circles import without_line
 from earthspin.nutation.ladder import at_observed_period, quality
-from earthspin.nutation.nutation import without_line
 from earthspin.nutation.response import CORE_NUTATION_START, Response, fit_response
 from earthspin.parts.predicted import Prediction, predict
 from earthspin.sky import iau

@@ -66,149 +66,101 @@ from earthspin.engine.store import verify as verify
 from earthspin.engine.store import write as write
 from earthspin._version import __version__ as __version__
 
+
 def precession(
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
+
 def torque_series(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Dates | None = ...,
-    equator: Literal["mean", "true"] | None = ...,
+    equator: Literal['mean', 'true'] | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def pole(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
-        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-    ]
-    | Sequence[
-        Literal[
-            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-        ]
-    ]
-    | None = ...,
-    response: Literal["fitted", "predicted"] | None = ...,
+    effects: Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    response: Literal['fitted', 'predicted'] | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def compare_iau(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
-        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-    ]
-    | Sequence[
-        Literal[
-            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-        ]
-    ]
-    | None = ...,
+    effects: Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
 ) -> xr.Dataset: ...
+
 def nutation_ladder(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
-        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-    ]
-    | Sequence[
-        Literal[
-            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-        ]
-    ]
-    | None = ...,
-    coupling: Literal["none", "inferred"] | None = ...,
+    effects: Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    coupling: Literal['none', 'inferred'] | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def long_term(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Epochs | None = ...,
     orbit: str | PathLike[str] | OrbitTable | None = ...,
     tides: Value | None = ...,
@@ -218,76 +170,68 @@ def long_term(
     longitude_shift: Value | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def rotation(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body
-    | str
-    | Mapping[str, Any]
-    | VectorFunction
-    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
-    | None = ...,
+    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal["jplephem", "skyfield"] | None = ...,
+    source: Literal['jplephem', 'skyfield'] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
-        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-    ]
-    | Sequence[
-        Literal[
-            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
-        ]
-    ]
-    | None = ...,
+    effects: Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
     accuracy: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def wobble_ladder(
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    ocean: Literal["real", "global", "none"] | None = ...,
+    ocean: Literal['real', 'global', 'none'] | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def polar_motion(
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
-    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
-    method: Literal["burg", "likelihood", "least-squares"] | None = ...,
+    kind: Literal['c04', 'c01', 'finals2000A'] | None = ...,
+    method: Literal['burg', 'likelihood', 'least-squares'] | None = ...,
     window: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
     times: Values | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
+
 def heavy_top(
     times: Values | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
@@ -302,97 +246,45 @@ def heavy_top(
     psi: Value | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
+
 def spheroid_field(
     position: Values,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     accuracy: Pure | None = ...,
 ) -> xr.Dataset: ...
+
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
+
 def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     period: Value | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
+
 def compliances(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
+    uncertainty: Literal['linear', 'sample'] | None = ...,
     n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
 ) -> xr.Dataset: ...
 
-__all__ = [
-    "__version__",
-    "AccuracyError",
-    "ApartError",
-    "BODIES",
-    "Body",
-    "BodyError",
-    "CoverageError",
-    "EARTH",
-    "EarthspinError",
-    "KernelError",
-    "MARS",
-    "MOON",
-    "MissingExtraError",
-    "Orbit",
-    "OutputError",
-    "SUN",
-    "Scene",
-    "SceneError",
-    "SeriesError",
-    "UndefinedError",
-    "UnitsError",
-    "VersionWarning",
-    "accuracy",
-    "cassini_states",
-    "compare_iau",
-    "compliances",
-    "daily_insolation",
-    "ensemble",
-    "excitation",
-    "fit_chandler",
-    "free_rotor",
-    "heavy_top",
-    "load_scene",
-    "long_term",
-    "love_numbers",
-    "nutation_ladder",
-    "open",
-    "plan",
-    "polar_motion",
-    "polar_motion_from",
-    "pole",
-    "precession",
-    "read",
-    "read_excitation",
-    "read_orbit",
-    "rotation",
-    "run",
-    "run_tree",
-    "spheroid_field",
-    "stability",
-    "torque_series",
-    "verify",
-    "wobble_ladder",
-    "write",
-    "write_series",
-]
+__all__ = ['__version__', 'AccuracyError', 'ApartError', 'BODIES', 'Body', 'BodyError', 'CoverageError', 'EARTH', 'EarthspinError', 'KernelError', 'MARS', 'MOON', 'MissingExtraError', 'Orbit', 'OutputError', 'SUN', 'Scene', 'SceneError', 'SeriesError', 'UndefinedError', 'UnitsError', 'VersionWarning', 'accuracy', 'cassini_states', 'compare_iau', 'compliances', 'daily_insolation', 'ensemble', 'excitation', 'fit_chandler', 'free_rotor', 'heavy_top', 'load_scene', 'long_term', 'love_numbers', 'nutation_ladder', 'open', 'plan', 'polar_motion', 'polar_motion_from', 'pole', 'precession', 'read', 'read_excitation', 'read_orbit', 'rotation', 'run', 'run_tree', 'spheroid_field', 'stability', 'torque_series', 'verify', 'wobble_ladder', 'write', 'write_series']

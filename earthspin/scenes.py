@@ -156,6 +156,7 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     stored = True  # written with an answer: its plain numbers are in SI units
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
+    changes = changes or {}
     if isinstance(scene, Question):
         if not changes:
             return scene
@@ -178,15 +179,13 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     except (ValueError, RecursionError) as error:
         raise SceneError("file", source, f"it cannot be read: {error}") from None
     with_units = set() if stored else _names(table)
-    changed = _names(_nested(changes or {}))
+    changed = _names(changes) | {part for key in changes for part in str(key).split(".")[:2]}
     with_units = with_units | changed if typed else with_units - changed
-    if not stored:
-        return _changed(table, changes or {}, source, title, with_units)
-    if isinstance(table.get("members"), str):
+    if stored and isinstance(table.get("members"), str):
         problem = "a stored scene holds its members, not the path of a file"
         raise SceneError("members", table["members"], problem, source=source)
-    question = _changed(table, changes or {}, source, title, with_units)
-    for key, path, kind in files_of(question, changes or {}):
+    question = _changed(table, changes, source, title, with_units)
+    for key, path, kind in files_of(question, changes) if stored else ():
         _check_kind(key, path, kind, source)
     return question
 
@@ -194,18 +193,6 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 def _names(table: Mapping[str, Any]) -> set[str]:
     """Keys of a scene, and those of its tables of settings."""
     return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
-
-
-def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Changes with the first two parts of their keys, as a scene has them."""
-    table: dict[str, Any] = {}
-    for key, value in changes.items():
-        first, dot, rest = str(key).partition(".")
-        inner = {rest.partition(".")[0]: None} if dot else value
-        if isinstance(inner, Mapping) and isinstance(table.get(first), Mapping):
-            inner = {**table[first], **inner}
-        table[first] = inner
-    return table
 
 
 def _changed(
@@ -389,7 +376,7 @@ def _series(question: Question) -> Series:
 
 def series_length(question: Question) -> int:
     """How many times a question asks for; 0 if it is no series that can be written by region."""
-    if not any(BY_BLOCK in one.uses for one in question.graph.parts.values()):
+    if not any(BY_BLOCK in part.uses for part in question.graph.parts.values()):
         return 0
 
     keys = question.keys()

@@ -270,7 +270,7 @@ class Body(FromMass):
         return world
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Body:
+    def read(cls, value: object, where: Where) -> Body:
         """Read a body: itself, a name, or a table that starts from one and changes numbers.
 
         Raises
@@ -278,16 +278,16 @@ class Body(FromMass):
         SceneError, UnitsError
             If a name or key is unknown, a unit is wrong, or the body is impossible.
         """
-        if isinstance(given, Body):
-            return given
-        if not isinstance(given, Mapping):
-            return _placed(given, where) if hasattr(given, "target") else body(given, where)
-        table = dict(given)
+        if isinstance(value, Body):
+            return value
+        if not isinstance(value, Mapping):
+            return _placed(value, where) if hasattr(value, "target") else body(value, where)
+        table = dict(value)
         start = table.pop("from", "earth")
-        for key, value in table.items():
+        for key, entry in table.items():
             if key not in _READ_AS:
-                raise where.at(key).error(value, nearest(key, ["from", *_READ_AS]))
-        changes = {key: _READ_AS[key].read(value, where.at(key)) for key, value in table.items()}
+                raise where.at(key).error(entry, nearest(key, ["from", *_READ_AS]))
+        changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
         try:
             if start in _LEAST:
                 missing = [

@@ -206,9 +206,9 @@ class Ensemble:
             problem = f"of {n} these cannot be: {next(iter(wrong.values()))}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
             raise self.question.error("members", named, problem + remedy)
-        kept = np.delete(np.arange(len(self.which)), list(wrong))
-        self.which, self.dropped = self.which[kept], numbers
-        self.values = {name: values[kept] for name, values in self.values.items()}
+        possible = np.delete(np.arange(len(self.which)), list(wrong))
+        self.which, self.dropped = self.which[possible], numbers
+        self.values = {name: values[possible] for name, values in self.values.items()}
         del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:

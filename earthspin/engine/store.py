@@ -50,8 +50,8 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     ----------
     result : Dataset or DataTree
     path : str or Path
-        Ends in ``.nc`` or ``.zarr``. What stands there is replaced in one step, when all is
-        written and on the disk; until then, and if anything goes wrong, it is as it was.
+        Ends in ``.nc`` or ``.zarr``. What stands there is replaced when all is written and on the
+        disk, a file in one step; until then, and if anything goes wrong, it is as it was.
 
     Returns
     -------
@@ -231,8 +231,8 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     Parameters
     ----------
     path : str or Path
-        NetCDF is read whole and held to its checksums. Zarr is read as it is used: its header is
-        held to the checksum now, each chunk as it is read; `verify` reads it all.
+        NetCDF is read whole and held to its checksum. Zarr is read as it is used: each file of it
+        is held to the ledger as it is read; `verify` reads it all.
 
     Returns
     -------
@@ -298,17 +298,15 @@ def verify(path: str | Path) -> Path:
     precession.nc
     """
     place = as_path(path)
+    if place.suffix == ".zarr" and _verify_files(place):
+        return place
     attrs = _read(place)["/"].attrs
-    if place.suffix == ".zarr":
-        guarded = _verify_files(place)
-    else:
-        guarded = checksums.CONTENT in attrs or checksums.line_holds(place) is not None
-    if not guarded and any(name in attrs for name in checksums.EARLIER):
+    if place.suffix != ".zarr" and (checksums.CONTENT in attrs or checksums.line_holds(place)):
+        return place
+    if any(name in attrs for name in checksums.EARLIER):
         what = "it carries checksums of an earlier version alone, which are not checked"
         raise OutputError(place, what, "open it and write it again")
-    if not guarded:
-        raise OutputError(place, "it carries no checksum", "earthspin.write gives it one")
-    return place
+    raise OutputError(place, "it carries no checksum", "earthspin.write gives it one")
 
 
 def _verify_files(store: Path) -> bool:
@@ -318,11 +316,17 @@ def _verify_files(store: Path) -> bool:
     ------
     OutputError
     """
-    ledger = checksums.ledger_of(store)
+    put_back(store)
+    opened, ledger = identity(store), checksums.ledger_of(store)
     if ledger is None:
         return False
-    written = checksums.read_entries(ledger)
-    found = checksums.of_files(store, [*written, *checksums.files_in(store)])
+    try:
+        written = checksums.read_entries(ledger)
+        found = checksums.of_files(store, [*written, *checksums.files_in(store)])
+    except OSError as error:
+        check_identity(store, opened)
+        raise _unreadable(store, error) from None
+    check_identity(store, opened)
     for name, digest in found.items():
         checksums.check_file(store, name, digest, written)
     return True

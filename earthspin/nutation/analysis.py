@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAYS_PER_CENTURY, EPSILON_0, JULIAN_YEAR
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from
-from earthspin.nutation.nutation import Circles, FrequencyAnalysis
+from earthspin.nutation.circles import Circles, FrequencyAnalysis
 
 FloatArray = NDArray[np.float64]
 

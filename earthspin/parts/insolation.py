@@ -149,21 +149,21 @@ def _insolation(
     return arrays[0].copy(data=mean)
 
 
-def _angle(given: Any, name: str, most: float) -> xr.DataArray:
+def _angle(value: Any, name: str, most: float) -> xr.DataArray:
     """An angle, rad, labelled in degrees along a dimension of its name if there are several."""
     where = Where(name, _CALL)
-    value = quantity(given, "rad", where, "65 deg")
-    if np.max(np.abs(np.asarray(value))) > most * (1 + 1e-12):
+    angle = quantity(value, "rad", where, "65 deg")
+    if np.max(np.abs(np.asarray(angle))) > most * (1 + 1e-12):
         raise where.error(
-            given, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
+            value, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
         )
-    if isinstance(value, xr.DataArray):
-        return value
-    if np.ndim(value) > 1:
-        raise where.error(given, "give one, or one list")
-    dims = (name,) if np.ndim(value) else ()
-    label = (dims, np.degrees(value), {"units": "degree"})
-    return xr.DataArray(value, dims=dims, coords={name: label})
+    if isinstance(angle, xr.DataArray):
+        return angle
+    if np.ndim(angle) > 1:
+        raise where.error(value, "give one, or one list")
+    dims = (name,) if np.ndim(angle) else ()
+    label = (dims, np.degrees(angle), {"units": "degree"})
+    return xr.DataArray(angle, dims=dims, coords={name: label})
 
 
 def _share(days: Any, body: str) -> float | None:
@@ -188,13 +188,13 @@ def _year(body: str) -> float:
     return year
 
 
-def _constant(given: Any, body: str) -> float:
+def _constant(value: Any, body: str) -> float:
     """Solar constant at the mean distance, W/m2."""
-    if given is None:
+    if value is None:
         distance = (SUN.gm * (_year(body) / _TURN) ** 2) ** (1 / 3)
         return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)
     where = Where("solar_constant", _CALL)
-    value = quantity(given, "W/m2", where, "1361 W/m2")
-    if np.ndim(value) or not value > 0:
-        raise where.error(given, "give one number above zero")
-    return float(value)
+    constant = quantity(value, "W/m2", where, "1361 W/m2")
+    if np.ndim(constant) or not constant > 0:
+        raise where.error(value, "give one number above zero")
+    return float(constant)

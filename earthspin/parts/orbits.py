@@ -30,15 +30,15 @@ class OrbitChoice:
     hint = "str | PathLike[str] | OrbitTable"
     by_name = True
 
-    def read(self, given: object, where: Where) -> str | OrbitTable:
+    def read(self, value: object, where: Where) -> str | OrbitTable:
         """Take the word, a path, a table, or a table as `write` gives it."""
-        if isinstance(given, OrbitTable):
-            return given
-        if isinstance(given, Mapping):
-            return _table_of(given, where)
-        if not isinstance(given, (str, os.PathLike)) or not os.fspath(given).strip():
-            raise where.error(given, f"it is {self.words}")
-        return os.fspath(given)
+        if isinstance(value, OrbitTable):
+            return value
+        if isinstance(value, Mapping):
+            return _table_of(value, where)
+        if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
+            raise where.error(value, f"it is {self.words}")
+        return os.fspath(value)
 
     def write(self, value: str | OrbitTable) -> Plain:
         """Give the word or the path; of a table every number."""
@@ -48,24 +48,24 @@ class OrbitChoice:
         return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
 
 
-def _table_of(given: Mapping[str, Any], where: Where) -> OrbitTable:
+def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     """The table that a scene holds."""
     wanted = {"name", "source", "sha256", *_ARRAYS}
-    if set(given) != wanted:
-        raise where.error(sorted(given), f"the table of an orbit holds {', '.join(sorted(wanted))}")
-    edges, coefficients, axes, errors = (unpack(given[name], where) for name in _ARRAYS)
+    if set(table) != wanted:
+        raise where.error(sorted(table), f"the table of an orbit holds {', '.join(sorted(wanted))}")
+    edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
     windows = len(edges) - 1
     shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
     if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
         raise where.error("a table", "its arrays do not fit together")
     return OrbitTable(
-        name=str(given["name"]),
+        name=str(table["name"]),
         edges=edges,
         coefficients=coefficients,
         axes=axes,
-        source=str(given["source"]),
+        source=str(table["source"]),
         errors=errors,
-        sha256=str(given["sha256"]),
+        sha256=str(table["sha256"]),
     )
 
 

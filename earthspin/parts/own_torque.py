@@ -35,17 +35,17 @@ class OwnTorque:
     hint = "Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike]"
 
     @classmethod
-    def read(cls, given: object, where: Where) -> OwnTorque:
+    def read(cls, value: object, where: Where) -> OwnTorque:
         """Take a function; whether it gives a torque shows when it is called."""
-        if isinstance(given, OwnTorque):
-            return given
-        if isinstance(given, Mapping) and _LIVE in given:
+        if isinstance(value, OwnTorque):
+            return value
+        if isinstance(value, Mapping) and _LIVE in value:
             raise where.error(
-                given[_LIVE], "it was a function, which no scene can hold; give it again in Python"
+                value[_LIVE], "it was a function, which no scene can hold; give it again in Python"
             )
-        if not callable(given):
-            raise where.error(given, f"give {cls.words}")
-        return cls(given)
+        if not callable(value):
+            raise where.error(value, f"give {cls.words}")
+        return cls(value)
 
     def write(self) -> Plain:
         """Say which function it was."""

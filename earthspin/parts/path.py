@@ -33,7 +33,7 @@ from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import PoleAnalysis, Secular
-    from earthspin.nutation.nutation import Circles
+    from earthspin.nutation.circles import Circles
     from earthspin.nutation.response import Response
 
 ComplexArray = NDArray[np.complex128]
@@ -345,7 +345,7 @@ def iau_nutation(
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
     refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
@@ -372,7 +372,7 @@ def rigid(effects: Sequence[str]) -> list[str]:
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
     """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
@@ -480,7 +480,7 @@ def response_apart(
 ) -> ResponseFit:
     """Resonance form fitted with geodesic nutation and additive terms taken away."""
     from earthspin.nutation.additions import added_to
-    from earthspin.nutation.nutation import complex_nutation
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
     done = pole_analysis

@@ -47,19 +47,19 @@ class KernelName:
     hint = "str | PathLike[str] | SpiceKernel"
     by_name = True
 
-    def read(self, given: object, where: Where) -> str:
+    def read(self, value: object, where: Where) -> str:
         """Take a name or a path; of a kernel of Skyfield's, its file."""
-        if hasattr(given, "spk") and hasattr(given, "path"):
-            given = given.path
-        if is_vector_function(given):
+        if hasattr(value, "spk") and hasattr(value, "path"):
+            value = value.path
+        if is_vector_function(value):
             raise where.error(
-                given,
+                value,
                 "it places one body; give it to a perturber, like SUN.replace(position=...), and "
                 "a kernel here",
             )
-        if not isinstance(given, (str, os.PathLike)) or not os.fspath(given).strip():
-            raise where.error(given, "it is a name, a path, or a Skyfield kernel")
-        return os.fspath(given)
+        if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
+            raise where.error(value, "it is a name, a path, or a Skyfield kernel")
+        return os.fspath(value)
 
     def write(self, value: str) -> str:
         """Give the name or path."""
@@ -108,30 +108,28 @@ class PerturbedBody(Question):
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
-        for one in self.perturbers:
-            if one.labelled_field is not None and not (
-                self.many_pulls and one.labelled_field == "gm"
-            ):
+        for p in self.perturbers:
+            if p.labelled_field is not None and not (self.many_pulls and p.labelled_field == "gm"):
                 raise self.error(
-                    f"perturbers.{one.name}.{one.labelled_field}",
+                    f"perturbers.{p.name}.{p.labelled_field}",
                     "an array",
                     "what pulls is one body: one number each; ask again for every other",
                 )
-            if names.count(one.name) > 1:
-                raise self.error("perturbers", names, f"'{one.name}' is named twice")
+            if names.count(p.name) > 1:
+                raise self.error("perturbers", names, f"'{p.name}' is named twice")
         if "total" in names:
             raise self.error("perturbers", names, "'total' stands for the sum of all")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for one in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(one) or (mixed and one.orbit is not None)
+        for member in (self.body, *self.perturbers):
+            of_unknown_error = unmeasured(member) or (mixed and member.orbit is not None)
             if getattr(self, "accuracy", None) is not None and of_unknown_error:
                 raise self.error(
                     "accuracy",
                     getattr(self, "accuracy", None),
-                    f"how far off the positions of '{one.name}' are was never measured, so none "
+                    f"how far off the positions of '{member.name}' are was never measured, so none "
                     "can be promised; leave accuracy out",
                 )
 

@@ -260,7 +260,7 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Computed pole minus the IAU's in time, for each model."""
-    from earthspin.nutation.nutation import complex_nutation, without_line
+    from earthspin.nutation.circles import complex_nutation, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -428,8 +428,8 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
+    from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.nutation.nutation import phases, term_names
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
@@ -513,7 +513,7 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Period and quality of the free core nutation recovered from IAU 2000A."""
-    from earthspin.nutation.nutation import phases, term_names
+    from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -559,7 +559,7 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
-    from earthspin.nutation.nutation import SLOW_DEGREE
+    from earthspin.nutation.circles import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / DAYS_PER_CENTURY

@@ -269,25 +269,17 @@ def solved(
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
+    half = start_error(body)
+    # of the IAU's pole the obliquity alone is uncertain, because longitudes count from it
+    directions = 1 if body.needed("pole").of_the_iau else 2
     setting = solutions.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
     uncertainty = solutions.Uncertainty(
         constant=relative_error,
-        start=_half_widths_of_start(body),
+        start=() if half is None else (half,) * directions,
         orbit=orbit_table.error,
         earth=strength.node_rate < math.inf,
     )
     return solutions.solved(setting, span, uncertainty)
-
-
-def _half_widths_of_start(body: Body) -> tuple[float, ...]:
-    """Half-widths of the start as `budget.changes` takes them, rad.
-
-    Of the IAU's pole that of the obliquity: longitudes count from it.
-    """
-    half = start_error(body)
-    if half is None:
-        return ()
-    return (half,) if body.needed("pole").of_the_iau else (half, half)
 
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:

@@ -146,7 +146,7 @@ def left(
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Computed pole with the response of each rung minus the IAU's, in time."""
-    from earthspin.nutation.nutation import complex_nutation, responses, without_line
+    from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -256,8 +256,8 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     """The largest circular terms of each rung, in phase and out of phase."""
+    from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error
-    from earthspin.nutation.nutation import phases, term_names
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]

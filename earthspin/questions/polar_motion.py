@@ -70,11 +70,11 @@ class TableFile:
     words, hint = '"c04" or the path of a file', "str | PathLike[str]"
     by_name = True
 
-    def read(self, given: object, where: Where) -> str:
+    def read(self, value: object, where: Where) -> str:
         """Take a word or a path."""
-        if not isinstance(given, (str, Path)) or not fspath(given).strip():
-            raise where.error(given, f"it is {self.words}")
-        return fspath(given)
+        if not isinstance(value, (str, Path)) or not fspath(value).strip():
+            raise where.error(value, f"it is {self.words}")
+        return fspath(value)
 
     def write(self, value: str) -> str:
         """Give the word or path."""
@@ -319,21 +319,21 @@ def _days_in_order(series: xr.Dataset) -> FloatArray:
     return time
 
 
-def _need_series(given: Any, names: tuple[str, str], units: tuple[str, ...]) -> None:
+def _need_series(series: Any, names: tuple[str, str], units: tuple[str, ...]) -> None:
     """Refuse what is no Dataset with two series along time that say their units."""
-    if not hasattr(given, "data_vars"):
+    if not hasattr(series, "data_vars"):
         raise SceneError(
-            "series", type(given).__name__, f"give a Dataset with {' and '.join(names)}"
+            "series", type(series).__name__, f"give a Dataset with {' and '.join(names)}"
         )
     for name in names:
-        if name not in given or given[name].dims != ("time",):
+        if name not in series or series[name].dims != ("time",):
             raise SceneError(
-                "series", list(map(str, given.data_vars)), f"'{name}' along 'time' is needed"
+                "series", list(map(str, series.data_vars)), f"'{name}' along 'time' is needed"
             )
-        unit = given[name].attrs.get("units")
-        if given[name].dtype.kind != "f" or given["time"].dtype.kind != "M":
+        unit = series[name].attrs.get("units")
+        if series[name].dtype.kind != "f" or series["time"].dtype.kind != "M":
             raise SceneError(
-                name, str(given[name].dtype), "give numbers along dates without a zone"
+                name, str(series[name].dtype), "give numbers along dates without a zone"
             )
         if unit not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
@@ -592,22 +592,15 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
-        ends, driving, begin = _fitted_start(fitted_to, chi, s)
+        from earthspin.wobble.driven import fitted_start
+
+        ends, observed, driving = _together(fitted_to, chi)
+        begin = fitted_start(ends, observed, driving, s)
     else:
         begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))
     x, y = ex.coordinates_of(ex.polar_motion_from(driving, step, s, begin))
     result = DrivenPole(time=datetime64(ends), x=x * MAS, y=y * MAS).dataset()
     return result.assign_attrs(source=f"driven by {known.get('source', 'a given excitation')}")
-
-
-def _fitted_start(
-    pole: xr.Dataset, chi: xr.Dataset, s: complex
-) -> tuple[FloatArray, ComplexArray, complex]:
-    """Days and excitation that the pole covers, and where it starts."""
-    from earthspin.wobble.driven import fitted_start
-
-    days, p, driving = _together(pole, chi)
-    return days, driving, fitted_start(days, p, driving, s)
 
 
 def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, float]:

@@ -135,7 +135,9 @@ class Records:
         numbers = segment.daf.map_array(segment.start_i, segment.end_i - 4)
         if numbers.size != self.count * self.size:
             raise self._damaged("is cut short")
-        self._words: FloatArray = numbers.reshape(self.count, self.size)
+        records: FloatArray = numbers.reshape(self.count, self.size)
+        self._midpoints = records[:, :2]  # and half-lengths, s
+        self._series = records[:, 2 : 2 + 3 * self.terms].reshape(self.count, 3, self.terms)
         end = self.start + self.count * self.length
         self._slack = _SLACK + 4 * np.spacing(max(abs(self.start), abs(end)))
         self._check_times(np.array([0, self.count - 1]))
@@ -150,20 +152,17 @@ class Records:
     def _check_times(self, records: IntArray) -> None:
         """Midpoint and half-length that records carry follow from the directory."""
         expected = self.start + (records + 0.5) * self.length
-        differences = self._words[records, :2] - np.stack(
-            [expected, np.full(len(records), self.length / 2)], axis=1
-        )
-        wrong = ~(np.abs(differences) <= self._slack).all(axis=1)  # NaN is wrong
+        half = np.full_like(expected, self.length / 2)
+        differences = self._midpoints[records].T - [expected, half]
+        wrong = ~(np.abs(differences) <= self._slack).all(axis=0)  # NaN is wrong
         if wrong.any():
-            raise self._damaged(
-                f"has records of other times than its directory gives (record "
-                f"{int(records[wrong][0]) + 1} of {self.count})"
-            )
+            place = f"record {int(records[wrong][0]) + 1} of {self.count}"
+            raise self._damaged(f"has records of other times than its directory gives ({place})")
 
     def table(self) -> Table:
         """What the records say of positions, in km."""
-        series = self._words[:, 2 : 2 + 3 * self.terms]
-        return Table(series.astype(float, copy=False), self.start, self.length)
+        series = self._series.reshape(self.count, -1).astype(float, copy=False)
+        return Table(series, self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
         """Check the records that these times fall into, and how they meet their neighbours.
@@ -208,11 +207,9 @@ class Records:
                 bound = np.maximum(bound, _FREE * self._usual_gap * sizes)
         apart = ~(gaps <= bound)  # NaN is apart
         if apart.any():
-            record = int(joints[apart][0]) + 1
-            raise self._damaged(
-                f"jumps by {gaps[apart][0]:.2g} km between records {record} and "
-                f"{record + 1} of {self.count}"
-            )
+            gap, record = gaps[apart][0], int(joints[apart][0]) + 1
+            problem = f"jumps by {gap:.2g} km between records {record} and {record + 1}"
+            raise self._damaged(f"{problem} of {self.count}")
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """How far records are from where the next begins, in km, shape (n,) each.
@@ -223,17 +220,11 @@ class Records:
         # T_k is 1 at the end of a record and (-1)^k at its beginning.
         signs = 1.0 - 2.0 * (np.arange(self.terms) % 2)
         with np.errstate(all="ignore"):  # what is damaged may overflow
-            before, after = self._series(joints), self._series(joints + 1)
-            gaps = np.abs(before.sum(axis=2) - after @ signs).max(axis=1)
-            sizes = np.abs(before).sum(axis=2).max(axis=1)
-            sizes = np.minimum(sizes, np.abs(after).sum(axis=2).max(axis=1))
-            last = [np.abs(series[:, :, -2:]).max(axis=(1, 2)) for series in (before, after)]
-        return gaps, np.maximum(sizes, np.finfo(float).tiny), np.minimum(*last)
-
-    def _series(self, records: IntArray) -> FloatArray:
-        """Series of position of some records, shape (n, 3, terms)."""
-        series = self._words[records, 2 : 2 + 3 * self.terms].astype(float, copy=False)
-        return series.reshape(-1, 3, self.terms)
+            series = self._series[np.stack([joints, joints + 1])].astype(float, copy=False)
+            gaps = np.abs(series[0].sum(axis=2) - series[1] @ signs).max(axis=1)
+            sizes = np.abs(series).sum(axis=3).max(axis=2).min(axis=0)
+            tails = np.abs(series[..., -2:]).max(axis=(2, 3)).min(axis=0)
+        return gaps, np.maximum(sizes, np.finfo(float).tiny), tails
 
 
 def _name(segment: Any) -> str:

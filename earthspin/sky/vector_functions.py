@@ -89,9 +89,9 @@ class VectorTrajectory:
     @cached_property
     def coverage(self) -> tuple[float, float]:
         """First and last day of its segments of kernels; other functions are not asked."""
-        stacks = [found for found in map(_segments, _leaves(self.function)) if found]
-        first = [min(s.spk_segment.start_jd for s in stack) - J2000_JD for stack in stacks]
-        last = [max(s.spk_segment.end_jd for s in stack) - J2000_JD for stack in stacks]
+        stacks = [stack for stack in map(_segments, _leaves(self.function)) if stack]
+        first = [min(s.spk_segment.start_jd for s in segments) - J2000_JD for segments in stacks]
+        last = [max(s.spk_segment.end_jd for s in segments) - J2000_JD for segments in stacks]
         return max(first, default=-math.inf), min(last, default=math.inf)
 
     def positions(self, days: FloatArray) -> FloatArray:

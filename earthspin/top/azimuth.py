@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
 from earthspin.numerics.elliptic import complete_third_kind
-from earthspin.top.nutation import Nutation, Place
+from earthspin.top.height import Nutation, Place
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from earthspin.errors import BodyError
 from earthspin.top.azimuth import shared_rate, turned_at
 from earthspin.top.cubic import AxisStart
-from earthspin.top.nutation import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
+from earthspin.top.height import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
 from earthspin.top.patterns import nutation_pattern
 from earthspin.top.start import HeavyTop
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from earthspin.errors import BodyError
 from earthspin.top.azimuth import mean_precession
 from earthspin.top.cubic import axis_start, cubic_gaps
-from earthspin.top.nutation import nutation_of
+from earthspin.top.height import nutation_of
 from earthspin.top.start import HeavyTop, axis_heights, top_constants
 
 FloatArray = NDArray[np.float64]

@@ -175,20 +175,8 @@ class PageFigure:
         with style():
             shown = self.plot(tree)
             phone = self.plot(tree, ax=axes(None, NARROW, self.phone)) if self.phone else None
-        return drawn(self.title, caption, shown, square=self.square, phone=phone)
-
-
-def drawn(
-    title: str,
-    caption: str,
-    shown: Axes | Figure,
-    *,
-    square: bool = False,
-    phone: Axes | Figure | None = None,
-) -> Drawing:
-    """Figure of some axes, ready for the page, and the same drawn for a phone if need be."""
-    narrow = None if phone is None else figure_of(phone)
-    return Drawing(title, caption, figure_of(shown), square, narrow)
+        narrow = None if phone is None else figure_of(phone)
+        return Drawing(self.title, caption, figure_of(shown), self.square, narrow)
 
 
 def figure_of(shown: Axes | Figure) -> Figure:
@@ -201,10 +189,10 @@ def figure_of(shown: Axes | Figure) -> Figure:
 
 
 def stacked(
-    count: int, height: float, figure: Figure | None = None, **how: Any
+    count: int, height: float, figure: Figure | None = None, *, width: float = 8.0, **how: Any
 ) -> tuple[Figure, list[Axes]]:
     """Axes one above the other with one horizontal axis, on a figure of their own by default."""
-    figure = empty(how.pop("width", 8.0), height) if figure is None else figure
+    figure = empty(width, height) if figure is None else figure
     return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False, **how)[:, 0])
 
 

@@ -160,15 +160,9 @@ def _line_or_band(
         return
     width = _samples(series, smooth_days)
     near, some = series.rolling(time=width, center=True), slice(None, None, max(1, width // 6))
-    ax.fill_between(
-        series.time.values[some],
-        near.min().values[some],
-        near.max().values[some],
-        color=colour,
-        alpha=0.3,
-        lw=0,
-        label=label,
-    )
+    low, high = near.min().values[some], near.max().values[some]
+    times = series.time.values[some]
+    ax.fill_between(times, low, high, color=colour, alpha=0.3, lw=0, label=label)
 
 
 def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:

@@ -184,12 +184,12 @@ def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
 
 def svg_of(result: xr.Dataset) -> str:
     """Figure of a quantity as the text of an SVG."""
-    from earthspin.views.drawing import drawn, style
+    from earthspin.views.drawing import Drawing, figure_of, style
 
     with style():
         ax = plot_accuracy(result)
         ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
-        return drawn(result.attrs["quantity"], result.attrs["sentence"], ax).svg
+        return Drawing(result.attrs["quantity"], result.attrs["sentence"], figure_of(ax)).svg
 
 
 # --- files -------------------------------------------------------------------------------------

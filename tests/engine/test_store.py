@@ -253,3 +253,12 @@ def test_attributes_that_no_file_holds_are_refused(
             store.write(refused, path)
         assert "\n" not in str(error.value)
     xr.testing.assert_identical(store.open(path), small())
+
+
+def test_verify_needs_neither_the_numbers_nor_the_labels_in_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At 10^8 dates they take gigabytes; only bytes of files are read."""
+    path = store.write(small(), tmp_path / "r.zarr")
+    monkeypatch.setattr(xr, "open_groups", lambda *_, **__: pytest.fail("it was opened"))
+    assert store.verify(path) == path

@@ -97,10 +97,11 @@ def test_readers_find_the_old_or_the_new(tmp_path: Path, kind: str) -> None:
     reader.start()
     for number in range(1, 26):
         store.write(small(float(number)), path)
+    while not (seen or trouble):  # on a busy machine each read so far may have met a writer
+        time.sleep(0.01)
     done.set()
     reader.join()
     assert not trouble
-    assert seen
 
 
 def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Path) -> None:

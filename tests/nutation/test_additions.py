@@ -6,7 +6,7 @@ import pytest
 from data_tools import core_resonance as resonance
 from earthspin.constants import UAS
 from earthspin.nutation.additions import ADDITIONS, added_to
-from earthspin.nutation.nutation import MULTIPLES, phases
+from earthspin.nutation.circles import MULTIPLES, phases
 
 
 def test_additions_stand_at_their_circles() -> None:

@@ -5,8 +5,8 @@ import pytest
 from skyfield.functions import load_bundled_npy
 
 from earthspin.constants import ARCSEC, EPSILON_0, MAS
+from earthspin.nutation.circles import MULTIPLES
 from earthspin.nutation.neighbours import LEFT_OUT, amplitude_error, circles_of, neighbours_of
-from earthspin.nutation.nutation import MULTIPLES
 from earthspin.sky import iau
 from tests import shipped
 

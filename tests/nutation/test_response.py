@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC, DAY
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
-from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis, phases, without_line
+from earthspin.nutation.circles import MULTIPLES, FrequencyAnalysis, phases, without_line
 from earthspin.nutation.response import Response, fit_response
 from earthspin.sky import iau
 

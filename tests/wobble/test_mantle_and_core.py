@@ -63,8 +63,10 @@ def test_against_eigenvalues(
     low, _, wobble, _ = eigenvalues(mantle, inside)
     # The core's root is the faster one unless a very flat mantle outruns it.
     pair = sorted([abs(low), abs(wobble)])
-    assert abs(abs(found.wobble) - pair[0]) < 3e-13
-    assert abs(abs(found.core) - pair[1]) < 3e-13
+    # Rounding in the eigenvalues grows as two of them approach: 2e-16 over their distance measured.
+    allowed = 3e-13 + 5e-16 / (pair[1] - pair[0])
+    assert abs(abs(found.wobble) - pair[0]) < allowed
+    assert abs(abs(found.core) - pair[1]) < allowed
     assert found.wobble.real > 0 > found.core.real
 
 

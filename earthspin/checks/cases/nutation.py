@@ -14,7 +14,7 @@ from earthspin.interior.prem import PREM
 from earthspin.interior.rotation import parts_of, system, wobble_response
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
 from earthspin.nutation.budget import contributions
-from earthspin.nutation.nutation import MULTIPLES, FrequencyAnalysis
+from earthspin.nutation.circles import MULTIPLES, FrequencyAnalysis
 from earthspin.nutation.response import Response, fit_response
 from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
