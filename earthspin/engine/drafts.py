@@ -6,17 +6,20 @@ the new one is on the disk, as far as the disk keeps what it is told to keep. Tw
 same place do not disturb each other, in two processes, two containers, or on two machines whose
 network folder has locks; the last to finish stays.
 
-A file is replaced in one step. A folder (a Zarr store) takes two: the old one is moved aside, and
-the new one into its place. A reader who comes between waits for the second step; if the writer is
-killed there, the next who opens or writes it puts the old one back.
+A file is replaced in one step, and so is a folder (a Zarr store) where the system can exchange two
+folders, as Linux and macOS can on their own file systems. Elsewhere a folder takes two steps: the
+old one is moved aside, and the new one into its place. A reader who comes between waits for the
+second step; if the writer is killed there, the next who opens or writes it puts the old one back.
 """
 
 from __future__ import annotations
 
+import ctypes
 import errno
 import glob
 import os
 import shutil
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -252,10 +255,24 @@ def put_in_place(draft: Path, target: Path, box: Path) -> None:
     If it cannot take its place, the end of `box_of` puts back what was moved aside.
     """
     sync(draft)
-    if target.is_dir():
-        os.replace(target, box / _OLD)
-    os.replace(draft, target)
+    if not (target.is_dir() and _exchange(draft, target)):
+        if target.is_dir():
+            os.replace(target, box / _OLD)
+        os.replace(draft, target)
     sync_one(target.parent)
+
+
+def _exchange(draft: Path, target: Path) -> bool:
+    """Let two folders change places in one step; False where the system cannot."""
+    here, swap = -100, 2  # AT_FDCWD; RENAME_EXCHANGE of Linux and RENAME_SWAP of macOS
+    names = os.fsencode(draft), os.fsencode(target)
+    try:
+        library = ctypes.CDLL(None)
+        if sys.platform == "darwin":
+            return bool(library.renamex_np(*names, swap) == 0)
+        return bool(library.renameat2(here, names[0], here, names[1], swap) == 0)
+    except (OSError, AttributeError, TypeError):
+        return False
 
 
 def sync(path: Path) -> None:

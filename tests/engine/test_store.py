@@ -144,6 +144,7 @@ def test_a_folder_that_cannot_be_replaced_is_put_back(
             raise OSError(5, "disk trouble")
         original(source, target)
 
+    monkeypatch.setattr(drafts, "_exchange", lambda draft, target: False)
     monkeypatch.setattr(os, "replace", fail_on_the_draft)
     with pytest.raises(OutputError, match="disk trouble"):
         store.write(small(2.0), path)

@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 
 from earthspin import OutputError
-from earthspin.engine import store
+from earthspin.engine import drafts, store
 
 ROOT = Path(__file__).parents[2]
 
@@ -108,8 +108,9 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Pa
     path = store.write(small(1.0), tmp_path / "r.zarr")
     program = """
         import os, signal, sys
-        from earthspin.engine import store
+        from earthspin.engine import drafts, store
         from tests.force.test_two_at_once import small
+        drafts._exchange = lambda draft, target: False   # a system that cannot
         move = os.replace
         def move_and_die(source, target):
             move(source, target)
@@ -128,6 +129,17 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Pa
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_store_is_never_absent_where_folders_can_change_places(tmp_path: Path) -> None:
+    one, other = tmp_path / "one", tmp_path / "other"
+    for folder in (one, other):
+        folder.mkdir()
+        (folder / folder.name).touch()
+    if not drafts._exchange(one, other):
+        pytest.fail("this system cannot exchange folders; the tests are made for one that can")
+    assert [p.name for p in one.iterdir()] == ["other"]
+    assert [p.name for p in other.iterdir()] == ["one"]
+
+
 def test_a_reader_waits_for_a_store_that_is_being_replaced(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -141,6 +153,7 @@ def test_a_reader_waits_for_a_store_that_is_being_replaced(
             moved.set()
             time.sleep(0.3)
 
+    monkeypatch.setattr(drafts, "_exchange", lambda draft, target: False)  # a system that cannot
     monkeypatch.setattr(os, "replace", slow)
     writer = threading.Thread(target=store.write, args=(small(2.0), path))
     writer.start()

@@ -134,7 +134,7 @@ def fresh(rng: Random, key: Key, odd: float) -> Any:
     if rng.random() < odd:
         return malformed(rng)
     if hasattr(kind, "allowed"):
-        return rng.choice(kind.allowed)
+        return rng.choice(list(kind.allowed))
     if hasattr(kind, "example"):
         sizes = [rng.choice((1, 2, 3)) if n is None else n for n in getattr(kind, "shape", ())]
         return _filled(rng, kind, sizes)

@@ -71,12 +71,12 @@ def test_one_effect_at_a_time_is_small_and_not_nothing() -> None:
 
 
 def test_a_solar_pole_never_looks_at_the_moon(monkeypatch: pytest.MonkeyPatch) -> None:
-    from earthspin.sky import ephemeris
+    from earthspin.sky import ephemeris, sources
 
     opened: list[ephemeris.Ephemeris] = []
     real = ephemeris.open_ephemeris
     monkeypatch.setattr(
-        ephemeris, "open_ephemeris", lambda kernel: opened.append(real(kernel)) or opened[-1]
+        sources, "open_ephemeris", lambda kernel: opened.append(real(kernel)) or opened[-1]
     )
     earthspin.pole(times=["2001-01-01"], perturbers=["sun"], effects=["second-order"])
     evaluated = {target for _, target in opened[0].evaluations}
