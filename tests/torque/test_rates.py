@@ -155,7 +155,7 @@ def test_a_mass_of_nothing_and_a_thousandfold_one() -> None:
     assert np.isclose(
         much.precession_rate.sel(perturber="moon"),
         1000 * one.precession_rate.sel(perturber="moon"),
-        rtol=1e-13,
+        rtol=5e-15,
         atol=0,
     )
 
@@ -163,7 +163,7 @@ def test_a_mass_of_nothing_and_a_thousandfold_one() -> None:
 def test_retrograde_spin_turns_the_precession_round() -> None:
     one = earthspin.precession()
     back = earthspin.precession(body=EARTH.replace(spin_period=-EARTH.spin_period))
-    assert np.allclose(back.precession_rate, -one.precession_rate, rtol=1e-14, atol=0)
+    assert np.array_equal(back.precession_rate, -one.precession_rate)
     assert np.all(back.precession_rate_error > 0)
 
 
