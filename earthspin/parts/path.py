@@ -357,10 +357,16 @@ def iau_nutation(
     return days, ends, complex_nutation(angles)
 
 
-def residual_error(analysed: PoleComparison, body: Body, eta: ComplexArray) -> float:
-    """95 % half-width of either angle of a residual, from the integration and H in nutation."""
+def residual_error(
+    analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
+) -> float:
+    """95 % half-width of either angle of a residual: integration, H in nutation, interpolation."""
+    from earthspin.sky.iau import node_error
+
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
+    error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
+    between_nodes = node_error(days)
+    return math.hypot(error, between_nodes) if between_nodes else error
 
 
 def rigid(effects: Sequence[str]) -> list[str]:

@@ -287,7 +287,7 @@ def differences(
     left = np.stack([model - iau_eta for model in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
-    error = residual_error(done, body, iau_eta)
+    error = residual_error(done, body, iau_eta, days)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     precession = error_of_input(done.path, done.path.at(days * DAY)["figure"], u_h)
     return Differences(

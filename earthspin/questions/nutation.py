@@ -167,7 +167,7 @@ def left(
             angles = np.stack([eta.real, eta.imag], axis=1)
             series[name] = without_line(days / DAYS_PER_CENTURY, angles)
             advance(1)
-    return RungResiduals(days, series, residual_error(done, body, theirs))
+    return RungResiduals(days, series, residual_error(done, body, theirs, days))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
