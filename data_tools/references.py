@@ -1,7 +1,8 @@
 """Make the references of `earthspin.checks` again: closed forms at 80 digits, kept to 32.
 
 Pole, rotation and compliances are made in long double, by `data_tools.pole_reference`,
-`rotation_reference` and `compliances_reference`.
+`rotation_reference` and `compliances_reference`; the long term is made in double precision, by
+`long_term_reference`.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from earthspin.checks.ladders import (
     of_compliances,
     of_elements,
     of_free_rotor,
+    of_long_term,
     of_mean_orbit,
     of_pole,
     of_rotation,
@@ -25,6 +27,7 @@ from earthspin.checks.ladders import (
     of_top,
     rotation,
 )
+from earthspin.checks.sky import BODY
 from earthspin.sky import iau
 
 Numbers = Sequence[Any]
@@ -124,6 +127,18 @@ def pole() -> Made:
     }
 
 
+def long_term() -> Made:
+    """Spin axis over a million years, and at more times over the last part of it."""
+    from data_tools.long_term_reference import reference
+
+    start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0])
+    axes, quick = (
+        reference(start, of_long_term.times(span)).tolist()
+        for span in (of_long_term.SPAN, of_long_term.FEW)
+    )
+    return of_long_term.inputs(), {"axes": _pairs(axes), "quick": _pairs(quick)}
+
+
 def tumbling() -> Made:
     """Angular velocity and attitude of a tumbling moon."""
     from data_tools.rotation_reference import tumbling as followed
@@ -149,6 +164,7 @@ MAKERS: dict[str, Callable[[], Made]] = {
     "elements": elements,
     "mean-orbit": mean_orbit,
     "pole": pole,
+    "long-term": long_term,
     "rotation": tumbling,
     "compliances": compliances,
 }

@@ -20,17 +20,22 @@ A case without an answer has ``@refused("words of the refusal")`` and no line "H
 from __future__ import annotations
 
 import math
+import tempfile
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import EarthspinError, UndefinedError
+
+FloatArray = NDArray[np.float64]
 
 HOLDS, REFUSED, FAILS = "holds", "refused", "fails"
 
@@ -62,8 +67,6 @@ class Case:
         Of that distance; "1" for a pure number.
     bound : float
         Largest distance that holds.
-    must_hold : bool
-        Whether only an answer will do; False where a refusal is expected.
     refusal : str
         Words that an expected refusal holds; empty where an answer is expected.
     slow : bool
@@ -79,47 +82,38 @@ class Case:
     part: str = ""
     unit: str = "1"
     bound: float = 0.0
-    must_hold: bool = True
     refusal: str = ""
     slow: bool = False
     long: bool = False
+
+    @property
+    def must_hold(self) -> bool:
+        """Whether only an answer will do; False where a refusal is expected."""
+        return not self.refusal
 
 
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
     """Make a measure a case that must hold within a bound; arguments as of `Case`."""
-
-    def case(measure: Measure) -> Case:
-        part, name, why, reference = _words(measure)
-        return Case(
-            measure=measure, part=part, name=name, hard_because=why, held_against=reference,
-            bound=bound, unit=unit, slow=slow, long=long,
-        )  # fmt: skip
-
-    return case
+    return partial(_case, bound=bound, unit=unit, slow=slow, long=long)
 
 
 def refused(words: str) -> Callable[[Measure], Case]:
     """Make a measure a case that must be refused in a line that holds these words."""
-
-    def case(measure: Measure) -> Case:
-        part, name, why, _ = _words(measure)
-        reference = f"a refusal in one line that says '{words}'"
-        return Case(
-            measure=measure, part=part, name=name, hard_because=why, held_against=reference,
-            must_hold=False, refusal=words,
-        )  # fmt: skip
-
-    return case
+    return partial(_case, refusal=words)
 
 
-def _words(measure: Measure) -> tuple[str, str, str, str]:
-    """Return the part of the package, and from the docstring name, difficulty and reference."""
+def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
+    """Take name, difficulty and reference of a case from the docstring of its measure."""
     name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
     why, _, reference = rest.partition("Held against:")
-    part = measure.__module__.rpartition(".")[2]
-    return part, _one_line(name), _one_line(why), _one_line(reference)
+    if refusal:
+        reference = f"a refusal in one line that says '{refusal}'"
+    return Case(
+        measure=measure, part=measure.__module__.rpartition(".")[2], name=_one_line(name),
+        hard_because=_one_line(why), held_against=_one_line(reference), refusal=refusal, **numbers,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -157,7 +151,7 @@ def judge(case: Case) -> Outcome:
     -------
     Outcome
         ``holds`` if the distance is finite and within the bound. ``refused`` if a refusal was
-        expected and came in the expected words, or if one came where the case may be refused.
+        expected and came in the expected words.
         ``fails`` for all else: a NaN, a warning, an overflow, an exception, an answer where a
         refusal was due.
     """
@@ -213,14 +207,11 @@ def relative_error(values: ArrayLike, reference: ArrayLike) -> float:
 
 
 @contextmanager
-def without_folder(path: Path) -> Iterator[None]:
-    """Let a refusal name a file without its temporary folder.
-
-    Parameters
-    ----------
-    path : Path
-    """
-    try:
-        yield
-    except EarthspinError as error:
-        raise UndefinedError(str(error).replace(str(path), path.name)) from None
+def temporary(name: str) -> Iterator[Path]:
+    """Give the path of a file in a temporary folder, which refusals name without that folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        try:
+            yield path
+        except EarthspinError as error:
+            raise UndefinedError(str(error).replace(str(path), name)) from None

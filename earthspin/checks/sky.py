@@ -45,6 +45,28 @@ def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
     )
 
 
+def eccentric_anomaly(
+    mean: FloatArray, e: float, steps: int, start: FloatArray | None = None
+) -> FloatArray:
+    """Solve Kepler's equation by Newton's method as one would type it, rad.
+
+    Parameters
+    ----------
+    mean : ndarray
+        Mean anomaly, rad.
+    e : float
+        Eccentricity.
+    steps : int
+    start : ndarray, optional
+        By default the mean anomaly.
+    """
+    anomaly = mean if start is None else start
+    for _ in range(steps):
+        off = anomaly - e * np.sin(anomaly) - mean
+        anomaly = anomaly - off / (1 - e * np.cos(anomaly))
+    return anomaly
+
+
 def chebyshev_pieces(
     of: Callable[[FloatArray], FloatArray], first: float, length: float, count: int, nodes: int
 ) -> FloatArray:

@@ -123,7 +123,7 @@ def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
     """Return the dataset of cases and their outcomes."""
     # the bound of an outcome replaces that of its case
     rows = [
-        {"case_part": case.part} | vars(case) | vars(outcome)
+        {"case_part": case.part, "must_hold": case.must_hold} | vars(case) | vars(outcome)
         for case, outcome in zip(cases, outcomes, strict=True)
     ]
     result = build(

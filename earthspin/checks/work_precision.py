@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+#: Values, and how often the costly function was evaluated.
+Result = tuple[Any, int]
 
 #: Quantities, each with a module of `earthspin.checks.ladders`.
 QUANTITIES = (
@@ -68,27 +70,8 @@ class Setting:
     """
 
     words: str
-    run: Callable[[], tuple[Any, int]]
+    run: Callable[[], Result]
     judged: Callable[[], Any] | None = None
-
-
-def settings(
-    words: str, run: Callable[..., tuple[Any, int]], values: Iterable[float] | None = None
-) -> list[Setting]:
-    """Return settings that differ in one number.
-
-    Parameters
-    ----------
-    words : str
-        With braces in the place of that number, e.g. ``"rtol {}"``.
-    run : callable
-        From that number.
-    values : iterable, optional
-        From coarse to fine; by default there is one setting, whose run takes nothing.
-    """
-    if values is None:
-        return [Setting(words, run)]
-    return [Setting(words.format(plain(value)), partial(run, value)) for value in values]
 
 
 @dataclass(frozen=True)
@@ -116,6 +99,33 @@ class Method:
     def ours(self) -> bool:
         """Whether this is a method of this package."""
         return math.isfinite(self.bound)
+
+
+def method(
+    name: str,
+    words: str,
+    run: Callable[..., Result],
+    values: Iterable[float] | None = None,
+    bound: float = math.inf,
+) -> Method:
+    """Return a method whose settings differ in one number.
+
+    Parameters
+    ----------
+    name : str
+    words : str
+        With braces in the place of that number, e.g. ``"rtol {}"``.
+    run : callable
+        From that number.
+    values : iterable, optional
+        From coarse to fine; by default there is one setting, whose run takes nothing.
+    bound : float
+        As of `Method`.
+    """
+    if values is None:
+        return Method(name, [Setting(words, run)], bound)
+    rungs = [Setting(words.format(plain(value)), partial(run, value)) for value in values]
+    return Method(name, rungs, bound)
 
 
 @dataclass(frozen=True)
@@ -161,8 +171,7 @@ class Ladder:
         return max(len(method.settings) for method in self.methods)
 
 
-@dataclass(frozen=True)
-class Timing:
+class Timing(NamedTuple):
     """Run time of a call.
 
     Attributes
@@ -283,16 +292,6 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
     return np.asarray((~beaten & np.isfinite(e) & np.isfinite(t)).reshape(np.shape(error)))
 
 
-def _fronts(ladder: Ladder, error: FloatArray, run_time: FloatArray) -> BoolArray:
-    """Front of each task, over methods and rungs."""
-    tasks = np.array([method.task for method in ladder.methods])
-    on_front = np.zeros(error.shape, dtype=bool)
-    for task in set(tasks.tolist()):
-        mine = tasks == task
-        on_front[mine] = pareto_front(error[mine], run_time[mine])
-    return on_front
-
-
 # --- the result --------------------------------------------------------------------------------
 
 
@@ -360,33 +359,42 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
         As `measure` gives them.
     quick : bool
     """
+    methods = ladder.methods
     full = [[*row, *[row[-1]] * (ladder.rungs - len(row))] for row in points]
-
-    measured = {
+    values: dict[str, Any] = {
         field.name: np.array([[getattr(point, field.name) for point in row] for row in full])
         for field in fields(Point)
     }
-    error = measured["error"]
-    bound = np.array([method.bound for method in ladder.methods])
-    ours = np.array([method.ours for method in ladder.methods])
+    for name in ("task", "ours", "bound"):
+        values[name] = np.array([getattr(method, name) for method in methods])
+    error, run_time = values["error"], values["run_time"]
+    values["settings"] = np.array([len(method.settings) for method in methods])
+    values["at_floor"] = error < REFERENCE_MARGIN * ladder.reference_error
+    values["holds"] = ~values["ours"] | (error[:, -1] <= values["bound"])
+    values["pareto"] = np.zeros(error.shape, dtype=bool)
+    for task in {method.task for method in methods}:
+        mine = values["task"] == task
+        values["pareto"][mine] = pareto_front(error[mine], run_time[mine])
     result = build(
         schema(ladder.unit),
-        measured
-        | {
-            "pareto": _fronts(ladder, error, measured["run_time"]),
-            "task": np.array([method.task for method in ladder.methods]),
-            "at_floor": error < REFERENCE_MARGIN * ladder.reference_error,
-            "ours": ours,
-            "bound": bound,
-            "holds": ~ours | (error[:, -1] <= bound),
-            "settings": np.array([len(method.settings) for method in ladder.methods]),
-        },
+        values,
         coords={
-            "method": [method.name for method in ladder.methods],
+            "method": [method.name for method in methods],
             "rung": np.arange(1, ladder.rungs + 1),
         },
     )
-    result.attrs = _attributes(ladder, points, quick)
+    result.attrs = {
+        "title": f"Error against run time: {ladder.quantity}",
+        "Conventions": CONVENTIONS,
+        "quantity": ladder.quantity,
+        "problem": ladder.problem,
+        "reference": ladder.reference,
+        "reference_error": ladder.reference_error * from_si(ladder.unit),
+        "sentence": sentence(ladder, points),
+        "skipped": ladder.skipped,
+        "quick": int(quick),
+        "source": f"earthspin {__version__}, numpy {version('numpy')}, scipy {version('scipy')}",
+    }
     return result
 
 
@@ -407,23 +415,6 @@ def schema(unit: str) -> Mapping[str, Variable]:
         "holds": Variable(method, "", "the last setting stays within its bound"),
         "settings": Variable(method, "1", "how many settings differ"),
         "task": Variable(method, "", "what is asked for, where there are two"),
-    }
-
-
-def _attributes(
-    ladder: Ladder, points: Sequence[Sequence[Point]], quick: bool
-) -> dict[str, str | float | int]:
-    return {
-        "title": f"Error against run time: {ladder.quantity}",
-        "Conventions": CONVENTIONS,
-        "quantity": ladder.quantity,
-        "problem": ladder.problem,
-        "reference": ladder.reference,
-        "reference_error": ladder.reference_error * from_si(ladder.unit),
-        "sentence": sentence(ladder, points),
-        "skipped": ladder.skipped,
-        "quick": int(quick),
-        "source": f"earthspin {__version__}, numpy {version('numpy')}, scipy {version('scipy')}",
     }
 
 

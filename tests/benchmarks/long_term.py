@@ -28,11 +28,12 @@ from earthspin.checks.ladders.of_long_term import (
     SPAN,
     STRENGTH,
     Lean,
-    Motion,
     Slope,
     as_it_stands,
-    reference,
+    inputs,
+    times,
 )
+from earthspin.checks.stored import load
 from earthspin.constants import ARCSEC
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.trajectory import solve
@@ -45,7 +46,6 @@ IMPORTS = "import numpy, scipy, xarray, skyfield.api, astropy.time"
 TABLE = shipped("earth")
 assert TABLE is not None
 START = np.asarray(EARTH.needed("pole").mean(np.zeros(1))[0])
-MOTION = Motion(START, np.linspace(-SPAN, 0.0, 101))
 
 
 def timed(run: Callable[[], np.ndarray], runs: int = RUNS) -> tuple[float, np.ndarray]:
@@ -84,7 +84,7 @@ def process(arguments: list[str]) -> float:
 
 def main() -> None:
     """Print each method's error and time, and the ratios."""
-    true = reference(MOTION, 2 * KYR)
+    true = load("long-term", inputs())["axes"].hi
 
     def off(found: np.ndarray, true: np.ndarray) -> float:
         found = found / np.linalg.norm(found, axis=0)
@@ -94,10 +94,10 @@ def main() -> None:
     for order in (12, 14, 16):
         ours[order], _ = timed(lambda n=order: solve(STRENGTH, TABLE, START, (-SPAN, 0.0), n).axes)  # type: ignore[misc]
         path = solve(STRENGTH, TABLE, START, (-SPAN, 0.0), order)
-        error = off(path.at(MOTION.times), true)
+        error = off(path.at(times(SPAN)), true)
         print(f"Newton, {order} nodes: {error:.2g} arcsec everywhere, {ours[order] * 1e3:.2f} ms")
         assert error < ASKED
-    lean = Lean(MOTION)
+    lean = Lean(-SPAN)
     alone, _ = timed(lambda: smooth(lean, 1e-9))
     for words, slope, run, tolerances, runs in (
         ("as it stands", as_it_stands, smooth, (1e-9,), 1),
@@ -115,12 +115,12 @@ def main() -> None:
             )
         if within == within:
             print(f"DOP853, {words}, within {ASKED} arcsec: ratio {within / ours[12]:.0f}")
-    times = np.array([-SPAN])
+    end = np.array([-SPAN])
     for members in (1024, 4096):
         starts = np.repeat(START[:, np.newaxis], members, axis=1)
         for step in (4, 5):
             seconds, found = timed(
-                lambda x=starts, h=step: solve_many(STRENGTH, TABLE, x, times, h * KYR),  # type: ignore[misc]
+                lambda x=starts, h=step: solve_many(STRENGTH, TABLE, x, end, h * KYR),  # type: ignore[misc]
                 2,
             )
             error = off(found[:, 0, 0], true[:, 0])

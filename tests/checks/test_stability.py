@@ -85,8 +85,6 @@ def test_every_case_says_what_it_is(case: Case) -> None:
         assert words == " ".join(words.split())
     assert case.unit
     assert 0 <= case.bound < math.inf
-    # A refusal is expected in words of its own, or an answer is the only thing that will do.
-    assert case.must_hold == (case.refusal == "")
 
 
 def test_a_quick_run_is_a_part_of_all() -> None:
@@ -174,7 +172,7 @@ def test_all_else_fails(measure: Callable[[], Any], reason: str) -> None:
 
 
 def test_an_expected_refusal_is_refused() -> None:
-    case = planted(refusing(), must_hold=False, refusal="cannot be told")
+    case = planted(refusing(), refusal="cannot be told")
     found = judge(case)
     assert (found.measured, found.bound, found.verdict) == (0.0, 0.0, "refused")
     assert found.reason == "it cannot be told"
@@ -191,13 +189,9 @@ def test_an_expected_refusal_is_refused() -> None:
     ],
 )
 def test_a_refusal_that_does_not_come_fails(measure: Callable[[], Any], reason: str) -> None:
-    found = judge(planted(measure, must_hold=False, refusal="cannot be told"))
+    found = judge(planted(measure, refusal="cannot be told"))
     assert found.verdict == "fails"
     assert reason in found.reason
-
-
-def test_what_may_be_refused_is_refused() -> None:
-    assert judge(planted(refusing(), must_hold=False)).verdict == "refused"
 
 
 def test_judging_leaves_no_trace() -> None:
@@ -325,7 +319,7 @@ def test_tables_and_tally() -> None:
     cases = (
         planted(lambda: [0.0], name="one"),
         planted(lambda: [2.0], name="two", unit="mas"),
-        planted(refusing("|a| is no"), name="three", must_hold=False, part="top"),
+        planted(refusing("|a| is no"), name="three", refusal="is no", part="top"),
     )
     result = labelled(cases, [judge(case) for case in cases])
     assert tally(result) == {"holds": 1, "refused": 1, "fails": 1}

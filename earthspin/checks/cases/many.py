@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from earthspin.checks.case import Distances, holds, refused
+from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.given import MEMBER
@@ -22,8 +22,6 @@ from earthspin.questions.precession import precession
 from earthspin.questions.spheroid import spheroid_field
 from earthspin.questions.top import heavy_top
 from earthspin.scenes import QUESTIONS
-
-FloatArray = NDArray[np.float64]
 
 H_OF_BODY, J2_OF_BODY = "body.dynamical_flattening", "body.j2"
 #: A moment about each axis, and angular velocities.

@@ -10,13 +10,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import MOON, SUN
-from earthspin.checks.case import Distances, holds, relative_error
+from earthspin.checks.case import Distances, FloatArray, holds, relative_error
 from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_about, attitude_motion
+from earthspin.checks.solvers.attitude import attitude_about, attitude_motion, figure_axis
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
@@ -27,8 +25,6 @@ from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
-
-FloatArray = NDArray[np.float64]
 
 YEAR = JULIAN_YEAR
 TRIAXIALITY = float(BODY.triaxiality) * H / J2
@@ -82,6 +78,17 @@ def _pole_against_exact(
     return _angle(path.at(times)["figure"], axis)
 
 
+def _exact(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
+    """Figure axis of the round body from an angular momentum, by (L, F)."""
+    return axisymmetric_motion(tide, H, SPIN, start, NORTH, times)[1]
+
+
+def _attitude(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
+    """The same by the whole attitude."""
+    turned = attitude_about(NORTH, 0.3)
+    return figure_axis(attitude_motion(tide, H, 0.0, SPIN, start, turned, times)[1])
+
+
 @holds(bound=0.01, unit="uas")
 def _pole_and_exact() -> Distances:
     """spin to precession 10^7: the pole and (L, F) step by step
@@ -99,11 +106,9 @@ def _exact_and_attitude() -> Distances:
     Hard because: two sets of equations of different size, a thousand steps a turn of the sky
     Held against: the figure axis of attitude_motion over 10 d
     """
-    days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
-    start, tide = _momentum(_path(days), 0.0), Tide(days * DAY)
-    _, axis = axisymmetric_motion(tide, H, SPIN, start, NORTH, times)
-    _, turn = attitude_motion(tide, H, 0.0, SPIN, start, attitude_about(NORTH, 0.3), times)
-    yield _angle(Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2], axis)
+    start, tide = _momentum(_path(10.0), 0.0), Tide(10 * DAY)
+    times = np.linspace(0.0, 10 * DAY, 20)
+    yield _angle(_attitude(start, tide, times), _exact(start, tide, times))
 
 
 @holds(bound=5e-3, unit="uas")
@@ -119,7 +124,7 @@ def _triaxial() -> Distances:
     start = np.linalg.norm(_momentum(path, 0.0)) * result["angular_momentum"][0]
     turned = attitude_about(result["figure"][0], float(BODY.meridian))
     _, turn = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, turned, times)
-    yield _angle(result["figure"], Rotation.from_quat(turn, scalar_first=True).as_matrix()[:, :, 2])
+    yield _angle(result["figure"], figure_axis(turn))
 
 
 @holds(bound=2e-5, unit="arcsec/yr")
@@ -160,6 +165,20 @@ def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
     return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
 
 
+def _cost(
+    follow: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
+) -> float:
+    """The same of a solver's requests for the tide, over spans in d."""
+    start = _momentum(_path(8.0), 0.0)
+
+    def count(days: float) -> int:
+        tide = Tide(days * DAY)
+        follow(start, tide, np.array([0.0, days * DAY]))
+        return tide.calls
+
+    return _exponent(count, spans)
+
+
 @holds(bound=3e-4)
 def _cost_of_average() -> Distances:
     """cost of the average as the span grows
@@ -192,14 +211,7 @@ def _cost_of_exact() -> Distances:
     Hard because: the step is bound to the turn of the body
     Held against: exponent 1 of the number of evaluations, over 8 to 64 d
     """
-    start = _momentum(_path(8.0), 0.0)
-
-    def count(days: float) -> int:
-        tide = Tide(days * DAY)
-        axisymmetric_motion(tide, H, SPIN, start, NORTH, np.array([0.0, days * DAY]))
-        return tide.calls
-
-    yield _exponent(count, (8.0, 16.0, 32.0, 64.0))
+    yield _cost(_exact, (8.0, 16.0, 32.0, 64.0))
 
 
 @holds(bound=0.1, slow=True)
@@ -209,14 +221,7 @@ def _cost_of_attitude() -> Distances:
     Hard because: the step is bound to the turn of the body
     Held against: exponent 1 of the number of evaluations, over 8 to 32 d
     """
-    start, turned = _momentum(_path(8.0), 0.0), attitude_about(NORTH, 0.3)
-
-    def count(days: float) -> int:
-        tide = Tide(days * DAY)
-        attitude_motion(tide, H, 0.0, SPIN, start, turned, np.array([0.0, days * DAY]))
-        return tide.calls
-
-    yield _exponent(count, (8.0, 16.0, 32.0))
+    yield _cost(_attitude, (8.0, 16.0, 32.0))
 
 
 @holds(bound=0.01, unit="uas")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.checks.case import Distances, holds
+from earthspin.checks.case import Distances, FloatArray, holds
 from earthspin.checks.ladders import of_rotation
+from earthspin.checks.sky import eccentric_anomaly
 from earthspin.checks.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
@@ -16,8 +16,6 @@ from earthspin.motion.rotation import Motion, start_of
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.sky.poles import FixedPole
-
-FloatArray = NDArray[np.float64]
 
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 
@@ -34,8 +32,13 @@ def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) ->
     body, alone = _body(*moments), Above(gm={}, positions=lambda times: {})
     result = Motion(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
     true = free_rotation((*moments, 1.0), omega, times).attitude
-    chord = [np.linalg.norm(result.attitude - s * true, axis=1) for s in (1, -1)]
-    return float(2 * np.max(np.minimum(*chord)))
+    return _angle(result.attitude, true)
+
+
+def _angle(a: FloatArray, b: FloatArray) -> float:
+    """Largest angle between attitudes, of which q and -q are the same."""
+    chords = [np.linalg.norm(a - s * b, axis=1) for s in (1, -1)]
+    return float(2 * np.max(np.minimum(*chords)))
 
 
 @holds(bound=1e-11, unit="rad")
@@ -90,22 +93,18 @@ def _close_passage() -> Distances:
     body, eccentricity = _body(0.7, 0.8), 0.99
 
     def places(times: FloatArray) -> dict[str, FloatArray]:
-        anomaly = times + eccentricity * np.sin(times)
-        for _ in range(60):
-            rest = anomaly - eccentricity * np.sin(anomaly) - times
-            anomaly = anomaly - rest / (1 - eccentricity * np.cos(anomaly))
+        start = times + eccentricity * np.sin(times)
+        anomaly = eccentric_anomaly(times, eccentricity, steps=60, start=start)
         across = np.sqrt(1 - eccentricity**2) * np.sin(anomaly)
         return {"mass": np.stack([np.cos(anomaly) - eccentricity, across, 0 * times], axis=-1)}
 
-    above, start = Above(gm={"mass": 1.0}, positions=places), np.array([0.1, 0.0, 1.0])
-    result = [
-        Motion(body, above, start_of(body, UPRIGHT, start), 9.0, tolerance=tolerance).at(
-            np.array([9.0])
-        )
-        for tolerance in (1e-13, 1e-9)
-    ]
-    chord = min(np.linalg.norm(result[0].attitude - s * result[1].attitude) for s in (1, -1))
-    yield 2 * chord / (result[0].error[0, 0, -1] + result[1].error[0, 0, -1])
+    above, end = Above(gm={"mass": 1.0}, positions=places), np.array([9.0])
+    start = start_of(body, UPRIGHT, np.array([0.1, 0.0, 1.0]))
+    tight, loose = (
+        Motion(body, above, start, 9.0, tolerance=tolerance).at(end) for tolerance in (1e-13, 1e-9)
+    )
+    apart = _angle(tight.attitude, loose.attitude)
+    yield apart / (tight.error[0, 0, -1] + loose.error[0, 0, -1])
 
 
 TOP = Body(
@@ -126,13 +125,6 @@ def _at_rest() -> Distances:
     Hard because: nothing gives a unit of time, and the first window none of its length
     Held against: the attitude that it had
     """
-    still = rotation(
-        "2000-01-01",
-        "2000-01-02",
-        "6 h",
-        body=TOP,
-        perturbers=[],
-        start_attitude=UPRIGHT,
-        start_omega=[0.0, 0.0, 0.0],
-    )
+    numbers = {"start_attitude": UPRIGHT, "start_omega": [0.0, 0.0, 0.0]}
+    still = rotation("2000-01-01", "2000-01-02", "6 h", body=TOP, perturbers=[], **numbers)
     yield still.attitude.values - UPRIGHT

@@ -6,9 +6,8 @@ import math
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.checks.case import Distances, holds, refused, relative_error
+from earthspin.checks.case import Distances, FloatArray, holds, refused, relative_error
 from earthspin.checks.sky import BODY, J2, SPIN, H
 from earthspin.constants import JULIAN_YEAR, UAS
 from earthspin.mass.inertia import ellipticity_from_h
@@ -18,8 +17,6 @@ from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.moments import principal_moments
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
-
-FloatArray = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
 MOMENTS = [1.0, 2.0, 2.5]

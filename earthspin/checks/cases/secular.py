@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.checks.case import Distances, holds, refused
+from earthspin.checks.case import Distances, FloatArray, holds, refused
+from earthspin.checks.ladders.of_long_term import orbit
 from earthspin.checks.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
-from earthspin.secular.orbit import Orbit, Shape
+from earthspin.secular.orbit import Shape
 from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
-from earthspin.sky.orbit_table import OrbitTable, shipped
-
-FloatArray = NDArray[np.float64]
 
 MYR = 1e6 * JULIAN_YEAR
 NORTH = np.array([0.0, 0.0, 1.0])
@@ -40,13 +36,6 @@ class _Still:
         zero = 0 * times
         normal = np.stack([zero, zero, zero + 1])
         return normal, 0 * normal, 0 * normal
-
-
-@lru_cache
-def _table() -> OrbitTable:
-    result = shipped(BODY.name)
-    assert result is not None
-    return result
 
 
 def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
@@ -75,10 +64,9 @@ def _near_upright() -> Distances:
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:
     """Newton in time against lanes on the shipped orbit."""
-    orbit: Orbit = _table()
     times = np.linspace(*span, 51)
-    path = solve(STRENGTH, orbit, axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
-    many = solve_many(STRENGTH, orbit, axis[:, np.newaxis], times, step)
+    path = solve(STRENGTH, orbit(), axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
+    many = solve_many(STRENGTH, orbit(), axis[:, np.newaxis], times, step)
     yield np.linalg.norm(many[..., 0] - path.at(times), axis=0) / ARCSEC
 
 
@@ -89,7 +77,7 @@ def _lying() -> Distances:
     Hard because: the mean precession is zero, and goes forward and back with the tilt of the orbit
     Held against: the other solver over a million years
     """
-    normal = _table().at(np.zeros(1))[0][:, 0]
+    normal = orbit().at(np.zeros(1))[0][:, 0]
     yield from _both((-MYR, 0.0), _leaning(math.pi / 2, normal), 1e3 * JULIAN_YEAR)
 
 
@@ -100,7 +88,7 @@ def _ends() -> Distances:
     Hard because: four hundred turns, fifty blocks, and a last window with no neighbour
     Held against: the other solver
     """
-    normal = _table().at(np.zeros(1))[0][:, 0]
+    normal = orbit().at(np.zeros(1))[0][:, 0]
     for span in ((-10 * MYR, 0.0), (0.0, 10 * MYR)):
         yield from _both(span, _leaning(0.41, normal), 2e3 * JULIAN_YEAR)
 
@@ -112,7 +100,7 @@ def _now() -> Distances:
     Hard because: a span of no length: no window would be solved
     Held against: the start
     """
-    yield (solve(STRENGTH, _table(), NORTH, (0.0, 0.0)).at(np.zeros(1))[:, 0] - NORTH) / ARCSEC
+    yield (solve(STRENGTH, orbit(), NORTH, (0.0, 0.0)).at(np.zeros(1))[:, 0] - NORTH) / ARCSEC
     asked = long_term(times=["0 kyr"])
     yield (asked.pole.values[0] - BODY.needed("pole").mean(np.zeros(1))[0]) / ARCSEC
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import struct
-import tempfile
-from pathlib import Path
 
 import erfa
 import numpy as np
 
 from earthspin.bodies import MARS, MOON
-from earthspin.checks.case import Distances, holds, refused, relative_error, without_folder
+from earthspin.checks.case import Distances, holds, refused, relative_error, temporary
 from earthspin.checks.sky import BODY, CENTRE, CODES, kernel, positions
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
@@ -68,11 +66,9 @@ def _metre_off() -> None:
     word = segment.start_i + 7500 * kernel()._records[leg].size + 5
     number = f"{segment.daf.endian}d", data, 8 * (word - 1)
     struct.pack_into(*number, struct.unpack_from(*number)[0] + 1e-3)
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "changed.bsp"
+    with temporary("changed.bsp") as copy:
         copy.write_bytes(data)
-        with without_folder(copy):
-            Ephemeris(copy).positions(CODES, CENTRE, np.arange(*_ends(), 3.0))
+        Ephemeris(copy).positions(CODES, CENTRE, np.arange(*_ends(), 3.0))
 
 
 @holds(bound=1e-11, unit="rad")

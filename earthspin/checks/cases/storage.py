@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from pathlib import Path
+from contextlib import suppress
 
 import numpy as np
 import xarray as xr
 
-from earthspin.checks.case import Distances, holds
+from earthspin.checks.case import Distances, holds, temporary
 from earthspin.engine import drafts, store
 
 TIMES = np.array(
@@ -22,12 +19,6 @@ def _small(value: float = 1.0) -> xr.Dataset:
     return xr.Dataset(
         {"x": ("time", np.full(TIMES.size, value), {"units": "m"})}, {"time": ("time", TIMES)}
     )
-
-
-@contextmanager
-def _folder() -> Iterator[Path]:
-    with tempfile.TemporaryDirectory() as folder:
-        yield Path(folder)
 
 
 class _HalfWayError(Exception):
@@ -42,8 +33,8 @@ def _odd_numbers() -> Distances:
     Held against: the number that was written, bit for bit
     """
     for value in (np.inf, 5e-324, 9.969209968386869e36, 1.7976931348623157e308):
-        with _folder() as folder:
-            back = store.read(store.write(_small(value), folder / "r.nc"))
+        with temporary("r.nc") as path:
+            back = store.read(store.write(_small(value), path))
         yield back.x.values != value
 
 
@@ -54,12 +45,12 @@ def _half_netcdf() -> Distances:
     Hard because: half a file looks like a file
     Held against: the old result, whole, and nothing beside it
     """
-    with _folder() as folder:
-        path = store.write(_small(1.0), folder / "r.nc")
+    with temporary("r.nc") as path:
+        store.write(_small(1.0), path)
         with suppress(_HalfWayError), drafts.replacing(path) as draft:
             draft.write_bytes(path.read_bytes()[:100])
             raise _HalfWayError
-        yield len({p.name for p in folder.iterdir()} ^ {"r.nc"})
+        yield len({path} ^ set(path.parent.iterdir()))
         yield store.read(path).x.values != 1.0
 
 
@@ -70,13 +61,12 @@ def _half_zarr() -> Distances:
     Hard because: a store is many files, replaced as one
     Held against: the old files, and nothing beside them
     """
-    with _folder() as folder:
-        old = folder / "r.zarr"
+    with temporary("r.zarr") as old:
         old.mkdir()
         (old / ".zgroup").write_text("old")
         with suppress(_HalfWayError), drafts.replacing(old) as draft:
             draft.mkdir()
             (draft / ".zgroup").write_text("new")
             raise _HalfWayError
-        yield len({p.name for p in folder.iterdir()} ^ {"r.zarr"})
+        yield len({old} ^ set(old.parent.iterdir()))
         yield (old / ".zgroup").read_text() != "old"

@@ -6,17 +6,14 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipkm1
 
-from earthspin.checks.case import Distances, holds, refused
+from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, pattern_limits
 from earthspin.top.start import HeavyTop
 from earthspin.top.steady import sleeping_top, steady_precession
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
-
-FloatArray = NDArray[np.float64]
 
 #: I1 = 2, I3 = 1, m g r = 2: the critical spin is 4 rad/s exactly.
 CRITICAL = 4.0

@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.checks.case import Distances, holds, refused, relative_error
+from earthspin.checks.case import Distances, FloatArray, holds, refused, relative_error
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
@@ -25,8 +24,6 @@ from earthspin.torque.gravity import torque_from_declination, torque_from_positi
 from earthspin.torque.harmonics import zonal_torque
 from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
 from earthspin.torque.rates import circular_orbit_torque
-
-FloatArray = NDArray[np.float64]
 
 NORTH = np.array([0.0, 0.0, 1.0])
 

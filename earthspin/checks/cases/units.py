@@ -8,14 +8,13 @@ import numpy as np
 import xarray as xr
 
 from earthspin import dates
-from earthspin.checks.case import Distances, holds, refused
+from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.checks.sky import BODY
 from earthspin.constants import DAY
 from earthspin.errors import Where
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.polar_motion import excitation, polar_motion, polar_motion_from
 from earthspin.scenes import Scene
-from earthspin.units import FloatArray
 
 
 def _days(times: object) -> FloatArray:

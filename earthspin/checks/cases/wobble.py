@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.case import Distances, holds, refused, relative_error, without_folder
+from earthspin.checks.case import Distances, holds, refused, relative_error, temporary
 from earthspin.constants import UAS
 from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
@@ -83,12 +81,10 @@ def _gap() -> None:
     """
     lines = c04_path().read_text(encoding="ascii", errors="replace").splitlines(keepends=True)
     rows = [n for n, line in enumerate(lines) if line[:1].isdigit() or line[:5].strip().isdigit()]
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "gap"
-        cut = set(rows[5000:5020])
+    cut = set(rows[5000:5020])
+    with temporary("gap") as file:
         file.write_text("".join(line for n, line in enumerate(lines) if n not in cut))
-        with without_folder(file):
-            read_polar_motion(file)
+        read_polar_motion(file)
 
 
 @refused("even")

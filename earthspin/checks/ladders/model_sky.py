@@ -11,15 +11,12 @@ tables 47.A and 47.B); the Sun's perihelion and the equator stand still.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.checks.sky import GM, unit_vectors
+from earthspin.checks.sky import GM, FloatArray, eccentric_anomaly, unit_vectors
 from earthspin.checks.stored import FOLDER
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position
-
-FloatArray = NDArray[np.float64]
 
 #: D, l', l, F at J2000.0 (deg) and their rates (deg per Julian century).
 ARGUMENTS = np.array([297.8501921, 357.5291092, 134.9633964, 93.2720950])
@@ -72,10 +69,7 @@ def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Longitude (rad) and distance (m) of the Sun from its mean anomaly (rad)."""
-    e, eccentric = ECCENTRICITY, anomaly
-    for _ in range(8):  # Newton's, for Kepler's equation; three are enough
-        step = eccentric - e * np.sin(eccentric) - anomaly
-        eccentric = eccentric - step / (1 - e * np.cos(eccentric))
+    e, eccentric = ECCENTRICITY, eccentric_anomaly(anomaly, ECCENTRICITY, steps=8)
     true = 2 * np.arctan2(
         np.sqrt(1 + e) * np.sin(eccentric / 2), np.sqrt(1 - e) * np.cos(eccentric / 2)
     )
@@ -95,6 +89,11 @@ def precessing(angles: FloatArray) -> FloatArray:
     place = positions(angles)
     torque = sum(torque_from_position(GM[name], 1.0, place[name], AXIS) for name in GM)
     return precessing_torque(np.asarray(torque), AXIS, NORMAL)
+
+
+def precessing_at(times: FloatArray) -> FloatArray:
+    """`precessing` at times in s from J2000.0."""
+    return precessing(arguments(times))
 
 
 def torus_mean(counts: tuple[int, int, int, int]) -> float:

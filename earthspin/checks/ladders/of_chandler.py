@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.checks.solvers.simulation import simulate
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import METHODS, fit
 from earthspin.wobble.record import BAND
 
-Record = tuple[NDArray[np.float64], NDArray[np.complex128]]
+Record = tuple[FloatArray, NDArray[np.complex128]]
 
 #: Truth of the simulated records; d.
 PERIOD, QUALITY = 433.0, 100.0

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, settings
+from earthspin.checks.work_precision import Ladder, Result, method
 from earthspin.constants import G
 from earthspin.interior.love import Carry, yielding
 from earthspin.interior.prem import PREM
@@ -54,7 +54,7 @@ def ladder(quick: bool) -> Ladder:
         ("RK4 by hand", "steps of {} in ln r", _runge_kutta, thin),
         ("even layers, matrix exponentials", "layers of {} in ln r", _even_layers, thin),
     ]
-    settled = settings("settled to {}", partial(_run, by_collocation), (1e-4, 1e-13))
+    settled = partial(_run, by_collocation)
     return Ladder(
         quantity="compliances",
         unit="1",
@@ -66,9 +66,9 @@ def ladder(quick: bool) -> Ladder:
         "double by extrapolation of order 20, from a tenth of the radius at which these start",
         reference_error=REFERENCE_ERROR,
         methods=[
-            Method("collocation at Gauss's nodes", settled, BOUND),
+            method("collocation at Gauss's nodes", "settled to {}", settled, (1e-4, 1e-13), BOUND),
             *(
-                Method(name, settings(words, partial(_run, carry), values))
+                method(name, words, partial(_run, carry), values)
                 for name, words, carry, values in rows
             ),
         ],
@@ -83,7 +83,7 @@ def scaled_error(true: Values, result: Array) -> float:
     return float(np.max(abs(true.error_of(result)) / np.outer(own, own)))
 
 
-def _run(carry: Callable[..., Array], setting: float) -> tuple[Array, int]:
+def _run(carry: Callable[..., Array], setting: float) -> Result:
     """Answers of PREM, and at how many radii the matrix was asked for."""
     radii = 0
 
@@ -108,10 +108,9 @@ def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rt
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
 
-    done = solve_ivp(
-        slope, (start, stop), y.ravel(), name, t_eval=[stop], rtol=rtol, atol=rtol * 1e-6
-    )
-    return np.asarray(done.y[:, -1].reshape(y.shape))
+    ends = np.array([stop])
+    states, _ = integrate(slope, y.ravel(), ends, rtol, name, begin=start, atol=rtol * 1e-6)
+    return np.asarray(states[-1].reshape(y.shape))
 
 
 def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:

@@ -13,19 +13,17 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 from scipy.special import jv, jvp
 
+from earthspin.checks.sky import eccentric_anomaly
+from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import load
-from earthspin.checks.work_precision import Ladder, Method, settings
+from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse, Plane
 
-FloatArray = NDArray[np.float64]
-#: Places, shape (3, n, 3), and how often the costly function was evaluated.
-Found = tuple[FloatArray, int]
-#: Coordinates in the plane of an orbit, x to the pericentre, m, and the same count.
+#: Coordinates in the plane of an orbit, x to the pericentre, m, and how often the costly function
+#: was evaluated.
 Planar = tuple[FloatArray, FloatArray, int]
 #: From an ellipse, mean anomalies and a setting.
 InPlane = Callable[[Ellipse, FloatArray, float], Planar]
@@ -78,11 +76,11 @@ def ladder(quick: bool) -> Ladder:
         ("solve_ivp DOP853", "rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
         ("universal variables by Skyfield", "", _skyfield, (0.0,)),
     ]
-    by_ellipse = settings("", lambda: (np.stack([e.positions(t) for e in ORBITS]), t.size * 3))
-    methods = [Method("ellipses by their elements", by_ellipse, 1e-13)]
+    by_elements = partial(_by_elements, t)
+    methods = [method("ellipses by their elements", "", by_elements, bound=1e-13)]
     for name, words, run, values in by_hand:
         few = values[1:3] if quick and len(values) > 1 else values
-        methods.append(Method(name, settings(words, partial(_placed, run, t), few)))
+        methods.append(method(name, words, partial(_placed, run, t), few))
     return Ladder(
         quantity="elements",
         unit="1",
@@ -103,95 +101,88 @@ def _error(off: FloatArray) -> float:
     return float(np.max(np.linalg.norm(off, axis=-1)) / ORBIT.a)
 
 
-def _placed(run: InPlane, t: FloatArray, setting: float) -> Found:
+def _by_elements(t: FloatArray) -> Result:
+    return np.stack([orbit.positions(t) for orbit in ORBITS]), t.size * len(ORBITS)
+
+
+def _placed(run: InPlane, t: FloatArray, setting: float) -> Result:
     """Places on all ellipses by a method that finds them in the plane, x to the pericentre."""
-    result, calls = [], 0
-    for one in ORBITS:
-        x, y, more = run(one, one.mean_anomaly + one.motion * DAY * t, setting)
-        result.append(_turned(one, t, x, y))
+    places, calls = [], 0
+    for orbit in ORBITS:
+        x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)
+        places.append(_turned(orbit, t, x, y))
         calls += more
-    return np.stack(result), calls
+    return np.stack(places), calls
 
 
-def _turned(one: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+def _turned(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """From the plane of the orbit to axes at rest, as a textbook does."""
-    along = one.pericentre + one.pericentre_rate * DAY * t
-    node = one.node + one.node_rate * DAY * t
+    along = orbit.pericentre + orbit.pericentre_rate * DAY * t
+    node = orbit.node + orbit.node_rate * DAY * t
     u, v = x * np.cos(along) - y * np.sin(along), x * np.sin(along) + y * np.cos(along)
-    flat, up = v * math.cos(one.i), v * math.sin(one.i)
+    flat, up = v * math.cos(orbit.i), v * math.sin(orbit.i)
     across = u * np.cos(node) - flat * np.sin(node), u * np.sin(node) + flat * np.cos(node)
     return np.stack([*across, up], axis=-1)
 
 
-def _on_ellipse(one: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
+def _on_ellipse(orbit: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
     """From the cosine and sine of the eccentric anomaly."""
-    return one.a * (cosine - one.e), one.a * math.sqrt(1 - one.e**2) * sine, int(calls)
+    return orbit.a * (cosine - orbit.e), orbit.a * math.sqrt(1 - orbit.e**2) * sine, int(calls)
 
 
-def _fixed_point(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
+def _fixed_point(orbit: Ellipse, mean: FloatArray, steps: float) -> Planar:
     anomaly = mean
     for _ in range(int(steps)):
-        anomaly = mean + one.e * np.sin(anomaly)
-    return _on_ellipse(one, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
+        anomaly = mean + orbit.e * np.sin(anomaly)
+    return _on_ellipse(orbit, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
 
 
-def _newton(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
-    return _by_newton(one, mean, mean, int(steps))
+def _newton(
+    orbit: Ellipse, mean: FloatArray, steps: float, start: FloatArray | None = None
+) -> Planar:
+    anomaly = eccentric_anomaly(mean, orbit.e, int(steps), start)
+    return _on_ellipse(orbit, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
 
 
-def _danby(one: Ellipse, mean: FloatArray, steps: float) -> Planar:
+def _danby(orbit: Ellipse, mean: FloatArray, steps: float) -> Planar:
     """From M + 0.85 e, on the side of the pericentre that M is on (Danby 1988)."""
-    return _by_newton(one, mean, mean + 0.85 * one.e * np.sign(np.sin(mean)), int(steps))
+    return _newton(orbit, mean, steps, mean + 0.85 * orbit.e * np.sign(np.sin(mean)))
 
 
-def _by_newton(one: Ellipse, mean: FloatArray, anomaly: FloatArray, steps: int) -> Planar:
-    for _ in range(steps):
-        off = anomaly - one.e * np.sin(anomaly) - mean
-        anomaly = anomaly - off / (1 - one.e * np.cos(anomaly))
-    return _on_ellipse(one, np.cos(anomaly), np.sin(anomaly), mean.size * steps)
-
-
-def _series(one: Ellipse, mean: FloatArray, terms: float) -> Planar:
+def _series(orbit: Ellipse, mean: FloatArray, terms: float) -> Planar:
     k = np.arange(1, int(terms) + 1)
     angle = np.outer(mean, k)
-    cosine = -one.e / 2 + np.cos(angle) @ (2 / k * jvp(k, k * one.e))
-    sine = np.sin(angle) @ (2 / one.e / k * jv(k, k * one.e))
-    return _on_ellipse(one, cosine, sine, mean.size * terms)
+    cosine = -orbit.e / 2 + np.cos(angle) @ (2 / k * jvp(k, k * orbit.e))
+    sine = np.sin(angle) @ (2 / orbit.e / k * jv(k, k * orbit.e))
+    return _on_ellipse(orbit, cosine, sine, mean.size * terms)
 
 
-def _start(one: Ellipse) -> tuple[FloatArray, FloatArray, float]:
+def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
     """Place and velocity at the pericentre, m and m/s, and the GM that goes with them."""
-    fast = one.motion * one.a * math.sqrt((1 + one.e) / (1 - one.e))
-    place, velocity = np.array([one.a * (1 - one.e), 0.0, 0.0]), np.array([0.0, fast, 0.0])
-    return place, velocity, one.motion**2 * one.a**3
+    fast = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
+    place, velocity = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0]), np.array([0.0, fast, 0.0])
+    return place, velocity, orbit.motion**2 * orbit.a**3
 
 
-def _integrated(one: Ellipse, mean: FloatArray, rtol: float) -> Planar:
+def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
     """The equations of motion, from the pericentre before the first time."""
-    place, velocity, gm = _start(one)
+    place, velocity, gm = _start(orbit)
 
     def slopes(time: float, state: FloatArray) -> list[float]:
         x, y, u, v = state
         pull = -gm / (x * x + y * y) ** 1.5
         return [u, v, pull * x, pull * y]
 
-    since, size = mean / one.motion, np.array([one.a, one.a, velocity[1], velocity[1]])
-    done = solve_ivp(
-        slopes,
-        (0.0, float(since[-1])),
-        [*place[:2], *velocity[:2]],
-        "DOP853",
-        t_eval=since,
-        rtol=rtol,
-        atol=rtol * size,
-    )
-    return done.y[0], done.y[1], done.nfev
+    since, size = mean / orbit.motion, np.array([orbit.a, orbit.a, velocity[1], velocity[1]])
+    start = [*place[:2], *velocity[:2]]
+    states, evaluations = integrate(slopes, start, since, rtol, atol=rtol * size)
+    return states[:, 0], states[:, 1], evaluations
 
 
-def _skyfield(one: Ellipse, mean: FloatArray, setting: float) -> Planar:
+def _skyfield(orbit: Ellipse, mean: FloatArray, setting: float) -> Planar:
     """What Skyfield takes for comets, after SPICE."""
     from skyfield.keplerlib import propagate
 
-    place, velocity, gm = _start(one)
-    (x, y, _), _ = propagate(place, velocity, 0.0, mean / one.motion, gm)
+    place, velocity, gm = _start(orbit)
+    (x, y, _), _ = propagate(place, velocity, 0.0, mean / orbit.motion, gm)
     return x, y, mean.size

@@ -11,18 +11,13 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from earthspin.checks.sky import BODY, H
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, Setting, method
 from earthspin.engine.spread import quantiles
 from earthspin.many import ensemble
 from earthspin.scenes import QUESTIONS, run
-
-FloatArray = NDArray[np.float64]
-#: Half-widths over the period, and how many members they took.
-Found = tuple[FloatArray, int]
 
 #: Relative standard uncertainty of H: so large that the period is not linear in it.
 UNCERTAINTY = 0.1
@@ -59,7 +54,7 @@ def ladder(quick: bool) -> Ladder:
         methods=[
             Method("members drawn", drawn, scatter),
             Method("members spread evenly", spread, 5 / members[-1]),
-            Method("linear errors", settings("", _linear), 1.1 * OFF * OFF),
+            method("linear errors", "", _linear, bound=1.1 * OFF * OFF),
             Method("numpy, as 1/H", by_numpy),
         ],
         error=lambda widths: float(np.sqrt(np.mean((widths / HALF_WIDTH - 1) ** 2))),
@@ -81,7 +76,7 @@ def expected_scatter(members: int) -> float:
     return both / HALF_WIDTH
 
 
-def _over_seeds(members: int, run: Callable[[int, int], Found], seeds: int) -> Setting:
+def _over_seeds(members: int, run: Callable[[int, int], Result], seeds: int) -> Setting:
     return Setting(
         f"{members:,} members",
         lambda: run(members, 0),
@@ -89,12 +84,12 @@ def _over_seeds(members: int, run: Callable[[int, int], Found], seeds: int) -> S
     )
 
 
-def _drawn(members: int, seed: int) -> Found:
+def _drawn(members: int, seed: int) -> Result:
     normal = {"normal": [H, UNCERTAINTY * H]}
     return _half_width({"n": members, NAME: normal}, seed), members
 
 
-def _spread(members: int) -> Found:
+def _spread(members: int) -> Result:
     """Each member in the middle of its share of the distribution."""
     grid = H * (1 + UNCERTAINTY * ndtri((np.arange(members) + 0.5) / members))
     return _half_width({NAME: {"grid": grid.tolist()}}), members
@@ -107,14 +102,14 @@ def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
     return np.atleast_1d((high - low) / 2 / _period())
 
 
-def _linear() -> Found:
+def _linear() -> Result:
     uncertain = BODY.replace(relative_uncertainty={NAME.split(".")[1]: UNCERTAINTY})
     answer = run(QUESTIONS["precession"](body=uncertain)).sel(TOTAL)
     width = answer.precession_period_error / answer.precession_period
     return np.atleast_1d(width.values), 1
 
 
-def _by_hand(members: int, seed: int) -> Found:
+def _by_hand(members: int, seed: int) -> Result:
     """One answer, and draws of 1/H over its own."""
     period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
     drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)

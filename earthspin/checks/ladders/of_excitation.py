@@ -12,19 +12,16 @@ of every series, so that the mean over an interval is the sinusoids' and a const
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.constants import MAS
 from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
 
 Complex = NDArray[np.complex128]
-FloatArray = NDArray[np.float64]
-Run = Callable[[], tuple[Any, int]]
-RunAt = Callable[[float], Run]
 
 #: Period (d), Q, and length of the series (d); quick ones are shorter.
 PERIOD, QUALITY = 433.0, 100.0
@@ -43,6 +40,7 @@ def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
     span = SHORT_SPAN if quick else SPAN
     steps = (10.0, 1.0) if quick else STEPS
+    to, back = partial(_to, span=span), partial(_from, span=span)
     return Ladder(
         quantity="excitation",
         unit="mas",
@@ -53,11 +51,11 @@ def ladder(quick: bool) -> Ladder:
         reference="closed form of both, for sinusoids and steps",
         reference_error=2e-13 * MAS,
         methods=[
-            _method("exact mean", TO, steps, _to("exact", span)),
-            _method("central difference", TO, steps, _to("central difference", span, intervals=2)),
-            _method("Wilson's filter", TO, steps, _to("wilson", span)),
-            _method("exact step", FROM, steps, _from("exact", span)),
-            _method("explicit Euler", FROM, steps[-3:], _from("explicit euler", span)),
+            _method("exact mean", TO, steps, partial(to, "exact")),
+            _method("central difference", TO, steps, partial(to, "central difference")),
+            _method("Wilson's filter", TO, steps, partial(to, "wilson")),
+            _method("exact step", FROM, steps, partial(back, "exact")),
+            _method("explicit Euler", FROM, steps[-3:], partial(back, "explicit euler")),
         ],
         useful=10 * MAS,
         error=lambda values: float(np.max(np.abs(values[0] - values[1]))) * MAS,
@@ -115,31 +113,27 @@ def weighting_error(step: float, *, resonant: bool) -> float:
     return float(total)
 
 
-def _method(name: str, task: str, steps: tuple[float, ...], run_at: RunAt) -> Method:
+def _method(
+    name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
+) -> Method:
     """Return a scheme at every step; only the exact pair claims a bound."""
     claimed = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
     bound = claimed if name.startswith("exact") else np.inf
-    return Method(name, [Setting(f"{step:g} d", run_at(step)) for step in steps], bound, task)
+    return Method(name, [setting(step) for step in steps], bound, task)
 
 
-def _to(scheme: str, span: float, intervals: int = 1) -> RunAt:
-    """Excitation by a scheme whose value at a sample speaks for so many intervals after it."""
-
-    def run_at(step: float) -> Run:
-        t = np.asarray(step * np.arange(round(span / step) + 1))
-        p, s = true_polar_motion(t), frequency()
-        true = true_mean(t[: t.size - intervals], intervals * step)
-        return lambda: ((TO_EXCITATION[scheme](p, step, s), true), t.size)
-
-    return run_at
+def _to(scheme: str, step: float, span: float) -> Setting:
+    """Excitation by a scheme, and the true mean over the intervals that a value speaks for."""
+    t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
+    intervals = 2 if scheme == "central difference" else 1
+    p, true = true_polar_motion(t), true_mean(t[:-intervals], intervals * step)
+    return Setting(f"{step:g} d", lambda: ((TO_EXCITATION[scheme](p, step, s), true), t.size))
 
 
-def _from(scheme: str, span: float) -> RunAt:
+def _from(scheme: str, step: float, span: float) -> Setting:
     """Polar motion by a scheme that takes the mean excitation of each interval."""
-
-    def run_at(step: float) -> Run:
-        t = np.asarray(step * np.arange(round(span / step) + 1))
-        chi, true, s = true_mean(t[:-1], step), true_polar_motion(t), frequency()
-        return lambda: ((FROM_EXCITATION[scheme](chi, step, s, START), true), t.size)
-
-    return run_at
+    t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
+    chi, true = true_mean(t[:-1], step), true_polar_motion(t)
+    return Setting(
+        f"{step:g} d", lambda: ((FROM_EXCITATION[scheme](chi, step, s, START), true), t.size)
+    )

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
-
-from earthspin.checks.ladders.rotation import Rotation, ladder_of_rotation
-from earthspin.checks.work_precision import Ladder
+from earthspin.checks.ladders.rotation import by_hand, ladder_of_rotation, periods
+from earthspin.checks.solvers.stepping import integrate, quaternion_rate
+from earthspin.checks.stored import load
+from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import free_rotation
-
-FloatArray = NDArray[np.float64]
 
 #: kg m2 and rad/s: three different moments, a start that is near no axis.
 MOMENTS = (1.0, 1.7, 2.4)
@@ -26,48 +22,47 @@ def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
     stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
+    true = load("free-rotor", INPUTS)
+    t, count, fine, bound = periods(true, quick)
+    tolerances = {"RK45": coarse, "LSODA": coarse, "Radau": stiff}
     return ladder_of_rotation(
         "free-rotor",
-        INPUTS,
-        quick,
-        periods="periods of a free triaxial rotor",
+        true,
+        t,
+        [
+            method("closed form", "", partial(_closed_form, t), bound=1e-13),
+            method("integrate_rotation", "DOP853, rtol {}", partial(_integrated, t), fine, bound),
+            *by_hand("solve_ivp {}", _by_hand, t, tolerances),
+        ],
+        span=f"{count} periods of a free triaxial rotor",
         detail=", moments 1 : 1.7 : 2.4",
-        reference="the textbook's closed form (Whittaker)",
-        closed_form=(_closed_form, 1e-13),
-        integrator=("integrate_rotation", _integrated),
-        by_hand={
-            f"solve_ivp {name}": (partial(_by_hand, name), steps)
-            for name, steps in (("RK45", coarse), ("LSODA", coarse), ("Radau", stiff))
-        },
+        reference="the textbook's closed form (Whittaker) with 80 digits, kept to 32",
     )
 
 
-def _closed_form(t: FloatArray) -> Rotation:
+def _closed_form(t: FloatArray) -> Result:
     motion = free_rotation(MOMENTS, OMEGA, t)
     return (motion.omega_body, motion.attitude), t.size
 
 
-def _integrated(t: FloatArray, rtol: float) -> Rotation:
+def _integrated(t: FloatArray, rtol: float) -> Result:
     motion = integrate_rotation(MOMENTS, OMEGA, t, rtol=rtol, atol=1e-2 * rtol)
     return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(method: str, t: FloatArray, rtol: float) -> Rotation:
+def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
     """Euler's equations and the quaternion as one would type them."""
     a, b, c = MOMENTS
 
     def rates(_: float, state: FloatArray) -> list[float]:
-        p, q, r, w, x, y, z = state
+        p, q, r = omega = state[:3]
         return [
             (b - c) / a * q * r,
             (c - a) / b * r * p,
             (a - b) / c * p * q,
-            (-x * p - y * q - z * r) / 2,
-            (w * p + y * r - z * q) / 2,
-            (w * q + z * p - x * r) / 2,
-            (w * r + x * q - y * p) / 2,
+            *quaternion_rate(state[3:], omega),
         ]
 
     start = [*OMEGA, 1.0, 0.0, 0.0, 0.0]
-    done = solve_ivp(rates, (0.0, t[-1]), start, method, t_eval=t, rtol=rtol, atol=1e-2 * rtol)
-    return (done.y[:3].T, done.y[3:].T), done.nfev
+    states, evaluations = integrate(rates, start, t, rtol, method, atol=1e-2 * rtol)
+    return (states[:, :3], states[:, 3:]), evaluations

@@ -9,20 +9,15 @@ import math
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.checks.ladders.of_elements import ELEMENTS, ORBIT, PLANE, ROUNDING
 from earthspin.checks.stored import load
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, Setting, method
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse
 from earthspin.torque.average import Window, precessing_torque
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.mean_orbit import mean_square_of_normal, mean_tide, mean_torque
-
-FloatArray = NDArray[np.float64]
-#: A mean, and how many places it took.
-Found = tuple[float, int]
 
 #: Of what pulls, m3 s-2; the tilt of the axis that it turns, rad.
 GM, TILT = 4e14, 0.4
@@ -45,9 +40,7 @@ def ladder(quick: bool) -> Ladder:
         for turns, step in (WINDOWS[2:4] if quick else WINDOWS)
     ]
     plain = [
-        Setting(
-            f"{length / DAY / 365.25:.3g} years, 1 d", partial(_windowed, 1, length, "plain", 1)
-        )
+        Setting(f"{length / DAY / 365.25:.3g} years, 1 d", partial(_windowed, 1, length))
         for length in lengths
     ]
     return Ladder(
@@ -59,9 +52,9 @@ def ladder(quick: bool) -> Ladder:
         reference="sum over anomaly and node with 50 digits, kept to 32",
         reference_error=ROUNDING,
         methods=[
-            Method("closed mean", settings("", lambda: (_closed(), 1)), 2e-15),
+            method("closed mean", "", _closed, bound=2e-15),
             Method("sin4 window", windows, 1e-8 if quick else 2e-14),
-            Method("sum over anomaly and node", settings("{} anomalies", _summed, counts)),
+            method("sum over anomaly and node", "{} anomalies", _summed, counts),
             Method("plain mean over years", plain),
         ],
         error=lambda mean: abs(float(true.error_of(mean) / true.hi)),
@@ -73,18 +66,18 @@ def _precessing(places: FloatArray) -> FloatArray:
     return precessing_torque(torque_from_position(GM, 1.0, places, AXIS), AXIS, NORMAL)
 
 
-def _closed() -> float:
+def _closed() -> Result:
     tide = mean_tide(GM, ORBIT.a, ORBIT.e, mean_square_of_normal(NORMAL, ORBIT.i))
-    return float(precessing_torque(mean_torque(tide, AXIS)[np.newaxis], AXIS, NORMAL)[0])
+    return precessing_torque(mean_torque(tide, AXIS)[np.newaxis], AXIS, NORMAL)[0], 1
 
 
-def _windowed(turns: float, cycle: float, taper: str, step: float) -> Found:
+def _windowed(turns: float, cycle: float, taper: str = "plain", step: float = 1.0) -> Result:
     window = Window(0.0, turns, cycle, taper)
     times = window.sample_times(step * DAY)
     return float(window.mean(times, _precessing(ORBIT.positions(times / DAY)))), times.size
 
 
-def _summed(count: float) -> Found:
+def _summed(count: float) -> Result:
     """Even anomalies on each of four orbits, their nodes a quarter turn from one another."""
     total, mean = 0.0, 2 * np.pi * np.arange(int(count)) / int(count)
     still = {"node_rate": 0.0, "pericentre_rate": 0.0, "mean_anomaly": 0.0, "motion": 1 / DAY}

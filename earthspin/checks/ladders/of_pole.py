@@ -6,23 +6,17 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation
 
 from earthspin.checks.ladders import taylor
-from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_about, attitude_motion
+from earthspin.checks.sky import GM, SPIN, H, Tide, positions
+from earthspin.checks.solvers.attitude import attitude_about, attitude_motion, figure_axis
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
+from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, settings
-from earthspin.constants import DAY, J2000_JD, UAS
+from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
+from earthspin.constants import DAY, UAS
 from earthspin.motion.axes import axis_path
 from earthspin.motion.forces import Figure, Forces
-
-FloatArray = NDArray[np.float64]
-#: Figure axes, and how often the sky or a slope was asked for.
-Found = tuple[FloatArray, int]
 
 #: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
 DAYS, FEW_DAYS = 730.0, 64.0
@@ -92,23 +86,22 @@ def ladder(quick: bool) -> Ladder:
     by_hand = ("LSODA",) if quick else ("RK45", "LSODA", "DOP853")
     loose = (1e-6,) if quick else (1e-6, 1e-8)
     methods = [
-        Method(
-            f"Picard, {length} d",
-            settings("{} nodes", partial(_picard, motion, length), nodes),
+        method(
+            f"Picard, {length} d", "{} nodes", partial(_picard, motion, length), nodes,
             PICARD_BOUNDS[length] * UAS,
         )
         for length, nodes in windows.items()
-    ]
+    ]  # fmt: skip
     methods += [
-        Method("momentum and figure axis", settings("DOP853", partial(_exact, motion)), 5e-4 * UAS),
-        Method("whole attitude", settings("DOP853", partial(_attitude, motion)), 5e-3 * UAS),
+        method("momentum and figure axis", "DOP853", partial(_exact, motion), bound=5e-4 * UAS),
+        method("whole attitude", "DOP853", partial(_attitude, motion), bound=5e-3 * UAS),
     ]
     for name in by_hand:
-        on_pole = settings("rtol {}", partial(_by_hand, motion, name), loose)
-        methods.append(Method(f"{name} on the pole alone", on_pole))
+        on_pole = partial(_by_hand, motion, name)
+        methods.append(method(f"{name} on the pole alone", "rtol {}", on_pole, loose))
     if taylor.is_installed():
-        series = settings("tolerance {}", partial(_peer, motion), (1e-9, 1e-12, 1e-16))
-        methods.append(Method("Taylor series by heyoka", series))
+        series, tolerances = partial(_peer, motion), (1e-9, 1e-12, 1e-16)
+        methods.append(method("Taylor series by heyoka", "tolerance {}", series, tolerances))
     return Ladder(
         quantity="pole",
         unit="uas",
@@ -130,7 +123,7 @@ def _error(axes: FloatArray, figure: Values) -> float:
     return float(np.max(np.linalg.norm(figure.error_of(axes), axis=1)))
 
 
-def _picard(motion: Motion, length: int, order: int) -> Found:
+def _picard(motion: Motion, length: int, order: int) -> Result:
     """What the package does: windows of so many days, with so many nodes."""
     forces = Forces(
         figure=Figure(h=H, spin_rate=SPIN),
@@ -142,7 +135,7 @@ def _picard(motion: Motion, length: int, order: int) -> Found:
     return path.at(motion.times)["figure"], path.windows.times.size
 
 
-def _exact(motion: Motion) -> Found:
+def _exact(motion: Motion) -> Result:
     tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
     _, axis = axisymmetric_motion(
         tide, H, SPIN, motion.momentum, motion.start, times, rtol=TOLERANCE
@@ -150,14 +143,14 @@ def _exact(motion: Motion) -> Found:
     return axis[1:], tide.calls
 
 
-def _attitude(motion: Motion) -> Found:
+def _attitude(motion: Motion) -> Result:
     tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
     start = attitude_about(motion.start, 0.0)
     _, turned = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
-    return Rotation.from_quat(turned[1:], scalar_first=True).as_matrix()[:, :, 2], tide.calls
+    return figure_axis(turned[1:]), tide.calls
 
 
-def _peer(motion: Motion, tolerance: float) -> Found:
+def _peer(motion: Motion, tolerance: float) -> Result:
     """Taylor series of angular momentum and figure axis by heyoka."""
     days = motion.times / DAY
     return taylor.figure_axis(
@@ -165,25 +158,14 @@ def _peer(motion: Motion, tolerance: float) -> Found:
     )
 
 
-def _by_hand(motion: Motion, method: str, rtol: float) -> Found:
+def _by_hand(motion: Motion, method: str, rtol: float) -> Result:
     """Integrate the angular momentum, torque taken along it; then tilt it to the first order."""
-    start, t = motion.start, motion.times
-    scale = 3 * H / SPIN
-    tau = (1 - H) / SPIN
-    legs = ((0, CODES["sun"]), (0, 3), (3, CENTRE), (3, CODES["moon"]))
-    segments = [kernel()._segments[leg] for leg in legs]
+    tide, tau = Tide(motion.end), (1 - H) / SPIN
 
     def rate(time: float, axis: FloatArray) -> FloatArray:
-        sun, middle, here, moon = (
-            segment.compute(J2000_JD, time / DAY)[:3] * 1e3 for segment in segments
-        )
-        total = np.zeros(3)
-        for gm, r in ((GM["sun"], sun - middle - here), (GM["moon"], moon - here)):
-            total += gm * (r @ axis) / (r @ r) ** 2.5 * np.cross(r, axis)
-        return scale * total
+        return np.asarray(3 * H / SPIN * np.cross(tide(time) @ axis, axis))
 
-    momentum = start + tau * np.cross(start, rate(0.0, start))
-    done = solve_ivp(rate, (0.0, t[-1]), momentum, method, t_eval=t, rtol=rtol, atol=1e-3 * rtol)
-    axes = done.y.T
-    tilts = [tau * np.cross(a, rate(time, a)) for time, a in zip(t, axes, strict=True)]
-    return axes - np.stack(tilts), done.nfev
+    momentum = motion.start + tau * np.cross(motion.start, rate(0.0, motion.start))
+    axes, evaluations = integrate(rate, momentum, motion.times, rtol, method, atol=1e-3 * rtol)
+    tilts = [tau * np.cross(a, rate(time, a)) for time, a in zip(motion.times, axes, strict=True)]
+    return axes - np.stack(tilts), evaluations

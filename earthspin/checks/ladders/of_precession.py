@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.checks.ladders import model_sky
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, Setting
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.torque.average import TAPERS, Window
-
-FloatArray = NDArray[np.float64]
 
 #: Epochs about which is averaged, d from J2000.0: no two meet the same Moon.
 EPOCHS: FloatArray = np.asarray(np.arange(-6, 7) * 1237.0)
@@ -72,21 +68,21 @@ def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArra
     """A window of this length about one epoch, timed, and about all, judged."""
 
     def mean_about(
-        epoch: float, precessing: Callable[[FloatArray], FloatArray]
+        epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque
     ) -> tuple[float, int]:
         window = Window(epoch * DAY, 1.0, length, taper)
         times = window.sample_times(step * DAY)
-        return float(window.mean(times, precessing(times))), times.size
+        return float(window.mean(times, torque(times))), times.size
 
-    def run() -> tuple[Any, int]:
-        mean, size = mean_about(0.0, lambda times: model_sky.precessing(model_sky.arguments(times)))
+    def run() -> Result:
+        mean, size = mean_about(0.0, model_sky.precessing_at)
         return [mean], size
 
-    return Setting(words, run, lambda: [mean_about(epoch, _daily_torque)[0] for epoch in epochs])
+    return Setting(words, run, lambda: [mean_about(epoch)[0] for epoch in epochs])
 
 
 def _daily_torque(times: FloatArray) -> FloatArray:
-    """Push at whole days, from a series that is made once."""
+    """Torque at whole days, from a series that is made once."""
     first, series = _series()
     return np.asarray(series[np.rint(times / DAY).astype(int) - first])
 
@@ -96,5 +92,4 @@ def _series() -> tuple[int, FloatArray]:
     """First day and daily precessing torque of all windows about all epochs."""
     longest = max(turns for turns, _ in WINDOWS) * model_sky.turn_of_the_node() / DAY
     reach = int(max(longest, max(BY_HAND) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
-    times = np.arange(-reach, reach + 1.0) * DAY
-    return -reach, model_sky.precessing(model_sky.arguments(times))
+    return -reach, model_sky.precessing_at(np.arange(-reach, reach + 1.0) * DAY)

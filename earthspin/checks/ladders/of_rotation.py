@@ -6,19 +6,17 @@ import math
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
-from earthspin.checks.ladders.rotation import Rotation
+from earthspin.checks.ladders.rotation import by_hand, ladder_of_rotation
+from earthspin.checks.sky import eccentric_anomaly
 from earthspin.checks.solvers.attitude import attitude_motion
-from earthspin.checks.stored import load, rotation_error
-from earthspin.checks.work_precision import Ladder, Method, settings
+from earthspin.checks.solvers.stepping import integrate, quaternion_rate
+from earthspin.checks.stored import load
+from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above
 from earthspin.motion.rotation import Motion, start_of
 from earthspin.numerics.quaternion import conjugate, rotate
-
-FloatArray = NDArray[np.float64]
 
 #: A homogeneous ellipsoid of Hyperion's axes (360 x 266 x 205 km), (C - (A + B)/2)/C and (B - A)/C,
 #: on an ellipse about a mass of GM 1 with mean motion 1, its spin in that unit.
@@ -47,56 +45,37 @@ def times() -> FloatArray:
 
 def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
-    true = load("rotation", INPUTS)
-    wanted = slice(0, FEW if quick else TIMES)
-    t = times()[wanted]
-    omega, attitude = true["omega"][wanted], true["attitude"][wanted]
-    span = f"{(SHORT if quick else SPAN) / (2 * math.pi):.1f} orbits of a tumbling moon"
-    windows = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
+    t = times()[: FEW if quick else TIMES]
+    tolerances = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-5, 1e-7, 1e-9)
-    return Ladder(
-        quantity="rotation",
-        unit="1",
-        problem=f"{span} with three moments, eccentricity {ECCENTRICITY:g}, at {t.size} times; the "
-        "error is the largest of the angular velocity, relative to its size, and of the attitude, "
-        "in rad",
-        subject=span,
+    windows, attitude = partial(_windows, t), partial(_attitude, t)
+    words = "windows in two forms, with the error"
+    return ladder_of_rotation(
+        "rotation",
+        load("rotation", INPUTS),
+        t,
+        [
+            method(words, "tolerance {}", windows, tolerances, 1e-6 if quick else 2e-11),
+            method("attitude_motion", "DOP853, rtol {}", attitude, fine, 1e-5 if quick else 1e-9),
+            *by_hand("solve_ivp {}", _by_hand, t, {"DOP853": fine, "LSODA": fine, "RK45": coarse}),
+        ],
+        span=f"{(SHORT if quick else SPAN) / (2 * math.pi):.1f} orbits of a tumbling moon",
+        detail=f" with three moments, eccentricity {ECCENTRICITY:g}",
         reference="orbit, angular momentum and quaternion in long double by extrapolation of order "
         "20",
         reference_error=REFERENCE_ERROR,
-        methods=[
-            Method(
-                "windows in two forms, with the error",
-                settings("tolerance {}", partial(_windows, t), windows),
-                1e-6 if quick else 2e-11,
-            ),
-            Method(
-                "attitude_motion",
-                settings("DOP853, rtol {}", partial(_attitude, t), fine),
-                1e-5 if quick else 1e-9,
-            ),
-            *(
-                Method(f"solve_ivp {name}", settings("rtol {}", partial(_by_hand, t, name), steps))
-                for name, steps in (("DOP853", fine), ("LSODA", fine), ("RK45", coarse))
-            ),
-        ],
-        useful=0.1,
-        error=lambda rotation: rotation_error(rotation, omega, attitude),
     )
 
 
 def _places(t: FloatArray) -> FloatArray:
     """Positions on the ellipse, shape (n, 3)."""
-    anomaly = t
-    for _ in range(6):
-        rest = anomaly - ECCENTRICITY * np.sin(anomaly) - t
-        anomaly = anomaly - rest / (1 - ECCENTRICITY * np.cos(anomaly))
+    anomaly = eccentric_anomaly(t, ECCENTRICITY, steps=6)
     across = math.sqrt(1 - ECCENTRICITY**2) * np.sin(anomaly)
     return np.stack([np.cos(anomaly) - ECCENTRICITY, across, 0 * anomaly], axis=-1)
 
 
-def _windows(t: FloatArray, tolerance: float) -> Rotation:
+def _windows(t: FloatArray, tolerance: float) -> Result:
     """What the package does."""
     body = Rigid(
         c_minus_a=np.array([H + TRIAXIALITY / 2]),
@@ -111,7 +90,7 @@ def _windows(t: FloatArray, tolerance: float) -> Rotation:
     return (result.omega, result.attitude), motion.evaluations
 
 
-def _attitude(t: FloatArray, rtol: float) -> Rotation:
+def _attitude(t: FloatArray, rtol: float) -> Result:
     """The solver that checks the others."""
     calls = 0
 
@@ -130,13 +109,14 @@ def _attitude(t: FloatArray, rtol: float) -> Rotation:
     return (omega[1:], turned[1:]), calls
 
 
-def _by_hand(t: FloatArray, method: str, rtol: float) -> Rotation:
+def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
     """Euler's equations, the quaternion and Kepler's equation as one would type them."""
     a, b, c = 1 - H - TRIAXIALITY / 2, 1 - H + TRIAXIALITY / 2, 1.0
     shrink = math.sqrt(1 - ECCENTRICITY**2)
 
     def rates(time: float, state: FloatArray) -> list[float]:
-        p, q, r, w, x, y, z = state
+        p, q, r = omega = state[:3]
+        w, x, y, z = quaternion = state[3:]
         anomaly = time
         for _ in range(6):
             rest = anomaly - ECCENTRICITY * math.sin(anomaly) - time
@@ -150,12 +130,9 @@ def _by_hand(t: FloatArray, method: str, rtol: float) -> Rotation:
             (b - c) / a * (q * r - pull * yb * zb),
             (c - a) / b * (r * p - pull * zb * xb),
             (a - b) / c * (p * q - pull * xb * yb),
-            (-x * p - y * q - z * r) / 2,
-            (w * p + y * r - z * q) / 2,
-            (w * q + z * p - x * r) / 2,
-            (w * r + x * q - y * p) / 2,
+            *quaternion_rate(quaternion, omega),
         ]
 
     start = [*OMEGA, 1.0, 0.0, 0.0, 0.0]
-    done = solve_ivp(rates, (0.0, t[-1]), start, method, t_eval=t, rtol=rtol, atol=1e-2 * rtol)
-    return (done.y[:3].T, done.y[3:].T), done.nfev
+    states, evaluations = integrate(rates, start, t, rtol, method, atol=1e-2 * rtol)
+    return (states[:, :3], states[:, 3:]), evaluations

@@ -8,16 +8,14 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from earthspin.checks.sky import unit_vectors
 from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Method, Setting
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.mass.maccullagh import maccullagh_torque
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
 from earthspin.mass.zonal import spheroid_zonals
 
-FloatArray = NDArray[np.float64]
 Field = Callable[[Any], tuple[Any, Any]]
 
 FLATTENING = 1 / 298.25

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import cache, partial
 from typing import Any
@@ -14,13 +15,12 @@ from skyfield.api import load
 from skyfield.jpllib import SpiceKernel
 
 from earthspin.checks.sky import CENTRE, CODES, kernel, positions, unit_vectors
-from earthspin.checks.work_precision import Ladder, Method, Setting, settings
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.constants import DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.sky import iau
 from earthspin.sky.equator import rotate
 from earthspin.sky.skyfield import Skyfield
 
-FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
 
 START, YEAR = 8000.25, 366.0  # days from J2000.0 TDB
@@ -46,19 +46,14 @@ def ladder(quick: bool) -> Ladder:
     true = reference(days)
     fine, coarse = ((8.0, 1.0), (2.0,)) if quick else (SPACINGS, SPACINGS[2:5])
 
-    def from_nodes(model: str, spacing: float) -> tuple[Any, int]:
+    def from_nodes(model: str, spacing: float) -> Result:
         nutation = iau.Nutation(*ends, model=model, spacing=spacing)
         return _seen(nutation.true_equator(days), days), days.size
 
-    def nodes(model: str, spacings: tuple[float, ...]) -> list[Setting]:
-        return settings("every {} d", partial(from_nodes, model), spacings)
+    def at_each(name: str, matrices: Callable[[], FloatArray], bound: float = math.inf) -> Method:
+        return method(name, "", lambda: (_seen(matrices(), days), days.size), bound=bound)
 
-    def at_each(matrices: Callable[[], FloatArray]) -> list[Setting]:
-        return settings("", lambda: (_seen(matrices(), days), days.size))
-
-    def at_epochs() -> FloatArray:
-        return iau.Nutation(*ends, 1).true_equator(days)
-
+    nodes_a, nodes_b = partial(from_nodes, "2000A"), partial(from_nodes, "2000B")
     return Ladder(
         quantity="torque",
         unit="mas",
@@ -70,13 +65,15 @@ def ladder(quick: bool) -> Ladder:
         "the angles of Fukushima & Williams",
         reference_error=4 * float(np.finfo(np.longdouble).eps),
         methods=[
-            Method("IAU 2000A from nodes", nodes("2000A", fine), 8e-12),
-            Method("IAU 2000B from nodes", nodes("2000B", coarse), 2 * MAS),
-            Method("IAU 2000A at each epoch", at_each(at_epochs), 2e-15),
-            Method('source = "skyfield"', settings("", _skyfield_source(days)), 5e-12),
-            Method("IAU 2000B at each epoch", at_each(lambda: erfa.pnm00b(J2000_JD, days))),
-            Method("mean equator alone", at_each(lambda: iau.mean_equator(days))),
-            Method("Skyfield, radec of date", settings("", _skyfield(days))),
+            method("IAU 2000A from nodes", "every {} d", nodes_a, fine, 8e-12),
+            method("IAU 2000B from nodes", "every {} d", nodes_b, coarse, 2 * MAS),
+            at_each(
+                "IAU 2000A at each epoch", lambda: iau.Nutation(*ends, 1).true_equator(days), 2e-15
+            ),
+            method('source = "skyfield"', "", _skyfield_source(days), bound=5e-12),
+            at_each("IAU 2000B at each epoch", lambda: erfa.pnm00b(J2000_JD, days)),
+            at_each("mean equator alone", lambda: iau.mean_equator(days)),
+            method("Skyfield, radec of date", "", _skyfield(days)),
         ],
         error=lambda seen: float(np.max(np.linalg.norm(seen - true, axis=-1))),
         useful=1e3 * MAS,
@@ -163,11 +160,11 @@ def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
     return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
 
 
-def _skyfield_source(days: FloatArray) -> Callable[[], tuple[Any, int]]:
+def _skyfield_source(days: FloatArray) -> Callable[[], Result]:
     """Skyfield as the package reads it."""
     source = Skyfield(kernel())
 
-    def run() -> tuple[Any, int]:
+    def run() -> Result:
         seen = source.radec(CODES, CENTRE, days, iau.true_equator).values()
         return np.stack([unit_vectors(ra, dec) for ra, dec, _ in seen]), days.size
 
@@ -179,11 +176,11 @@ def _skyfield_kernel() -> Any:
     return SpiceKernel(str(kernel().path))
 
 
-def _skyfield(days: FloatArray) -> Callable[[], tuple[Any, int]]:
+def _skyfield(days: FloatArray) -> Callable[[], Result]:
     """Skyfield as one uses it, with fresh times."""
     scale = load.timescale(builtin=True)
 
-    def run() -> tuple[Any, int]:
+    def run() -> Result:
         t = scale.tdb_jd(J2000_JD, days)
         here, result = _skyfield_kernel()[CENTRE], []
         for code in CODES.values():

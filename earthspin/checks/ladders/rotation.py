@@ -1,86 +1,106 @@
-"""What the ladders of the free rotor and of the top share: a closed form against integrators."""
+"""What the ladders of rotations share: free rotor, top and tumbling moon."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from earthspin.checks.stored import load, rotation_error
-from earthspin.checks.work_precision import Ladder, Method, settings
-
-FloatArray = NDArray[np.float64]
-#: Angular velocity along the body's axes and attitude, and how often slopes were evaluated.
-Rotation = tuple[tuple[FloatArray, FloatArray], int]
-#: From times (s) and a relative tolerance.
-Solver = Callable[[FloatArray, float], Rotation]
+from earthspin.checks.stored import Values, rotation_error
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 
 #: Periods that are followed. Half of the stored times lie within the first few.
 PERIODS, FEW_PERIODS = 100.0, 5.0
 TIMES = 40
 #: Of a reference that is kept to 32 digits.
 ROUNDING = 1e-28
-#: Relative tolerances of solvers of high order, for all settings and for a quick run.
-FINE, FEW_FINE = (1e-4, 1e-6, 1e-8, 1e-10, 1e-13), (1e-4, 1e-8)
+#: Relative tolerances of solvers of high order, and a bound on the error with the last one.
+FINE, BOUND = (1e-4, 1e-6, 1e-8, 1e-10, 1e-13), 1e-9
+FEW_FINE, FEW_BOUND = (1e-4, 1e-8), 1e-3
 
 
 def ladder_of_rotation(
     quantity: str,
-    inputs: Mapping[str, Any],
-    quick: bool,
+    true: Mapping[str, Values],
+    t: FloatArray,
+    methods: Sequence[Method],
     *,
-    periods: str,
+    span: str,
     detail: str,
     reference: str,
-    closed_form: tuple[Callable[[FloatArray], Rotation], float],
-    integrator: tuple[str, Solver],
-    by_hand: Mapping[str, tuple[Solver, Sequence[float]]],
+    reference_error: float = ROUNDING,
 ) -> Ladder:
     """Make the ladder of a rotation whose angular velocity and attitude are stored.
 
     Parameters
     ----------
     quantity : str
-    inputs : mapping
-        Numbers that the stored reference was made for.
-    quick : bool
-    periods, detail : str
-        Name of the periods that are counted, and the rest of the problem's description.
+    true : mapping
+        The stored reference.
+    t : ndarray
+        Its times, or the first of them, s.
+    methods : sequence of Method
+    span, detail : str
+        What is followed, and the rest of the problem's description.
     reference : str
         Source of the true values.
-    closed_form : tuple
-        Rotation at times (s), and the bound on its error.
-    integrator : tuple
-        Name and run of the integrator of this package, by DOP853.
-    by_hand : mapping
-        Runs of other methods by name, with their tolerances.
+    reference_error : float
     """
-    true = load(quantity, inputs)
-    wanted = slice(0, TIMES // 2 if quick else TIMES)
-    t = true["times"].hi[wanted]
-    omega, attitude = true["omega"][wanted], true["attitude"][wanted]
-    span = f"{FEW_PERIODS if quick else PERIODS:g} {periods}"
-    (closed, bound), (name, integrated) = closed_form, integrator
-    stepped = settings("DOP853, rtol {}", partial(integrated, t), FEW_FINE if quick else FINE)
+    omega, attitude = true["omega"][: t.size], true["attitude"][: t.size]
     return Ladder(
         quantity=quantity,
         unit="1",
         problem=f"{span}{detail}, at {t.size} times; the error is the largest of the angular "
         "velocity, relative to its size, and of the attitude, in rad",
         subject=span,
-        reference=f"{reference} with 80 digits, kept to 32",
-        reference_error=ROUNDING,
-        methods=[
-            Method("closed form", settings("", partial(closed, t)), bound),
-            Method(name, stepped, 1e-3 if quick else 1e-9),
-            *(
-                Method(other, settings("rtol {}", partial(run, t), tolerances))
-                for other, (run, tolerances) in by_hand.items()
-            ),
-        ],
+        reference=reference,
+        reference_error=reference_error,
+        methods=methods,
         useful=0.1,
         error=lambda rotation: rotation_error(rotation, omega, attitude),
     )
+
+
+def periods(
+    true: Mapping[str, Values], quick: bool
+) -> tuple[FloatArray, str, tuple[float, ...], float]:
+    """Extent of a ladder whose reference is stored over a hundred periods.
+
+    Returns
+    -------
+    times : ndarray
+        s.
+    count : str
+        Number of periods in words.
+    tolerances : tuple of float
+        Of solvers of high order.
+    bound : float
+        On the error with the last tolerance.
+    """
+    if quick:
+        return true["times"].hi[: TIMES // 2], f"{FEW_PERIODS:g}", FEW_FINE, FEW_BOUND
+    return true["times"].hi, f"{PERIODS:g}", FINE, BOUND
+
+
+def by_hand(
+    words: str,
+    run: Callable[[str, FloatArray, float], Result],
+    t: FloatArray,
+    tolerances: Mapping[str, Sequence[float]],
+) -> list[Method]:
+    """Return methods of SciPy set by hand, with their relative tolerances.
+
+    Parameters
+    ----------
+    words : str
+        With braces in the place of the method's name.
+    run : callable
+        From the method, times and a relative tolerance.
+    t : ndarray
+        s.
+    tolerances : mapping
+        By method.
+    """
+    return [
+        method(words.format(name), "rtol {}", partial(run, name, t), steps)
+        for name, steps in tolerances.items()
+    ]

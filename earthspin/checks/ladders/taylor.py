@@ -12,12 +12,11 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.checks.sky import GM, chebyshev_pieces, positions
+from earthspin.checks.solvers.momentum_and_figure import slopes
+from earthspin.checks.solvers.stepping import FloatArray
 from earthspin.constants import DAY
-
-FloatArray = NDArray[np.float64]
 
 PIECE, DEGREE = 4.0, 12  # d
 FIRST_EDGE = 0.5 - PIECE  # d: records end half a day from J2000.0
@@ -88,7 +87,7 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
     """Compile the equations; coefficients and the middle of the piece are parameters."""
     import heyoka as hy
 
-    lx, ly, lz, fx, fy, fz = hy.make_vars("lx", "ly", "lz", "fx", "fy", "fz")
+    state = *_, fx, fy, fz = hy.make_vars("lx", "ly", "lz", "fx", "fy", "fz")
     x = (hy.time - hy.par[2 * _OF_BODY]) / (PIECE / 2 * DAY)
     pull = [hy.expression(0.0)] * 3
     for body, gm in enumerate(GM.values()):
@@ -96,17 +95,8 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
         square = hy.sum([v * v for v in r])
         along = gm * (r[0] * fx + r[1] * fy + r[2] * fz) * square**-2.5
         pull = [total + along * v for total, v in zip(pull, r, strict=True)]
-    qx, qy, qz = pull
-    scale, tau = 3 * h / spin_rate, (1 - h) / spin_rate
     return hy.taylor_adaptive(
-        [
-            (lx, scale * (qy * fz - qz * fy)),
-            (ly, scale * (qz * fx - qx * fz)),
-            (lz, scale * (qx * fy - qy * fx)),
-            (fx, (ly * fz - lz * fy) / tau),
-            (fy, (lz * fx - lx * fz) / tau),
-            (fz, (lx * fy - ly * fx) / tau),
-        ],
+        list(zip(state, slopes(state, pull, h, spin_rate), strict=True)),
         [0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
         pars=[1.0] * (2 * _OF_BODY) + [0.0],
         tol=tolerance,

@@ -14,13 +14,11 @@ The differences of the moments are given, never formed.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from earthspin.checks.solvers.momentum_and_figure import Tide, integrate
+from earthspin.checks.solvers.momentum_and_figure import Tide
+from earthspin.checks.solvers.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.motion.triaxial import equatorial_basis
-
-FloatArray = NDArray[np.float64]
 
 
 def attitude_motion(
@@ -65,27 +63,14 @@ def attitude_motion(
     torque_scale = 3 / spin_rate * np.array([c_minus_b, -c_minus_a, triaxiality])
 
     def slope(t: float, state: FloatArray) -> FloatArray:
-        w, x, y, z = q = state[3:]
-        turn = Rotation.from_quat(q, scalar_first=True).as_matrix()
+        turn = Rotation.from_quat(state[3:], scalar_first=True).as_matrix()
         spin = spin_per_momentum * (state[:3] @ turn)
         seen = turn.T @ tide(t) @ turn
         torque = torque_scale * np.array([seen[1, 2], seen[0, 2], seen[0, 1]])
-        p, r, s = spin
-        return np.concatenate(
-            [
-                turn @ torque,
-                [
-                    -0.5 * (x * p + y * r + z * s),
-                    0.5 * (w * p + y * s - z * r),
-                    0.5 * (w * r + z * p - x * s),
-                    0.5 * (w * s + x * r - y * p),
-                ],
-            ]
-        )
+        return np.concatenate([turn @ torque, quaternion_rate(state[3:], spin)])
 
-    state = integrate(
-        slope, np.concatenate([momentum, quaternion]), times, rtol, 1 / abs(spin_rate)
-    )
+    start, radian = np.concatenate([momentum, quaternion]), 1 / abs(spin_rate)
+    state, _ = integrate(slope, start, times, rtol, begin=times[0], max_step=radian)
     return state[:, :3], state[:, 3:]
 
 
@@ -103,3 +88,8 @@ def attitude_about(axis: FloatArray, turned: float) -> FloatArray:
     x = np.cos(turned) * first + np.sin(turned) * second
     frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
     return np.asarray(frame.as_quat(scalar_first=True))
+
+
+def figure_axis(quaternion: FloatArray) -> FloatArray:
+    """Third axis of the body in the axes of the sky, shape (t, 3), from `attitude_motion`."""
+    return np.asarray(Rotation.from_quat(quaternion, scalar_first=True).as_matrix()[:, :, 2])

@@ -8,13 +8,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
+from numpy.typing import ArrayLike
 
-from earthspin.errors import BodyError, EarthspinError
+from earthspin.checks.solvers.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.top.start import HeavyTop
-
-FloatArray = NDArray[np.float64]
 
 
 class IntegratedMotion(NamedTuple):
@@ -45,47 +42,28 @@ def integrate_heavy_top(
     top : HeavyTop
         One top.
     times : ndarray, shape (n,)
-        Ascending, none before the start at t = 0, s.
+        Ascending from the start at t = 0, s.
     relative_tolerance : float
         Of each step of the eighth-order Runge-Kutta method.
 
     Returns
     -------
     IntegratedMotion
-
-    Raises
-    ------
-    BodyError
-        For a batch of tops, or times that do not ascend from 0.
-    EarthspinError
-        If the integration does not come to its end.
     """
     times = np.atleast_1d(np.asarray(times, dtype=np.float64))
-    if top.shape:
-        raise BodyError("heavy top", "shape", top.shape, "integrate one top at a time")
-    steps = np.diff(times, prepend=0.0)
-    if not np.all(steps >= 0):
-        bad = float(times[~(steps >= 0)][0])
-        raise BodyError("heavy top", "times", bad, "give ascending times from 0 on")
     across = top.phi_rate * np.sin(top.theta)
     omega, attitude = state_of_angles(top.theta, top.phi, top.psi, across, top.theta_rate, top.spin)
-    state = np.concatenate([attitude, omega])
-    scale = np.abs(state[4:]).max() + np.sqrt(abs(top.weight_moment) / top.transverse_moment)
-    solution = solve_ivp(
-        _state_rate,
-        (0.0, times[-1] or np.finfo(float).tiny),
-        state,
-        method="DOP853",
-        t_eval=times,
-        args=(top,),
-        rtol=relative_tolerance,
+    scale = np.abs(omega).max() + np.sqrt(abs(top.weight_moment) / top.transverse_moment)
+    state, evaluations = integrate(
+        lambda _, state: _rates(state, top),
+        np.concatenate([attitude, omega]),
+        times,
+        relative_tolerance,
         atol=relative_tolerance * np.array([1.0] * 4 + [scale or 1.0] * 3),
     )
-    if not solution.success:
-        raise EarthspinError(f"the integration of the heavy top stopped: {solution.message}")
-    attitude = solution.y[:4].T
+    attitude = state[:, :4]
     norm = np.sqrt(np.sum(attitude**2, axis=-1, keepdims=True))
-    return IntegratedMotion(attitude / norm, solution.y[4:].T, int(solution.nfev))
+    return IntegratedMotion(attitude / norm, state[:, 4:], evaluations)
 
 
 def state_of_angles(
@@ -127,17 +105,14 @@ def state_of_angles(
     return np.stack(omega, axis=-1), np.stack(attitude, axis=-1)
 
 
-def _state_rate(_time: float, state: FloatArray, top: HeavyTop) -> list[Any]:
+def _rates(state: FloatArray, top: HeavyTop) -> list[Any]:
     """Rates of quaternion and angular velocity; the torque is m g r z' x (-z)."""
     w, x, y, z, p, q, r = state
     i1, i3 = float(top.transverse_moment), float(top.axial_moment)
     weight = float(top.weight_moment)
     up_1, up_2 = 2 * (x * z - w * y), 2 * (y * z + w * x)  # the vertical in the body
     return [
-        (-x * p - y * q - z * r) / 2,
-        (w * p + y * r - z * q) / 2,
-        (w * q + z * p - x * r) / 2,
-        (w * r + x * q - y * p) / 2,
+        *quaternion_rate(state[:4], state[4:]),
         (weight * up_2 + q * r * (i1 - i3)) / i1,
         (-weight * up_1 + r * p * (i3 - i1)) / i1,
         0.0,

@@ -10,14 +10,11 @@ with `earthspin.motion.axes` the torque's formula and nothing else.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
-from earthspin.errors import UndefinedError
-
-FloatArray = NDArray[np.float64]
+from earthspin.checks.solvers.stepping import FloatArray, integrate
 
 #: Tidal tensor, shape (3, 3), s-2, at a time in s.
 Tide = Callable[[float], FloatArray]
@@ -54,58 +51,35 @@ def axisymmetric_motion(
     -------
     momentum, figure : ndarray, shape (t, 3)
     """
-    tau = (1 - h) / spin_rate
-    torque_scale = 3 * h / spin_rate
-
-    def slope(t: float, state: FloatArray) -> FloatArray:
-        lx, ly, lz, fx, fy, fz = state
-        qx, qy, qz = tide(t) @ state[3:]
-        return np.array(
-            [
-                torque_scale * (qy * fz - qz * fy),
-                torque_scale * (qz * fx - qx * fz),
-                torque_scale * (qx * fy - qy * fx),
-                (ly * fz - lz * fy) / tau,
-                (lz * fx - lx * fz) / tau,
-                (lx * fy - ly * fx) / tau,
-            ]
-        )
-
-    state = integrate(slope, np.concatenate([momentum, figure]), times, rtol, abs(tau))
+    start = np.concatenate([momentum, figure])
+    state, _ = integrate(
+        lambda t, state: slopes(state, tide(t) @ state[3:], h, spin_rate),
+        start, times, rtol, begin=times[0], max_step=abs((1 - h) / spin_rate),
+    )  # fmt: skip
     axis = state[:, 3:]
     return state[:, :3], axis / np.linalg.norm(axis, axis=1, keepdims=True)
 
 
-def integrate(
-    slope: Callable[[float, FloatArray], FloatArray],
-    start: FloatArray,
-    times: FloatArray,
-    rtol: float,
-    radian: float,
-) -> FloatArray:
-    """DOP853 through the times given, shape (t, state).
+def slopes(state: Any, pull: Any, h: float, spin_rate: float) -> list[Any]:
+    """Rates of angular momentum and figure axis, as numbers or as symbols.
 
     Parameters
     ----------
-    slope : callable
-        Time and state to rate of the state.
-    start : ndarray
-    times : ndarray, shape (t,)
-    rtol : float
-        Relative and absolute tolerance: states are of order 1.
-    radian : float
-        Time in which the fastest mode turns by a radian, s; no step is longer than that.
+    state : six numbers
+    pull : three numbers
+        Tidal tensor times the figure axis, s-2.
+    h, spin_rate : float
+        As of `axisymmetric_motion`.
     """
-    result = solve_ivp(
-        slope,
-        (times[0], times[-1]),
-        start,
-        method="DOP853",
-        t_eval=times,
-        rtol=rtol,
-        atol=rtol,
-        max_step=radian,
-    )
-    if not result.success:
-        raise UndefinedError(f"the integration stopped at {result.t[-1]:.6g} s: {result.message}")
-    return np.asarray(result.y.T)
+    tau = (1 - h) / spin_rate
+    torque_scale = 3 * h / spin_rate
+    lx, ly, lz, fx, fy, fz = state
+    qx, qy, qz = pull
+    return [
+        torque_scale * (qy * fz - qz * fy),
+        torque_scale * (qz * fx - qx * fz),
+        torque_scale * (qx * fy - qy * fx),
+        (ly * fz - lz * fy) / tau,
+        (lz * fx - lx * fz) / tau,
+        (lx * fy - ly * fx) / tau,
+    ]

@@ -1,0 +1,80 @@
+"""Step-by-step integration with SciPy, and the rates that several equations of motion share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import solve_ivp
+
+from earthspin.errors import UndefinedError
+
+FloatArray = NDArray[np.float64]
+
+
+def integrate(
+    slope: Callable[[float, FloatArray], ArrayLike],
+    start: ArrayLike,
+    times: FloatArray,
+    rtol: float,
+    method: str = "DOP853",
+    *,
+    begin: float = 0.0,
+    atol: ArrayLike | None = None,
+    max_step: float = np.inf,
+) -> tuple[FloatArray, int]:
+    """Integrate through the given times with `scipy.integrate.solve_ivp`.
+
+    Parameters
+    ----------
+    slope : callable
+        Time and state to rate of the state.
+    start : array_like
+        State at `begin`.
+    times : ndarray, shape (n,)
+        In the order of integration.
+    rtol, method, atol, max_step
+        As of `solve_ivp`; the absolute tolerance is the relative one if it is not given, for
+        states of order 1.
+    begin : float
+        Time of the start.
+
+    Returns
+    -------
+    states : ndarray, shape (n, k)
+    evaluations : int
+        Number of evaluations of the slope.
+
+    Raises
+    ------
+    UndefinedError
+        If the integration does not reach the last time.
+    """
+    done = solve_ivp(
+        slope, (begin, times[-1]), start, method, t_eval=times, rtol=rtol,
+        atol=rtol if atol is None else atol, max_step=max_step,
+    )  # fmt: skip
+    if not done.success:
+        raise UndefinedError(f"the integration stopped at {done.t[-1]:.6g} s: {done.message}")
+    return done.y.T, int(done.nfev)
+
+
+def quaternion_rate(quaternion: Iterable[Any], omega: Iterable[Any]) -> list[Any]:
+    """Rate (1/2) q omega of an attitude, scalar first.
+
+    Parameters
+    ----------
+    quaternion : four numbers
+        From the axes of the body to those of the sky.
+    omega : three numbers
+        Angular velocity along the axes of the body.
+    """
+    (w, x, y, z), (p, q, r) = quaternion, omega
+    return [
+        (-x * p - y * q - z * r) / 2,
+        (w * p + y * r - z * q) / 2,
+        (w * q + z * p - x * r) / 2,
+        (w * r + x * q - y * p) / 2,
+    ]
