@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import DAY
+from earthspin.motion.forces import Figure, Forces
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 
 FloatArray = NDArray[np.float64]
@@ -35,6 +36,12 @@ def kernel() -> Ephemeris:
 def positions(days: FloatArray) -> dict[str, FloatArray]:
     """Sun and Moon as seen from the body at days from J2000.0 TDB, m, shape (n, 3) each."""
     return kernel().positions(CODES, CENTRE, days)
+
+
+#: Sun and Moon on the round body.
+FORCES = Forces(
+    figure=Figure(h=H, spin_rate=SPIN), gm=GM, positions=lambda times: positions(times / DAY)
+)
 
 
 def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,31 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.double_double import DoubleDouble
 
 FloatArray = NDArray[np.float64]
 
 FOLDER = Path(__file__).parent / "references"
 
 
-@dataclass(frozen=True)
-class Values:
-    """Reference values hi + lo."""
-
-    hi: FloatArray
-    lo: FloatArray
-
-    def __getitem__(self, key: Any) -> Values:
-        return Values(self.hi[key], self.lo[key])
-
-    def __neg__(self) -> Values:
-        return Values(-self.hi, -self.lo)
-
-    def error_of(self, values: FloatArray) -> FloatArray:
-        """How far numbers are from these, to the digits that they share."""
-        return np.asarray((values - self.hi) - self.lo)
-
-
-def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
+def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
     """Read a reference and check that it was made for the problem as it is now.
 
     Parameters
@@ -61,33 +43,35 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, Values]:
             "python -m data_tools references"
         )
     return {
-        key: Values(np.array(pair["hi"]), np.array(pair["lo"]))
+        key: DoubleDouble(np.array(pair["hi"]), np.array(pair["lo"]))
         for key, pair in stored["values"].items()
     }
 
 
-def attitude_error(values: FloatArray, true: Values) -> float:
+def attitude_error(values: FloatArray, true: DoubleDouble) -> float:
     """Largest angle between attitudes given as unit quaternions, rad.
 
     Parameters
     ----------
     values : ndarray, shape (n, 4)
         q and -q are the same attitude.
-    true : Values, shape (n, 4)
+    true : DoubleDouble, shape (n, 4)
     """
     same = np.where(np.sum(values * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
-    return float(2 * np.max(np.linalg.norm(true.error_of(same * values), axis=1)))
+    return float(2 * np.max(np.linalg.norm((same * values - true).hi, axis=1)))
 
 
-def rotation_error(values: tuple[FloatArray, FloatArray], omega: Values, attitude: Values) -> float:
+def rotation_error(
+    values: tuple[FloatArray, FloatArray], omega: DoubleDouble, attitude: DoubleDouble
+) -> float:
     """Larger of the errors of angular velocity, relative to its size, and of attitude, rad.
 
     Parameters
     ----------
     values : pair of ndarray, shapes (n, 3) and (n, 4)
         Angular velocity along the body's axes (rad/s), and unit quaternions.
-    omega, attitude : Values
+    omega, attitude : DoubleDouble
         The same, as stored.
     """
-    off = np.linalg.norm(omega.error_of(values[0]), axis=1) / np.linalg.norm(omega.hi, axis=1)
+    off = np.linalg.norm((values[0] - omega).hi, axis=1) / np.linalg.norm(omega.hi, axis=1)
     return max(float(np.max(off)), attitude_error(values[1], attitude))

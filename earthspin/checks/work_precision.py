@@ -14,8 +14,7 @@ import gc
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import partial
 from importlib import import_module
@@ -212,7 +211,9 @@ def timed(run: Callable[[], Any]) -> Timing:
     ----------
     run : callable
     """
-    with _without_garbage_collection():
+    collecting = gc.isenabled()
+    gc.disable()  # the collector must not run in the middle of a sample
+    try:
         first, result = _seconds(run, 1)
         once, _ = _seconds(run, 1)
         loops = max(1, math.ceil(SHORTEST_SAMPLE / max(once, 1e-9)))
@@ -224,6 +225,9 @@ def timed(run: Callable[[], Any]) -> Timing:
                 loops, samples = 2 * loops, []
                 continue
             samples.append(seconds / loops)
+    finally:
+        if collecting:
+            gc.enable()
     return Timing(first, statistics.median(samples), (max(samples) - min(samples)) / 2, result)
 
 
@@ -234,18 +238,6 @@ def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
     for _ in range(loops):
         result = run()
     return time.perf_counter() - begin, result
-
-
-@contextmanager
-def _without_garbage_collection() -> Iterator[None]:
-    """Keep the collector from running in the middle of a sample."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list[Point]]:

@@ -6,14 +6,15 @@ solver steps over it, the two attitude solvers follow every turn; they meet wher
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from earthspin.bodies import MOON, SUN
 from earthspin.checks.case import Distances, FloatArray, holds, relative_error
-from earthspin.checks.sky import BODY, CENTRE, CODES, GM, J2, SPIN, H, Tide, kernel, positions
+from earthspin.checks.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
 from earthspin.checks.solvers.attitude import attitude_about, attitude_motion, figure_axis
 from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
@@ -27,31 +28,14 @@ from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 
 YEAR = JULIAN_YEAR
+ROUND = FORCES.figure
 TRIAXIALITY = float(BODY.triaxiality) * H / J2
 #: Any direction near the pole.
 NORTH = np.array([2e-5, -3e-5, 1.0]) / np.linalg.norm([2e-5, -3e-5, 1.0])
 
 
-def _places(times: FloatArray) -> dict[str, FloatArray]:
-    return positions(times / DAY)
-
-
-def _figure(**changes: float) -> Figure:
-    numbers: dict[str, Any] = {"h": H, "spin_rate": SPIN}
-    return Figure(**(numbers | changes))
-
-
-def _forces(
-    body: Figure | None = None,
-    gm: Mapping[str, float] = GM,
-    places: Callable[[FloatArray], dict[str, FloatArray]] = _places,
-) -> Forces:
-    """Sun and Moon on the round body that questions are about."""
-    return Forces(figure=body or _figure(), gm=gm, positions=places)
-
-
-def _path(days: float, body: Figure | None = None, **settings: Any) -> AxisPath:
-    return axis_path(_forces(body), NORTH, 0.0, (0.0, days * DAY), **settings)
+def _path(days: float, body: Figure = ROUND, **settings: Any) -> AxisPath:
+    return axis_path(replace(FORCES, figure=body), NORTH, 0.0, (0.0, days * DAY), **settings)
 
 
 def _angle(a: FloatArray, b: FloatArray) -> float:
@@ -60,21 +44,17 @@ def _angle(a: FloatArray, b: FloatArray) -> float:
     return float(np.max(np.linalg.norm(a - b, axis=-1)) / UAS)
 
 
-def _momentum(path: AxisPath, time: float) -> FloatArray:
-    """Angular momentum in units of C Omega, shape (3,)."""
-    return path.windows.evaluate(path.momentum, np.array([time]))[:, 0]
+def _momentum(path: AxisPath) -> FloatArray:
+    """Angular momentum at the start in units of C Omega, shape (3,)."""
+    return path.windows.evaluate(path.momentum, np.zeros(1))[:, 0]
 
 
-def _pole_against_exact(
-    days: float, body: Figure | None = None, gm: Mapping[str, float] = GM
-) -> float:
+def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
     """Figure axes of the pole's solver and of (L, F) step by step, largest angle, uas."""
-    body = body or _figure()
-    times = np.linspace(0.0, days * DAY, 40)
-    path = axis_path(_forces(body, gm), NORTH, 0.0, (0.0, times[-1]))
-    start = path.at(times[:1])["figure"][0]
-    tide = Tide(days * DAY, gm)
-    _, axis = axisymmetric_motion(tide, body.h, body.spin_rate, _momentum(path, 0.0), start, times)
+    times, body = np.linspace(0.0, days * DAY, 40), forces.figure
+    path = axis_path(forces, NORTH, 0.0, (0.0, times[-1]))
+    start, tide = path.at(times[:1])["figure"][0], Tide(days * DAY, forces.gm)
+    _, axis = axisymmetric_motion(tide, body.h, body.spin_rate, _momentum(path), start, times)
     return _angle(path.at(times)["figure"], axis)
 
 
@@ -106,7 +86,7 @@ def _exact_and_attitude() -> Distances:
     Hard because: two sets of equations of different size, a thousand steps a turn of the sky
     Held against: the figure axis of attitude_motion over 10 d
     """
-    start, tide = _momentum(_path(10.0), 0.0), Tide(10 * DAY)
+    start, tide = _momentum(_path(10.0)), Tide(10 * DAY)
     times = np.linspace(0.0, 10 * DAY, 20)
     yield _angle(_attitude(start, tide, times), _exact(start, tide, times))
 
@@ -119,9 +99,9 @@ def _triaxial() -> Distances:
     Held against: the figure axis of attitude_motion over 10 d
     """
     days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
-    path = _path(days, _figure(triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
+    path = _path(days, replace(ROUND, triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
     result = path.at(times)
-    start = np.linalg.norm(_momentum(path, 0.0)) * result["angular_momentum"][0]
+    start = np.linalg.norm(_momentum(path)) * result["angular_momentum"][0]
     turned = attitude_about(result["figure"][0], float(BODY.meridian))
     _, turn = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, turned, times)
     yield _angle(result["figure"], figure_axis(turn))
@@ -138,7 +118,7 @@ def _average_and_pole() -> Distances:
     window, times = samples.window, samples.times
     averaged = precession_rate(window.mean(times, samples.precessing).sum(), H, SPIN)
     start = BODY.needed("pole").true(0.0)
-    path = axis_path(_forces(), start, 0.0, (times[0] - DAY, times[-1] + DAY))
+    path = axis_path(FORCES, start, 0.0, (times[0] - DAY, times[-1] + DAY))
     before, after = (_psi(path.at(times + s * DAY / 2)["angular_momentum"]) for s in (-1, 1))
     followed = float(window.mean(times, after - before)) / DAY
     second_order = PUBLISHED_EFFECTS["second-order"].value
@@ -169,7 +149,7 @@ def _cost(
     follow: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
 ) -> float:
     """The same of a solver's requests for the tide, over spans in d."""
-    start = _momentum(_path(8.0), 0.0)
+    start = _momentum(_path(8.0))
 
     def count(days: float) -> int:
         tide = Tide(days * DAY)
@@ -231,7 +211,7 @@ def _retrograde() -> Distances:
     Hard because: the free mode turns the other way, and A/(C Omega) is negative
     Held against: (L, F) step by step over 20 d
     """
-    yield _pole_against_exact(20.0, _figure(spin_rate=-SPIN))
+    yield _pole_against_exact(20.0, replace(FORCES, figure=replace(ROUND, spin_rate=-SPIN)))
 
 
 @holds(bound=10.0, unit="uas")
@@ -241,7 +221,8 @@ def _thousandfold() -> Distances:
     Hard because: the axis precesses by a turn in 26 years, and tilts by 9 arcsec from L
     Held against: (L, F) step by step over 20 d
     """
-    yield _pole_against_exact(20.0, gm={name: 1e3 * gm for name, gm in GM.items()})
+    heavy = {name: 1e3 * gm for name, gm in FORCES.gm.items()}
+    yield _pole_against_exact(20.0, replace(FORCES, gm=heavy))
 
 
 @holds(bound=5e-7)
@@ -253,7 +234,7 @@ def _fast_spin() -> Distances:
     """
     times = np.linspace(0.0, YEAR, 20)
     fast, half = (
-        _path(365.25, _figure(spin_rate=2 * np.pi / seconds)).at(times)["figure"][1:] - NORTH
+        _path(365.25, replace(ROUND, spin_rate=2 * np.pi / seconds)).at(times)["figure"][1:] - NORTH
         for seconds in (10.0, 20.0)
     )
     yield relative_error(2 * fast, half)
@@ -267,7 +248,8 @@ def _tiny_h() -> Distances:
     Held against: what H = 1e-6 moves, a thousandth of it
     """
     times = np.linspace(0.0, YEAR, 20)
-    small, large = (_path(365.25, _figure(h=h)).at(times)["figure"] - NORTH for h in (1e-9, 1e-6))
+    paths = (_path(365.25, replace(ROUND, h=h)) for h in (1e-9, 1e-6))
+    small, large = (path.at(times)["figure"] - NORTH for path in paths)
     yield (small - 1e-3 * large) / UAS
 
 
@@ -281,7 +263,7 @@ def _there_and_back() -> Distances:
     end = 20 * YEAR
     there = _path(20 * 365.25)
     turned = there.at(np.array([end]))["figure"][0]
-    back = axis_path(_forces(), turned, end, (0.0, end))
+    back = axis_path(FORCES, turned, end, (0.0, end))
     times = np.linspace(0.0, end, 60)
     yield _angle(there.at(times)["figure"], back.at(times)["figure"])
 
@@ -294,8 +276,9 @@ def _backwards() -> Distances:
     Held against: the axis before the epoch, as it was
     """
     times = np.linspace(0.0, 5 * YEAR, 40)
-    before = axis_path(_forces(), NORTH, 0.0, (-5 * YEAR, 0.0)).at(-times)
-    mirrored = _forces(_figure(spin_rate=-SPIN), places=lambda t: _places(-t))
+    before = axis_path(FORCES, NORTH, 0.0, (-5 * YEAR, 0.0)).at(-times)
+    turned = replace(ROUND, spin_rate=-SPIN)
+    mirrored = replace(FORCES, figure=turned, positions=lambda t: positions(-t / DAY))
     after = axis_path(mirrored, NORTH, 0.0, (0.0, 5 * YEAR)).at(times)
     yield _angle(before["figure"], after["figure"])
 
@@ -326,7 +309,7 @@ def _whole_kernel() -> Distances:
 
     def figure(days: float, nodes: int) -> FloatArray:
         span, window = (start, end), days * DAY
-        path = axis_path(_forces(), NORTH, 0.0, span, limits=span, window=window, order=nodes)
+        path = axis_path(FORCES, NORTH, 0.0, span, limits=span, window=window, order=nodes)
         return path.at(times)["figure"]
 
     yield _angle(figure(8, 14), figure(4, 16))
@@ -347,7 +330,7 @@ def _obliquities() -> Distances:
 
     times = np.linspace(0.0, 100 * DAY, 50)
     for axis in ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]):
-        forces = _forces(gm={"moon": GM["moon"]}, places=circle)
+        forces = replace(FORCES, gm={"moon": float(MOON.gm)}, positions=circle)
         result = axis_path(forces, np.array(axis), 0.0, (0.0, times[-1])).at(times)["figure"]
         yield result - axis if axis[2] else np.linalg.norm(result, axis=1) - 1
 

@@ -9,13 +9,11 @@ import xarray as xr
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.checks.case import Distances, FloatArray, holds, refused, relative_error
+from earthspin.checks.case import Distances, holds, refused, relative_error
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
-from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
-from earthspin.parts.sky import places, sky, stretch
 from earthspin.questions.pole import pole
-from earthspin.questions.precession import precession, precession_rates
+from earthspin.questions.precession import precession
 from earthspin.questions.torque import torque_series
 from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
@@ -29,27 +27,8 @@ NORTH = np.array([0.0, 0.0, 1.0])
 
 
 def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
-    """Averaged rates as `precession` gives them, without all that stands beside them."""
-    both = body, (perturber,)
-    above = sky("de421", places(*both), "jplephem")
-    samples = torque_samples(above, stretch(above, None), *both)
-    means = mean_torques(window_means(samples, both[1]))
-    return precession_rates(mean_rates(means, *both), means, body).dataset()
-
-
-def _leaning(angle: float) -> Body:
-    """The default body with its pole at an angle from the normal of its orbit."""
-    normal = ecliptic_pole()
-    across = np.cross(normal, NORTH)
-    across /= np.linalg.norm(across)
-    axis = math.cos(angle) * normal + math.sin(angle) * across
-    return BODY.replace(pole=_sky_angles(axis), orbit_pole=_sky_angles(normal))
-
-
-def _sky_angles(direction: FloatArray) -> tuple[float, float]:
-    """Right ascension and declination, rad."""
-    ra, dec, _ = spherical(direction[np.newaxis])
-    return float(ra[0]), float(dec[0])
+    """Averaged rates under one perturber."""
+    return precession(body=body, perturbers=[perturber], source="jplephem")
 
 
 @holds(bound=0.0)
@@ -269,10 +248,10 @@ def _next_to_a_parabola() -> Distances:
     Hard because: e is 1 - 1e-9: almost all of the pull comes in a moment at the pericentre
     Held against: the closed form of the mean over the orbit, relative
     """
-    e, a = 1 - 1e-9, 1e20
-    body, normal = _leaning(0.4), ecliptic_pole()
+    e, a, obliquity = 1 - 1e-9, 1e20, 0.4
+    (ra,), (dec,), _ = spherical(ecliptic_pole()[np.newaxis])
+    body = BODY.replace(pole=(ra, dec - obliquity), orbit_pole=(ra, dec))
     result = precession(body=body, perturbers=[SUN.replace(orbit={"a": a, "e": e})])
-    obliquity = math.acos(float(np.dot(body.needed("pole").vector(), normal)))
     torque = circular_orbit_torque(float(SUN.gm), a, obliquity) * ((1 - e) * (1 + e)) ** -1.5
     spin = float(body.needed("dynamical_flattening") / body.spin_rate)
     yield float(result.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import datetime as dt
 
+import astropy.units as u
 import numpy as np
 import xarray as xr
+from astropy.time import Time
 
 from earthspin import dates
 from earthspin.checks.case import Distances, FloatArray, holds, refused
@@ -28,12 +30,6 @@ def _grid(first: object, last: object, step: object) -> dates.TimeGrid:
     return dates.TimeGrid.over(span, dates.Spacing().read(step, Where("step")))
 
 
-def _time(values: object, scale: str) -> object:
-    from astropy.time import Time
-
-    return Time(values, scale=scale)
-
-
 @holds(bound=2e-8, unit="s")
 def _leap_second() -> Distances:
     """through the leap second of 2016-12-31
@@ -42,7 +38,7 @@ def _leap_second() -> Distances:
     Held against: one second of TDB from each second of UTC to the next
     """
     stamps = [f"2016-12-31T23:59:{s}" for s in ("58", "59", "60")] + ["2017-01-01T00:00:00"]
-    result = _days(_time(stamps, "utc"))
+    result = _days(Time(stamps, scale="utc"))
     yield np.diff(result) * DAY - 1
 
 
@@ -57,7 +53,7 @@ def _all_leap_seconds() -> Distances:
     steps |= {1985: 22, 1990: 25, 1995: 29, 2000: 32, 2005: 32, 2006: 33, 2010: 34, 2017: 37}
     for year, so_far in steps.items():
         stamp = f"{year}-01-01T00:00:00"
-        utc, tdb = _days(_time(stamp, "utc")), _days([stamp])
+        utc, tdb = _days(Time(stamp, scale="utc")), _days([stamp])
         yield (utc - tdb) * DAY - 32.184 - so_far
 
 
@@ -129,8 +125,6 @@ def _hours() -> Distances:
     Hard because: an array with a unit is an array, and 1 h would be taken for 1 s
     Held against: the same times in seconds, bit for bit
     """
-    import astropy.units as u
-
     hours, seconds = (
         free_rotor(**_RACKET, times=times) for times in ([0.0, 1.0] * u.hour, [0.0, 3600.0])
     )
@@ -145,8 +139,6 @@ def _years() -> Distances:
     Hard because: the number is fine, and days are what a number would mean
     Held against: a wobble of 438.3 d over five years, bit for bit
     """
-    import astropy.units as u
-
     chi = excitation(polar_motion(span=("1990-01-01", "1995-01-01")))
     result, same = (polar_motion_from(chi, period=period) for period in (1.2 * u.yr, 438.3))
     for name in ("x", "y"):

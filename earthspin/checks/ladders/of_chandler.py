@@ -89,9 +89,7 @@ def _peak(given: Record) -> Any:
     time, p = given
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])
-    with np.errstate(divide="ignore"):
-        period = 1 / frequency
-    inside = (period > BAND[0]) & (period < BAND[1])
+    inside = (frequency > 1 / BAND[1]) & (frequency < 1 / BAND[0])
     if not np.any(inside):
         return PERIOD + NOTHING_FOUND
-    return period[inside][np.argmax(np.abs(np.fft.fft(p))[inside])]
+    return 1 / frequency[inside][np.argmax(np.abs(np.fft.fft(p))[inside])]

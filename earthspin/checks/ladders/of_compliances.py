@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import Values, load
-from earthspin.checks.work_precision import Ladder, Result, method
+from earthspin.checks.stored import load
+from earthspin.checks.work_precision import Ladder, Method, Result, method
 from earthspin.constants import G
 from earthspin.interior.love import Carry, yielding
 from earthspin.interior.prem import PREM
 from earthspin.numerics.collocation import carry as by_collocation
+from earthspin.numerics.double_double import DoubleDouble
 
 Array = NDArray[Any]
 Matrix = Callable[[Array], Array]
@@ -46,15 +47,12 @@ def ladder(quick: bool) -> Ladder:
     true = load("compliances", INPUTS)["answers"]
     fine = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+    settled = (1e-4, 1e-13)
     thin = (0.1, 0.05) if quick else (0.2, 0.1, 0.05, 0.02, 0.01)
-    rows: list[tuple[str, str, Callable[..., Array], tuple[float, ...]]] = [
-        ("solve_ivp DOP853", "rtol {}", partial(_by_scipy, "DOP853"), fine),
-        ("solve_ivp LSODA", "rtol {}", partial(_by_scipy, "LSODA"), fine),
-        ("solve_ivp RK45", "rtol {}", partial(_by_scipy, "RK45"), coarse),
-        ("RK4 by hand", "steps of {} in ln r", _runge_kutta, thin),
-        ("even layers, matrix exponentials", "layers of {} in ln r", _even_layers, thin),
-    ]
-    settled = partial(_run, by_collocation)
+
+    def row(name: str, words: str, carry: Callable[..., Array], *rest: Any) -> Method:
+        return method(name, words, partial(_run, carry), *rest)
+
     return Ladder(
         quantity="compliances",
         unit="1",
@@ -66,21 +64,22 @@ def ladder(quick: bool) -> Ladder:
         "double by extrapolation of order 20, from a tenth of the radius at which these start",
         reference_error=REFERENCE_ERROR,
         methods=[
-            method("collocation at Gauss's nodes", "settled to {}", settled, (1e-4, 1e-13), BOUND),
-            *(
-                method(name, words, partial(_run, carry), values)
-                for name, words, carry, values in rows
-            ),
+            row("collocation at Gauss's nodes", "settled to {}", by_collocation, settled, BOUND),
+            row("solve_ivp DOP853", "rtol {}", partial(_by_scipy, "DOP853"), fine),
+            row("solve_ivp LSODA", "rtol {}", partial(_by_scipy, "LSODA"), fine),
+            row("solve_ivp RK45", "rtol {}", partial(_by_scipy, "RK45"), coarse),
+            row("RK4 by hand", "steps of {} in ln r", _runge_kutta, thin),
+            row("even layers, matrix exponentials", "layers of {} in ln r", _even_layers, thin),
         ],
         useful=0.01,
         error=partial(scaled_error, true),
     )
 
 
-def scaled_error(true: Values, result: Array) -> float:
+def scaled_error(true: DoubleDouble, result: Array) -> float:
     """Largest error of an answer over the geometric mean of the two on the diagonal."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
-    return float(np.max(abs(true.error_of(result)) / np.outer(own, own)))
+    return float(np.max(abs((result - true).hi) / np.outer(own, own)))
 
 
 def _run(carry: Callable[..., Array], setting: float) -> Result:

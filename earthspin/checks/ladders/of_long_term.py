@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import lru_cache, partial
@@ -16,7 +15,7 @@ from earthspin.bodies import MOON
 from earthspin.checks.sky import BODY, SPIN
 from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import load
-from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
+from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.secular import lanes, trajectory
 from earthspin.secular.orbit import pull
@@ -79,14 +78,10 @@ def ladder(quick: bool) -> Ladder:
     steps = (4, 2) if quick else (8, 5, 4, 3, 2)
     loose = (1e-6, 1e-8) if quick else (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
     hand = (0.5, 0.25) if quick else (1.0, 0.5, 0.25, 0.125)
-    rows: list[tuple[str, str, Callable[..., Result], tuple[float, ...], float]] = [
-        ("Newton in time", "{} nodes", partial(_newton, 1), nodes, BOUND),
-        ("Newton in time, windows halved", "{} nodes", partial(_newton, 2), (6, 8), BOUND),
-        (f"lanes, {MEMBERS} members", "steps of {} kyr", _lanes, steps, BOUND),
-        ("DOP853 on the equation as it stands", "rtol {}", plain, loose[:3], math.inf),
-        ("DOP853 on a lean one", "rtol {}", partial(_scipy, lean), loose, math.inf),
-        ("RK4 by hand, lean", "steps of {} kyr", partial(_by_hand, lean), hand, math.inf),
-    ]
+
+    def row(name: str, words: str, run: Callable[..., Result], *rest: Any) -> Method:
+        return method(name, words, partial(run, start, t), *rest)
+
     return Ladder(
         quantity="long-term",
         unit="arcsec",
@@ -97,10 +92,14 @@ def ladder(quick: bool) -> Ladder:
         reference="the midpoint rule, extrapolated to order 14 in steps of 2,000 years",
         reference_error=REFERENCE_ERROR,
         methods=[
-            method(name, setting, partial(run, start, t), values, bound)
-            for name, setting, run, values, bound in rows
+            row("Newton in time", "{} nodes", partial(_newton, 1), nodes, BOUND),
+            row("Newton in time, windows halved", "{} nodes", partial(_newton, 2), (6, 8), BOUND),
+            row(f"lanes, {MEMBERS} members", "steps of {} kyr", _lanes, steps, BOUND),
+            row("DOP853 on the equation as it stands", "rtol {}", plain, loose[:3]),
+            row("DOP853 on a lean one", "rtol {}", partial(_scipy, lean), loose),
+            row("RK4 by hand, lean", "steps of {} kyr", partial(_by_hand, lean), hand),
         ],
-        error=lambda axes: float(np.max(np.linalg.norm(true.error_of(axes), axis=0))),
+        error=lambda axes: float(np.max(np.linalg.norm((axes - true).hi, axis=0))),
         useful=1000 * ARCSEC,
     )
 

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from earthspin.checks.sky import unit_vectors
-from earthspin.checks.stored import Values, load
+from earthspin.checks.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.mass.maccullagh import maccullagh_torque
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
 from earthspin.mass.zonal import spheroid_zonals
+from earthspin.numerics.double_double import DoubleDouble
 
 Field = Callable[[Any], tuple[Any, Any]]
 
@@ -74,16 +75,16 @@ def ladder(quick: bool) -> Ladder:
     )
 
 
-def _error(result: Any, true: dict[str, Values]) -> float:
+def _error(result: Any, true: dict[str, DoubleDouble]) -> float:
     """Largest relative error of both, over all points."""
     return max(float(np.max(relative_errors(result, true)[name])) for name in true)
 
 
-def relative_errors(result: Any, true: dict[str, Values]) -> dict[str, FloatArray]:
+def relative_errors(result: Any, true: dict[str, DoubleDouble]) -> dict[str, FloatArray]:
     """Relative errors of attraction and torque at each point."""
     errors = {}
     for values, (name, of) in zip(result, true.items(), strict=True):
-        off = np.linalg.norm(of.error_of(np.asarray(values)), axis=1)
+        off = np.linalg.norm((np.asarray(values) - of).hi, axis=1)
         errors[name] = np.asarray(off / np.linalg.norm(of.hi, axis=1), dtype=np.float64)
     return errors
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from earthspin.checks.stored import Values, rotation_error
+from earthspin.checks.stored import rotation_error
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
+from earthspin.numerics.double_double import DoubleDouble
 
 #: Periods that are followed. Half of the stored times lie within the first few.
 PERIODS, FEW_PERIODS = 100.0, 5.0
@@ -20,7 +21,7 @@ FEW_FINE, FEW_BOUND = (1e-4, 1e-8), 1e-3
 
 def ladder_of_rotation(
     quantity: str,
-    true: Mapping[str, Values],
+    true: Mapping[str, DoubleDouble],
     t: FloatArray,
     methods: Sequence[Method],
     *,
@@ -61,7 +62,7 @@ def ladder_of_rotation(
 
 
 def periods(
-    true: Mapping[str, Values], quick: bool
+    true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
     """Extent of a ladder whose reference is stored over a hundred periods.
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
 
 from earthspin.checks.solvers.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.top.start import HeavyTop
@@ -90,19 +91,14 @@ def state_of_angles(
     omega : ndarray, shape (..., 3)
     attitude : ndarray, shape (..., 4)
     """
-    tilt, total, split = theta / 2, (phi + psi) / 2, (phi - psi) / 2
     omega = (
         across * np.sin(psi) + theta_rate * np.cos(psi),
         across * np.cos(psi) - theta_rate * np.sin(psi),
         np.full_like(theta, spin),
     )
-    attitude = (
-        np.cos(tilt) * np.cos(total),
-        np.sin(tilt) * np.cos(split),
-        np.sin(tilt) * np.sin(split),
-        np.cos(tilt) * np.sin(total),
-    )
-    return np.stack(omega, axis=-1), np.stack(attitude, axis=-1)
+    angles = np.stack(np.broadcast_arrays(phi, theta, psi), axis=-1)
+    attitude = Rotation.from_euler("ZXZ", angles).as_quat(scalar_first=True)
+    return np.stack(omega, axis=-1), attitude
 
 
 def _rates(state: FloatArray, top: HeavyTop) -> list[Any]:

@@ -57,7 +57,7 @@ def integrate(
         atol=rtol if atol is None else atol, max_step=max_step,
     )  # fmt: skip
     if not done.success:
-        raise UndefinedError(f"the integration stopped at {done.t[-1]:.6g} s: {done.message}")
+        raise UndefinedError(f"the integration stopped: {done.message}")
     return done.y.T, int(done.nfev)
 
 
