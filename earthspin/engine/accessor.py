@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 import earthspin
-from earthspin.engine.plan import SCENE, Plan, plan, seconds_of
+from earthspin.engine.plan import SCENE, Plan, plan_parts, seconds_of
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -62,7 +62,7 @@ class Answer:
     def plan(self) -> Plan:
         """What ran for it, and what was left out and why."""
         seconds = seconds_of(self._dataset.attrs.get(SCENE, ""))
-        return replace(plan(self.scene), seconds=dict(seconds))
+        return replace(plan_parts(self.scene), seconds=dict(seconds))
 
     def to_frame(self) -> pd.DataFrame:
         """Give a tidy table of pandas: a row for each label, a column for each number.

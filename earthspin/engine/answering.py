@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from earthspin.engine import run as running
 from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.plan import ALL, plan_parts
 from earthspin.engine.question import NEGLECTED, Question
+from earthspin.engine.run import run_parts
 from earthspin.engine.sampled import with_sample
 from earthspin.errors import SceneError
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def run(question: Question) -> xr.Dataset:
+def answer(question: Question) -> xr.Dataset:
     """Answer a question.
 
     Parameters
@@ -35,12 +36,11 @@ def run(question: Question) -> xr.Dataset:
     """
     if question.members is not None:
         return Ensemble(question).hold()
-    if question.uncertainty == "sample":
-        return with_sample(question, running.run(question))
-    return running.run(question)
+    result = run_parts(plan_parts(question)).answer()
+    return with_sample(question, result) if question.uncertainty == "sample" else result
 
 
-def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.DataTree:
+def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
     """Answer a question with sections; for many the answer, the plan, and what is neglected.
 
     Parameters
@@ -58,16 +58,16 @@ def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.Da
 
     if question.members is not None:
         named = [sections] if isinstance(sections, str) else [*sections]
-        if not {*named} <= {"all", NEGLECTED}:
+        if not {*named} <= {ALL, NEGLECTED}:
             words = f"an ensemble tells its answer, and of its sections '{NEGLECTED}' alone"
             raise SceneError("sections", sections, words)
         work = Ensemble(question)
         nodes = {"/": work.hold(), "plan": work.plan_data()}
         if named:
-            beside = running.run_tree(work.variants.question(work.words(0)), NEGLECTED)
-            nodes[NEGLECTED] = beside[NEGLECTED].to_dataset()
+            single = work.variants.question(work.words(0))
+            nodes[NEGLECTED] = answer_tree(single, NEGLECTED)[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
-    tree = running.run_tree(question, sections)
+    tree = run_parts(plan_parts(question, sections)).tree()
     if question.uncertainty == "sample":
         tree.dataset = with_sample(question, tree.to_dataset())
     return tree

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from earthspin.engine.answering import run
+from earthspin.engine.answering import answer
 from earthspin.engine.question import Key, Question, keys_of
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
             given = dict(signature.bind(*args, **kwargs).arguments)
         except TypeError as error:
             raise TypeError(f"{question.call}() {error}") from None
-        return run(question(**_with_span(question, given)))
+        return answer(question(**_with_span(question, given)))
 
     call.__name__ = call.__qualname__ = question.call
     call.__doc__ = docstring_of(question)

@@ -143,7 +143,10 @@ def build(
     for name, declared in schema.items():
         value = values[name]
         if isinstance(value, xr.DataArray):
-            _collect(labels, value)
+            for dim, own in value.coords.items():
+                known = labels.setdefault(dim, own.variable)
+                if hasattr(known, "equals") and not known.equals(own.variable):
+                    raise SchemaError(f"labels along '{dim}' differ from one variable to the next")
             value = value.variable
         else:
             value = xr.Variable(declared.dims, value)
@@ -155,24 +158,11 @@ def build(
         attributes = _attributes(name, declared, schema)
         if data.dtype.kind == "f" and np.isnan(data).any():
             if not (no_error and "_error" in name):
-                raise UndefinedError(
-                    f"{declared.long_name} has no value here; check the body's numbers"
-                )
+                problem = f"{declared.long_name} has no value here; check the body's numbers"
+                raise UndefinedError(problem)
             attributes["no_error"] = no_error
         arrays[name] = xr.Variable(laid.dims, data, attributes)
     return xr.Dataset(arrays, coords=labels)
-
-
-def _collect(labels: dict[Any, Any], array: xr.DataArray) -> None:
-    """Add the labels of an array to those of the others, with which they must agree."""
-    for name, own in array.coords.items():
-        known = labels.setdefault(name, own.variable)
-        if (
-            known is not own.variable
-            and hasattr(known, "equals")
-            and not known.equals(own.variable)
-        ):
-            raise SchemaError(f"labels along '{name}' differ from one variable to the next")
 
 
 def si(array: xr.DataArray) -> xr.DataArray:

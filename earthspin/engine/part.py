@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
 from earthspin.engine.labels import Schema
@@ -144,10 +144,9 @@ def part(
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
-    def made(function: Callable[P, R]) -> Part[P, R]:
-        return Part(function, reasons, chooses, tells)
-
-    return made if function is None else made(function)
+    if function is None:
+        return lambda function: Part(function, reasons, chooses, tells)
+    return Part(function, reasons, chooses, tells)
 
 
 def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
@@ -165,12 +164,10 @@ def _schema_of(function: Callable[..., Any]) -> Schema:
     return {}
 
 
+@cache
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
-    return tuple(
-        name
-        for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.default is default
-    )
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(entry.name for entry in parameters if entry.default is default)
 
 
 def _first_sentence(function: Callable[..., Any]) -> str:

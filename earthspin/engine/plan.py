@@ -107,7 +107,7 @@ class Plan:
 NOT_ASKED = "its section is not asked for"
 
 
-def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
+def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     """Work out which parts a question needs.
 
     Parameters

@@ -53,7 +53,7 @@ class Series:
     @cached_property
     def asked(self) -> Mapping[str, str]:
         """The question, the versions and the kernel."""
-        return asked_of(self.question, self._rerun.provenance)
+        return asked_of(self.question, self._rerun.fixed.provenance)
 
     def first(self) -> xr.Dataset:
         """Answer the first stretch; its attributes are those of the whole."""

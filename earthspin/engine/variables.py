@@ -56,27 +56,6 @@ class Field:
     endings: Mapping[str, str]
     default: Any
 
-    def variables(self, name: str, along: tuple[str, ...]) -> dict[str, Variable]:
-        """Its variables by name."""
-        first = replace(self.variable, dims=along if self.along is None else self.along)
-        error = Variable(first.dims, first.units, "")
-        return {
-            name + ending: replace(
-                error if ending.startswith("_error") else first,
-                long_name=meaning.format(first.long_name),
-            )
-            for ending, meaning in self.endings.items()
-        }
-
-    def values(self, name: str, value: Any) -> dict[str, Any]:
-        """The values of its variables by name."""
-        if len(self.endings) == 1:
-            return {name: value}
-        if isinstance(value, Estimate):
-            shares = (value.value, value.error, value.method, value.given)
-            value = shares[: len(self.endings)]
-        return dict(zip((name + ending for ending in self.endings), value, strict=True))
-
 
 def _field(
     endings: Mapping[str, str],
@@ -184,23 +163,20 @@ class Variables:
         """Collect what the class declares."""
         cls.dims = cls.dims if along is None else along
         own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
-        cls.fields = {**cls.fields, **own}
-        schema = dict(cls.schema)
+        cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
         for name, field in own.items():
-            schema |= field.variables(name, cls.dims)
-        bare = {
-            name
-            for name, variable in schema.items()
-            if variable.units
-            and "_error" not in name
-            and name != error
-            and f"{name}_error" not in schema
-            and not (variable.error or variable.no_error)
-        }
-        cls.schema = {
-            name: replace(variable, error=error, no_error=no_error) if name in bare else variable
-            for name, variable in schema.items()
-        }
+            dims = cls.dims if field.along is None else field.along
+            variable = replace(field.variable, dims=dims)
+            half_width = Variable(dims, variable.units, "")
+            for ending, meaning in field.endings.items():
+                declared = half_width if ending.startswith("_error") else variable
+                words = meaning.format(variable.long_name)
+                schema[name + ending] = replace(declared, long_name=words)
+        for name, variable in schema.items():
+            has_error = variable.error or variable.no_error or f"{name}_error" in schema
+            if variable.units and not has_error and "_error" not in name and name != error:
+                schema[name] = replace(variable, error=error, no_error=no_error)
+        cls.schema = schema
 
     def __init__(self, **values: Any) -> None:
         unknown = values.keys() - self.fields.keys()
@@ -242,14 +218,21 @@ class Variables:
             value = self._values[name]
             if value is None:
                 continue
-            if field.endings:
-                values |= field.values(name, value)
+            if len(field.endings) == 1:
+                values[name] = value
+            elif field.endings:
+                if isinstance(value, Estimate):
+                    shares = (value.value, value.error, value.method, value.given)
+                    value = shares[: len(field.endings)]
+                names = (name + ending for ending in field.endings)
+                values |= dict(zip(names, value, strict=True))
             elif hasattr(value, "dims"):  # labelled arrays keep their own attributes
                 coords[name] = value
             else:
-                attrs = {"units": field.variable.units, "long_name": field.variable.long_name}
-                attrs = {n: text for n, text in attrs.items() if text}
-                coords[name] = (name, value, attrs | dict(field.variable.attrs))
+                label = field.variable
+                attrs = {"units": label.units} if label.units else {}
+                attrs |= {"long_name": label.long_name} if label.long_name else {}
+                coords[name] = (name, value, attrs | dict(label.attrs))
         schema = {name: variable for name, variable in self.schema.items() if name in values}
         result = build(schema, values, coords, no_error=self._no_error)
         for name, attributes in self._attributes.items():
