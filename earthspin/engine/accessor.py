@@ -89,9 +89,10 @@ class Answer:
         for name in map(str, spread.data_vars):
             beside = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
             names += [n for n in (name, *beside) if n not in names]
-        frame = spread.to_dataframe() if spread.sizes else _one_row(spread)
-        index = list(frame.index.names) if spread.sizes else []
-        return frame.reset_index()[[*map(str, index), *names]]
+        if not spread.sizes:  # an answer without labels is one row
+            return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
+        frame = spread.to_dataframe()
+        return frame.reset_index()[[*map(str, frame.index.names), *names]]
 
     def to_skycoord(self, name: str = "") -> SkyCoord:
         """Give unit vectors as coordinates of astropy, in the ICRS.
@@ -231,10 +232,3 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
             column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
             columns["_".join([str(name), *map(str, labels)])] = column
     return xr.Dataset(columns)
-
-
-def _one_row(dataset: xr.Dataset) -> pd.DataFrame:
-    """A table of one row, for an answer without labels."""
-    import pandas as pd
-
-    return pd.DataFrame([{str(n): array.values.item() for n, array in dataset.data_vars.items()}])

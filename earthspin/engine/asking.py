@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from earthspin.engine.answering import answer
 from earthspin.engine.question import Key, Question, keys_of
+from earthspin.errors import SceneError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,8 +51,6 @@ def _with_span(question: type[Question], given: dict[str, Any]) -> dict[str, Any
     ends = {"start": start, "stop": stop, "step": given.get("step")}
     missing = [name for name, value in ends.items() if value is None]
     if given.get("times") is None and 0 < len(missing) < len(ends):
-        from earthspin.errors import SceneError
-
         raise SceneError(missing[0], None, "give start, stop and step, or times")
     if start is None and stop is None:
         return given

@@ -123,7 +123,6 @@ def replacing(path: str | Path) -> Iterator[Path]:
     target = prepared(path)
     remedy = "what stood there is kept" if target.exists() else ""
     with output_errors(path, remedy), box_of(target) as box:
-        clear_up_after_the_dead(target, box)
         yield box / target.name
         put_in_place(box / target.name, target, box)
 
@@ -167,12 +166,13 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Hidden folder beside the target, locked by its owner as long as he lives."""
+    """Make a hidden folder beside the target, locked by its owner; remove those of dead owners."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = FileLock(box / _LOCK)
     with suppress(OSError, NotImplementedError):  # where there are no locks, no draft is cleared
         lock.acquire()
     try:
+        _clear_up_after_the_dead(target, box)
         yield box
     finally:
         _remove(box, target)
@@ -193,7 +193,7 @@ def put_back(path: str | Path) -> None:
         for _ in range(_MOMENTS):
             if target.exists() or not any((box / _OLD).exists() for box in _boxes(target)):
                 break
-            clear_up_after_the_dead(target)
+            _clear_up_after_the_dead(target)
             time.sleep(_MOMENT)
 
 
@@ -217,7 +217,7 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
         raise OutputError(path, "it was replaced while it was read", "open it again")
 
 
-def clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
+def _clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
     """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
     for box in _boxes(target):
         if box != own and _is_left(box, own):

@@ -245,14 +245,13 @@ class Members:
     def write(self) -> dict[str, Any]:
         """Give the table, with every number."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
-        if self.n is not None:
-            table["n"] = self.n
-        if self.published:
-            table["uncertainty"] = "sample"
-        if self.only:
-            table["only"] = list(self.only)
-        if self.correlations:
-            table["correlations"] = [list(correlation) for correlation in self.correlations]
+        options = {
+            "n": self.n,
+            "uncertainty": "sample" if self.published else "",
+            "only": list(self.only),
+            "correlations": [list(correlation) for correlation in self.correlations],
+        }
+        table |= {name: value for name, value in options.items() if value}
         table |= {
             name: {entry.shape: list(entry.numbers)} for name, entry in self.distributions.items()
         }

@@ -48,7 +48,7 @@ class Series:
         return Rerun(self.question, {BLOCK})
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: of for name, of in vars(self).items() if name != "_rerun"}
+        return {name: value for name, value in vars(self).items() if name != "_rerun"}
 
     @cached_property
     def asked(self) -> Mapping[str, str]:
