@@ -132,11 +132,11 @@ class Answer:
             raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors) or 'none'}")
         if x.attrs.get("frame") != "GCRS":
             raise SceneError("to_skycoord", name, "it does not stand along the axes of the GCRS")
-        there = SkyCoord(
+        coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )
-        there.representation_type = "unitspherical"
-        return there
+        coordinates.representation_type = "unitspherical"
+        return coordinates
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
         """Quantiles of an ensemble.

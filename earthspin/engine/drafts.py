@@ -39,7 +39,7 @@ _GRACE = 60.0
 _MOMENT, _MOMENTS = 0.01, 500
 
 
-def as_path(given: object) -> Path:
+def as_path(path: object) -> Path:
     """Read the path of a file or folder.
 
     Raises
@@ -49,9 +49,9 @@ def as_path(given: object) -> Path:
     OutputError
         If no file can have that name.
     """
-    if not isinstance(given, (str, os.PathLike)):
-        raise TypeError(f"path is of type {type(given).__name__}; give a str or a Path")
-    path = Path(given)
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"path is of type {type(path).__name__}; give a str or a Path")
+    path = Path(path)
     with suppress(UnicodeEncodeError):
         if b"\0" not in os.fsencode(path):
             return path
@@ -68,8 +68,8 @@ def check_writable(folder: str | Path) -> Path:
     """
     path = as_path(folder)
     try:
-        there = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
-        with tempfile.TemporaryFile(dir=there):
+        existing = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
+        with tempfile.TemporaryFile(dir=existing):
             pass
     except (OSError, ValueError) as error:
         words = f"the folder cannot be written to: {one_line(error)}"
@@ -93,8 +93,8 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
     ------
     OutputError
     """
-    there = next(p for p in path.absolute().parents if p.exists())
-    free = shutil.disk_usage(there).free
+    existing = next(p for p in path.absolute().parents if p.exists())
+    free = shutil.disk_usage(existing).free
     if size > free:
         words = f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free"
         raise OutputError(path, words, "ask for less: a longer step, a shorter span, fewer members")

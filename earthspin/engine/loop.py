@@ -90,10 +90,10 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     zarr_of()
     target, layout = drafts.prepared(place), work.layout
     asked = dict(work.asked) | {"size": f"{layout.size} along {layout.along} by {layout.block}"}
-    there = _made_of(target)
-    if there is not None and there != unfinished.digest(asked) and not replace:
+    existing = _made_of(target)
+    if existing is not None and existing != unfinished.digest(asked) and not replace:
         raise OutputError(place, "a store of something else stands there", "move it away")
-    if there == unfinished.digest(asked):
+    if existing == unfinished.digest(asked):
         with unfinished.held(target, asked) as left:  # by a run that was ended when all was done
             if left is not None:
                 shutil.rmtree(left)
@@ -204,46 +204,46 @@ def _by_cluster(
 
 
 @contextmanager
-def _cluster(given: object) -> Iterator[Client]:
+def _cluster(client: object) -> Iterator[Client]:
     """A client of a cluster that there is, or of one that lives as long as it is needed."""
     try:
         import dask
         import distributed
     except ImportError:
         raise MissingExtraError("distributed", "scale", "work by many processes") from None
-    if isinstance(given, distributed.Client):
-        yield given
+    if isinstance(client, distributed.Client):
+        yield client
         return
-    options: dict[str, Any] = {"address": given, "timeout": PATIENCE}
-    if isinstance(given, int):
-        options = {"n_workers": given, "threads_per_worker": 1, "silence_logs": 50}
+    options: dict[str, Any] = {"address": client, "timeout": PATIENCE}
+    if isinstance(client, int):
+        options = {"n_workers": client, "threads_per_worker": 1, "silence_logs": 50}
         options |= {"host": HERE, "dashboard_address": f"{HERE}:0"}
     quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
-    with dask.config.set(quiet if isinstance(given, int) else {}):
+    with dask.config.set(quiet if isinstance(client, int) else {}):
         try:
-            client = distributed.Client(**options, set_as_default=False)
+            connected = distributed.Client(**options, set_as_default=False)
         except Exception as error:  # of the address, the network or another version
-            if isinstance(given, int):
+            if isinstance(client, int):
                 raise
             words = f"no scheduler answers there within {PATIENCE} s: {one_line(error)}"
-            raise SceneError("scheduler", given, words) from None
-        with client:
-            if not client.nthreads():
-                raise SceneError("scheduler", given, "it has no workers; start some")
-            yield client
+            raise SceneError("scheduler", client, words) from None
+        with connected:
+            if not connected.nthreads():
+                raise SceneError("scheduler", client, "it has no workers; start some")
+            yield connected
 
 
-def _check_client(given: object) -> None:
+def _check_client(client: object) -> None:
     """Refuse what is no client, before anything is computed.
 
     Raises
     ------
     SceneError
     """
-    counted = isinstance(given, int) and not isinstance(given, bool) and given > 0
-    if not (given is None or counted or isinstance(given, str) or hasattr(given, "scatter")):
+    counted = isinstance(client, int) and not isinstance(client, bool) and client > 0
+    if not (client is None or counted or isinstance(client, str) or hasattr(client, "scatter")):
         words = "give a number of workers, the address of a scheduler, or a Client of distributed"
-        raise SceneError("client", given, words)
+        raise SceneError("client", client, words)
 
 
 # --- what there is already -----------------------------------------------------------------------

@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
 from earthspin.engine.labels import Schema
@@ -69,9 +69,7 @@ class Part(Generic[P, R]):
         self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
-        self.__doc__, self.__module__ = function.__doc__, function.__module__
-        self.__name__ = self.__qualname__ = function.__name__
-        self.__wrapped__ = function
+        update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Compute."""
@@ -79,7 +77,7 @@ class Part(Generic[P, R]):
 
     def __reduce__(self) -> str:
         # A module holds the part under the name of its function: pickle and copy refer to it.
-        return self.__name__
+        return self.name
 
     def __repr__(self) -> str:
         return f"<part {self.title}: {self.does}>"

@@ -77,17 +77,17 @@ class Key:
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
 
 
-def _read(kind: Kind[Any], given: object, where: Where) -> Any:
+def _read(kind: Kind[Any], value: object, where: Where) -> Any:
     """Read a value; whatever is given, what comes out is a value or one clear line.
 
     Anything at all may be given, and what a library or somebody's class says of it is no help.
     """
     try:
-        return kind.read(given, where)
+        return kind.read(value, where)
     except EarthspinError:
         raise
     except Exception as error:
-        raise where.error(given, f"it is not {kind.words}") from error
+        raise where.error(value, f"it is not {kind.words}") from error
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:

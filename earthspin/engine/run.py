@@ -168,16 +168,13 @@ def plan_data(plan: Plan) -> xr.Dataset:
 
     rows = plan.rows
     why = "what the part does, or why it was left out"
-    columns: dict[str, tuple[list[Any], dict[str, str]]] = {
-        "status": ([row.status for row in rows], {"long_name": "whether the part ran"}),
-        "reason": ([row.reason for row in rows], {"long_name": why}),
-        "run_time": (
-            [row.seconds or 0.0 for row in rows],
-            {"units": "s", "long_name": "run time of the part"},
-        ),
-    }
+    seconds = {"units": "s", "long_name": "run time of the part"}
     return xr.Dataset(
-        {name: ("part", values, attrs) for name, (values, attrs) in columns.items()},
+        {
+            "status": ("part", [row.status for row in rows], {"long_name": "whether the part ran"}),
+            "reason": ("part", [row.reason for row in rows], {"long_name": why}),
+            "run_time": ("part", [row.seconds or 0.0 for row in rows], seconds),
+        },
         {"part": ("part", [row.part for row in rows], {"long_name": "part of the plan"})},
     )
 

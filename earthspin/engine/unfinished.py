@@ -319,9 +319,9 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
         (folder / FRAME).write_bytes(entries(_frame(store, layout.along)))
         _append(folder / LEDGER, of_files(store, _files(grown, 0)))
         drafts.sync(folder)
-        there = place.with_name(place.name + PARTIAL)
-        if not there.exists():  # another run may have been faster
-            os.rename(folder, there)
+        partial = place.with_name(place.name + PARTIAL)
+        if not partial.exists():  # another run may have been faster
+            os.rename(folder, partial)
             drafts.sync_one(place.parent)
 
 
