@@ -8,13 +8,12 @@ parameters may be None stands on one part or more of those.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
-from earthspin.engine.labels import Schema
-from earthspin.engine.variables import Variables
+from earthspin.engine.variables import Variable, Variables
 
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
@@ -48,7 +47,7 @@ class Part(Generic[P, R]):
         What it does: the first line of the docstring.
     needs, uses : tuple of str
         Keys and parts without which it does not run, and those that it takes if they are there.
-    gives : Schema
+    gives : mapping of str to Variable
         The variables that it adds to an answer or section; empty for an intermediate part.
     unless : tuple of callable
         Each takes keys of the question by name and gives a reason for leaving the part out.
@@ -152,7 +151,7 @@ def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
-def _schema_of(function: Callable[..., Any]) -> Schema:
+def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
     """Variables of the class that a function returns by its annotation; none of another type."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
