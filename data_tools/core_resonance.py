@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 import earthspin
 from earthspin import EARTH
 from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS, UAS
-from earthspin.engine.plan import plan
+from earthspin.engine.plan import plan_parts
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.published import K_CMB
 from earthspin.nutation.circles import without_line
@@ -89,7 +89,7 @@ class Terms:
 @cache
 def terms() -> Terms:
     """Those of the comparison with the IAU."""
-    planned = plan(earthspin.load_scene("iau"), ["core"])
+    planned = plan_parts(earthspin.load_scene("iau"), ["core"])
     values = planned.question.keys()
     for step in planned.parts:
         if "response_apart" not in values:

@@ -242,7 +242,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
     >>> print(chosen.left_out["seasons"])
     the moon is not among the perturbers
     """
-    return planning.plan(load_scene(scene), sections)
+    return planning.plan_parts(load_scene(scene), sections)
 
 
 def run(scene: Any) -> xr.Dataset:
@@ -274,7 +274,7 @@ def run(scene: Any) -> xr.Dataset:
     >>> print(earthspin.run(answer).identical(answer))
     True
     """
-    answer = answering.run(load_scene(scene))
+    answer = answering.answer(load_scene(scene))
     _say_what_differs(scene, answer)
     return answer
 
@@ -308,7 +308,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(tree["seasons"].time_per_degree.round(2).values)
     71.59
     """
-    tree = answering.run_tree(load_scene(scene), sections)
+    tree = answering.answer_tree(load_scene(scene), sections)
     _say_what_differs(scene, tree)
     return tree
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from earthspin._version import __version__
 from earthspin.checks.case import Case, Outcome, judge
-from earthspin.engine.labels import CONVENTIONS, Variable, build
+from earthspin.engine.labels import CONVENTIONS
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import progress
 
@@ -21,20 +22,23 @@ PARTS = (
     "nutation", "sky", "scene", "many", "units", "storage",
 )  # fmt: skip
 
-_CASE = ("case",)
-_MIXED = (("comment", "in the unit that 'unit' names for the case"),)
-SCHEMA = {
-    "measured": Variable(_CASE, "", "distance from what the case is held against", _MIXED),
-    "bound": Variable(_CASE, "", "largest distance that holds", _MIXED),
-    "unit": Variable(_CASE, "", "unit of the distance and its bound"),
-    "verdict": Variable(_CASE, "", "holds, refused or fails"),
-    "must_hold": Variable(_CASE, "", "whether only an answer will do"),
-    "case_part": Variable(_CASE, "", "part of the package that is tried"),
-    "hard_because": Variable(_CASE, "", "what makes it hard"),
-    "held_against": Variable(_CASE, "", "invariant, or independent reference"),
-    "reason": Variable(_CASE, "", "why it was refused, or fails"),
-    "run_time": Variable(_CASE, "s", "run time of the case"),
-}
+_UNIT = "in the unit that 'unit' names for the case"
+
+
+class Cases(Variables, along=("case",)):
+    """Cases and their outcomes."""
+
+    measured: Value = words("distance from what the case is held against", comment=_UNIT)
+    bound: Value = words("largest distance that holds", comment=_UNIT)
+    unit: Value = words("unit of the distance and its bound")
+    verdict: Value = words("holds, refused or fails")
+    must_hold: Value = words("whether only an answer will do")
+    case_part: Value = words("part of the package that is tried")
+    hard_because: Value = words("what makes it hard")
+    held_against: Value = words("invariant, or independent reference")
+    reason: Value = words("why it was refused, or fails")
+    run_time: Value = number("s", "run time of the case")
+    case: Labels = labels("stiff or extreme case")
 
 
 def stability(*, quick: bool = False, only: str | None = None, long: bool = False) -> xr.Dataset:
@@ -126,11 +130,8 @@ def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
         {"case_part": case.part, "must_hold": case.must_hold} | vars(case) | vars(outcome)
         for case, outcome in zip(cases, outcomes, strict=True)
     ]
-    result = build(
-        SCHEMA,
-        {name: [row[name] for row in rows] for name in SCHEMA},
-        coords={"case": ("case", [c.name for c in cases], {"long_name": "stiff or extreme case"})},
-    )
+    columns = {name: [row[name] for row in rows] for name in Cases.schema}
+    result = Cases(**columns, case=[case.name for case in cases]).dataset()
     result.attrs = {
         "Conventions": CONVENTIONS,
         "title": "Stiff and extreme cases",

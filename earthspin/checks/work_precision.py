@@ -14,7 +14,7 @@ import gc
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from functools import partial
 from importlib import import_module
@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin._version import __version__
-from earthspin.engine.labels import CONVENTIONS, Variable, build, from_si
+from earthspin.engine.labels import CONVENTIONS, from_si
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.errors import SceneError, nearest
 from earthspin.progress import Advance, progress
 from earthspin.rounded import duration, plain, shown_unit
@@ -367,14 +368,9 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
     for task in {method.task for method in methods}:
         mine = values["task"] == task
         values["pareto"][mine] = pareto_front(error[mine], run_time[mine])
-    result = build(
-        schema(ladder.unit),
-        values,
-        coords={
-            "method": [method.name for method in methods],
-            "rung": np.arange(1, ladder.rungs + 1),
-        },
-    )
+    values["method"] = [method.name for method in methods]
+    values["rung"] = np.arange(1, ladder.rungs + 1)
+    result = points_class(ladder.unit)(**values).dataset()
     result.attrs = {
         "title": f"Error against run time: {ladder.quantity}",
         "Conventions": CONVENTIONS,
@@ -390,24 +386,30 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
     return result
 
 
-def schema(unit: str) -> Mapping[str, Variable]:
-    """What the variables of a result are; errors are shown in `unit`."""
-    point, method = ("method", "rung"), ("method",)
-    return {
-        "error": Variable(point, unit, "error against the reference"),
-        "run_time": Variable(point, "s", "median run time"),
-        "run_time_spread": Variable(point, "s", "half the range of the run times"),
-        "warm_up_time": Variable(point, "s", "run time of the first call"),
-        "evaluations": Variable(point, "1", "evaluations of the costly function"),
-        "setting": Variable(point, "", "setting"),
-        "pareto": Variable(point, "", "no other point has less error and less run time"),
-        "at_floor": Variable(point, "", "the reference is less than a hundred times better"),
-        "ours": Variable(method, "", "a method of this package"),
-        "bound": Variable(method, unit, "bound on the error of the last setting"),
-        "holds": Variable(method, "", "the last setting stays within its bound"),
-        "settings": Variable(method, "1", "how many settings differ"),
-        "task": Variable(method, "", "what is asked for, where there are two"),
-    }
+def points_class(unit: str) -> type[Variables]:
+    """Return the class of a result whose errors are shown in `unit`."""
+    by_method = ("method",)
+
+    class Points(Variables, along=("method", "rung")):
+        """Errors and run times of each method at each setting."""
+
+        error: Value = number(unit, "error against the reference")
+        run_time: Value = number("s", "median run time")
+        run_time_spread: Value = number("s", "half the range of the run times")
+        warm_up_time: Value = number("s", "run time of the first call")
+        evaluations: Value = number("1", "evaluations of the costly function")
+        setting: Value = words("setting")
+        pareto: Value = words("no other point has less error and less run time")
+        at_floor: Value = words("the reference is less than a hundred times better")
+        ours: Value = words("a method of this package", along=by_method)
+        bound: Value = number(unit, "bound on the error of the last setting", along=by_method)
+        holds: Value = words("the last setting stays within its bound", along=by_method)
+        settings: Value = number("1", "how many settings differ", along=by_method)
+        task: Value = words("what is asked for, where there are two", along=by_method)
+        method: Labels = labels()
+        rung: Labels = labels()
+
+    return Points
 
 
 # --- in a sentence -----------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 import earthspin
-from earthspin.engine.plan import SCENE, Plan, plan, seconds_of
+from earthspin.engine.plan import SCENE, Plan, plan_parts, seconds_of
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -62,7 +62,7 @@ class Answer:
     def plan(self) -> Plan:
         """What ran for it, and what was left out and why."""
         seconds = seconds_of(self._dataset.attrs.get(SCENE, ""))
-        return replace(plan(self.scene), seconds=dict(seconds))
+        return replace(plan_parts(self.scene), seconds=dict(seconds))
 
     def to_frame(self) -> pd.DataFrame:
         """Give a tidy table of pandas: a row for each label, a column for each number.
@@ -89,9 +89,10 @@ class Answer:
         for name in map(str, spread.data_vars):
             beside = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
             names += [n for n in (name, *beside) if n not in names]
-        frame = spread.to_dataframe() if spread.sizes else _one_row(spread)
-        index = list(frame.index.names) if spread.sizes else []
-        return frame.reset_index()[[*map(str, index), *names]]
+        if not spread.sizes:  # an answer without labels is one row
+            return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
+        frame = spread.to_dataframe()
+        return frame.reset_index()[[*map(str, frame.index.names), *names]]
 
     def to_skycoord(self, name: str = "") -> SkyCoord:
         """Give unit vectors as coordinates of astropy, in the ICRS.
@@ -131,11 +132,11 @@ class Answer:
             raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors) or 'none'}")
         if x.attrs.get("frame") != "GCRS":
             raise SceneError("to_skycoord", name, "it does not stand along the axes of the GCRS")
-        there = SkyCoord(
+        coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )
-        there.representation_type = "unitspherical"
-        return there
+        coordinates.representation_type = "unitspherical"
+        return coordinates
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
         """Quantiles of an ensemble.
@@ -231,10 +232,3 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
             column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
             columns["_".join([str(name), *map(str, labels)])] = column
     return xr.Dataset(columns)
-
-
-def _one_row(dataset: xr.Dataset) -> pd.DataFrame:
-    """A table of one row, for an answer without labels."""
-    import pandas as pd
-
-    return pd.DataFrame([{str(n): array.values.item() for n, array in dataset.data_vars.items()}])

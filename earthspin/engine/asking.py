@@ -8,8 +8,9 @@ import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from earthspin.engine.answering import run
+from earthspin.engine.answering import answer
 from earthspin.engine.question import Key, Question, keys_of
+from earthspin.errors import SceneError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,10 +30,10 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
         try:
-            given = dict(signature.bind(*args, **kwargs).arguments)
+            values = dict(signature.bind(*args, **kwargs).arguments)
         except TypeError as error:
             raise TypeError(f"{question.call}() {error}") from None
-        return run(question(**_with_span(question, given)))
+        return answer(question(**_with_span(question, values)))
 
     call.__name__ = call.__qualname__ = question.call
     call.__doc__ = docstring_of(question)
@@ -42,20 +43,18 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     return call
 
 
-def _with_span(question: type[Question], given: dict[str, Any]) -> dict[str, Any]:
+def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
     """Put start and stop together; either all of start, stop and step, or none."""
     if "start" not in question.positional:
-        return given
-    start, stop = (given.pop(end, None) for end in ENDS)
-    ends = {"start": start, "stop": stop, "step": given.get("step")}
+        return values
+    start, stop = (values.pop(end, None) for end in ENDS)
+    ends = {"start": start, "stop": stop, "step": values.get("step")}
     missing = [name for name, value in ends.items() if value is None]
-    if given.get("times") is None and 0 < len(missing) < len(ends):
-        from earthspin.errors import SceneError
-
+    if values.get("times") is None and 0 < len(missing) < len(ends):
         raise SceneError(missing[0], None, "give start, stop and step, or times")
     if start is None and stop is None:
-        return given
-    return given | {"span": (start, stop)}
+        return values
+    return values | {"span": (start, stop)}
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:

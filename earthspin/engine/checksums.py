@@ -122,9 +122,10 @@ def read_entries(ledger: Path) -> dict[str, str]:
     return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
 
 
-def ledger_of(store: Path) -> Path | None:
-    """The ledger of a Zarr store; None if it has none."""
-    return min(store.rglob(LEDGER), default=None)
+def ledger_of(store: Path) -> dict[str, str] | None:
+    """SHA-256 of each file of a Zarr store as its ledger says; None if it has no ledger."""
+    ledger = min(store.rglob(LEDGER), default=None)
+    return None if ledger is None else read_entries(ledger)
 
 
 def write_ledger(store: Path, sums: Mapping[str, str]) -> None:

@@ -39,7 +39,7 @@ _GRACE = 60.0
 _MOMENT, _MOMENTS = 0.01, 500
 
 
-def as_path(given: object) -> Path:
+def as_path(path: object) -> Path:
     """Read the path of a file or folder.
 
     Raises
@@ -49,9 +49,9 @@ def as_path(given: object) -> Path:
     OutputError
         If no file can have that name.
     """
-    if not isinstance(given, (str, os.PathLike)):
-        raise TypeError(f"path is of type {type(given).__name__}; give a str or a Path")
-    path = Path(given)
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"path is of type {type(path).__name__}; give a str or a Path")
+    path = Path(path)
     with suppress(UnicodeEncodeError):
         if b"\0" not in os.fsencode(path):
             return path
@@ -68,8 +68,8 @@ def check_writable(folder: str | Path) -> Path:
     """
     path = as_path(folder)
     try:
-        there = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
-        with tempfile.TemporaryFile(dir=there):
+        existing = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
+        with tempfile.TemporaryFile(dir=existing):
             pass
     except (OSError, ValueError) as error:
         words = f"the folder cannot be written to: {one_line(error)}"
@@ -93,8 +93,8 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
     ------
     OutputError
     """
-    there = next(p for p in path.absolute().parents if p.exists())
-    free = shutil.disk_usage(there).free
+    existing = next(p for p in path.absolute().parents if p.exists())
+    free = shutil.disk_usage(existing).free
     if size > free:
         words = f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free"
         raise OutputError(path, words, "ask for less: a longer step, a shorter span, fewer members")
@@ -123,7 +123,6 @@ def replacing(path: str | Path) -> Iterator[Path]:
     target = prepared(path)
     remedy = "what stood there is kept" if target.exists() else ""
     with output_errors(path, remedy), box_of(target) as box:
-        clear_up_after_the_dead(target, box)
         yield box / target.name
         put_in_place(box / target.name, target, box)
 
@@ -167,12 +166,13 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Hidden folder beside the target, locked by its owner as long as he lives."""
+    """Make a hidden folder beside the target, locked by its owner; remove those of dead owners."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = FileLock(box / _LOCK)
     with suppress(OSError, NotImplementedError):  # where there are no locks, no draft is cleared
         lock.acquire()
     try:
+        _clear_up_after_the_dead(target, box)
         yield box
     finally:
         _remove(box, target)
@@ -193,7 +193,7 @@ def put_back(path: str | Path) -> None:
         for _ in range(_MOMENTS):
             if target.exists() or not any((box / _OLD).exists() for box in _boxes(target)):
                 break
-            clear_up_after_the_dead(target)
+            _clear_up_after_the_dead(target)
             time.sleep(_MOMENT)
 
 
@@ -217,7 +217,7 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
         raise OutputError(path, "it was replaced while it was read", "open it again")
 
 
-def clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
+def _clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
     """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
     for box in _boxes(target):
         if box != own and _is_left(box, own):

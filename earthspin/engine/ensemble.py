@@ -10,6 +10,7 @@ that differ in words stand side by side with those of the same words.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from operator import itemgetter
@@ -20,13 +21,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.engine import loop
-from earthspin.engine import run as running
 from earthspin.engine.given import MEMBER
 from earthspin.engine.inputs import Input, along_members, changed, inputs_of, one_member, published
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
-from earthspin.engine.run import scene_text
+from earthspin.engine.run import plan_data, scene_text
 from earthspin.engine.series import asked_of
 from earthspin.engine.unfinished import Layout
 from earthspin.engine.variants import Variants, Words
@@ -80,7 +80,7 @@ class Ensemble:
         self.asked_question, self.question = question, question.replace(members=None)
         members = question.members or Members()
         where = question.where("members")
-        distributions = dict(published(self.question)) if members.published else {}
+        distributions = published(self.question) if members.published else {}
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
         if not self.inputs:
@@ -88,11 +88,11 @@ class Ensemble:
             raise where.error(None, problem)
         n = count_of(members, distributions, where)
         self.which = np.array(members.only or range(n))
-        numbers = {
-            name: distribution.values(self.inputs[name].kind, where.at(name))
+        drawn = {
+            name: distribution.checked(self.inputs[name].kind, where.at(name))
             for name, distribution in distributions.items()
         }
-        self.values = draw(members, distributions, numbers, self.which, where)
+        self.values = draw(members, drawn, self.which, where)
         self.values |= {
             name: self.inputs[name].checked(values, where.at(name))[self.which]
             for name, values in members.values.items()
@@ -103,8 +103,7 @@ class Ensemble:
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # known before it is sent
-        here = ("variants", "nominal")
-        return {name: value for name, value in vars(self).items() if name not in here}
+        return {n: value for n, value in vars(self).items() if n not in ("variants", "nominal")}
 
     # --- what there is to do ---------------------------------------------------------------------
 
@@ -173,7 +172,7 @@ class Ensemble:
 
     def plan_data(self) -> xr.Dataset:
         """The plan of one member, as data."""
-        return running.plan_data(self.variants[self.words(0)]().plan)
+        return plan_data(self.variants[self.words(0)]().plan)
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Make it in memory.
@@ -212,40 +211,30 @@ class Ensemble:
         del self.every
 
     def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
-        """Places of members that cannot exist, and why."""
+        """Places of members that cannot exist, and why; at once where arrays tell."""
+        at_once = all(entry.field and entry.labelled for entry in self.numbers.values())
         for words, places in self.every.items():
             try:
                 question = self.variants.question(words)
             except EarthspinError as error:
                 yield from ((int(place), error) for place in places)
-            else:
-                yield from self._impossible_of(question, places)
-
-    def _impossible_of(
-        self, question: Question, places: IntArray
-    ) -> Iterator[tuple[int, EarthspinError]]:
-        """The same of the members that share a question; at once where arrays tell."""
-        at_once = all(entry.field and entry.labelled for entry in self.numbers.values())
-        if at_once:
-            try:
-                changed(question, self.numbers, along_members(self._of_numbers, places))
-                return
-            except EarthspinError:
-                pass
-        for place in places.tolist():
-            try:
-                changed(question, self.numbers, one_member(self._of_numbers, place))
-            except EarthspinError as error:
-                yield place, error
+                continue
+            if at_once:
+                with suppress(EarthspinError):
+                    changed(question, self.numbers, along_members(self._of_numbers, places))
+                    continue
+            for place in places.tolist():
+                try:
+                    changed(question, self.numbers, one_member(self._of_numbers, place))
+                except EarthspinError as error:
+                    yield place, error
 
     # --- blocks ----------------------------------------------------------------------------------
 
     def first(self) -> xr.Dataset:
         """Block 0, with the attributes of the whole."""
-        attributes = self.variants.attributes(self.every) | {
-            "title": self.asked_question.title,
-            SCENE: scene_text(self.asked_question),
-        }
+        question = self.asked_question
+        attributes = {"title": question.title, SCENE: scene_text(question)}
         if self.dropped:
             count = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
             attributes["members_dropped"] = count
@@ -254,17 +243,16 @@ class Ensemble:
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
-        answers = self._one_by_one if self.width == 1 else self._side_by_side
-        places, pieces = zip(*answers(first, last), strict=True)
-        block = _laid([*pieces])
+        if self.width == 1:
+            places = [np.array([place]) for place in range(first, last)]
+            pieces = [self._single(place) for place in range(first, last)]
+        else:
+            places, pieces = map(list, zip(*self._side_by_side(first, last), strict=True))
+        block = _laid(pieces)
         order = np.argsort(np.concatenate(places))
         if (np.diff(order) != 1).any():
             block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
         return block.assign_coords(self._labels(slice(first, last), block))
-
-    def _one_by_one(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        for place in range(first, last):
-            yield np.array([place]), self._single(place)
 
     def _side_by_side(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
         """Members in whole rows, and of these the ones that are wanted, by their words."""
@@ -284,7 +272,6 @@ class Ensemble:
                 except ApartError:
                     yield from ((np.array([place]), self._single(place)) for place in places)
                     continue
-                self._check_labels(answer, which)
                 if words:
                     answer = _for_each(answer, len(row))
                 if MEMBER in answer.dims:
@@ -292,25 +279,22 @@ class Ensemble:
                 yield places, answer
 
     def _single(self, place: int) -> xr.Dataset:
-        which = str(self.which[place])
-        answer = self._answer(self.words(place), one_member(self._of_numbers, place), which)
-        self._check_labels(answer, which)
-        return _for_each(answer, 1)
+        values, which = one_member(self._of_numbers, place), str(self.which[place])
+        return _for_each(self._answer(self.words(place), values, which), 1)
 
     def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """The numbers of one member, or of several with the same words."""
         try:
             rerun = self.variants[words]
-            return rerun(changed(rerun.planned.question, self.numbers, values)).numbers()
+            answer = rerun(changed(rerun.plan.question, self.numbers, values)).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
-
-    def _check_labels(self, answer: xr.Dataset, which: str) -> None:
         for name, label in self.nominal.coords.items():
             if name not in answer.coords or not label.equals(answer.coords[name]):
                 problem = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), problem)
+        return answer
 
     @property
     def _of_numbers(self) -> dict[str, NDArray[Any]]:
@@ -383,19 +367,13 @@ def asked_of_members(
     **more
         Fields of `Members` to change.
     """
-    own: Members | None = question.members
-    if members is None and own is None:
-        problem = "say how many members, or give a file or a table"
-        raise question.error("members", None, problem)
-    counted = isinstance(members, (int, np.integer)) and not isinstance(members, bool)
-    if members is None:
-        request = own
-    else:
-        request = Members.read(members, question.where("members"))
-        if own is not None and counted:
-            request = replace(own, n=request.n)
-    assert request is not None
+    own, where = question.members, question.where("members")
+    request: Members | None = own if members is None else Members.read(members, where)
+    if request is None:
+        raise where.error(None, "say how many members, or give a file or a table")
+    if own is not None and isinstance(members, (int, np.integer)):
+        request = replace(own, n=request.n)
     changes = {name: value for name, value in {"seed": seed, **more}.items() if value is not None}
-    read = Members.read({"n": 1} | changes, question.where("members"))
-    changes = {name: getattr(read, name) for name in changes}
+    checked = Members.read({"n": 1} | changes, where)
+    changes = {name: getattr(checked, name) for name in changes}
     return question.replace(members=replace(request, **changes))

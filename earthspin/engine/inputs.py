@@ -18,12 +18,10 @@ from earthspin.engine.given import MEMBER
 from earthspin.engine.members import Distribution, texts
 from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
-from earthspin.units import FloatArray, Number, by_name
+from earthspin.units import Number, by_name
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from earthspin.engine.question import Question
 
 
 @dataclass(frozen=True)
@@ -55,7 +53,7 @@ class Input:
 
     @property
     def named(self) -> bool:
-        """Whether it is no number, but chosen by a name."""
+        """Return True if the input is a name rather than a number."""
         return not self.field and self.element is None and by_name(self.kind)
 
     @property
@@ -99,22 +97,20 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
         If there is none of a name, which names the nearest; or a number belongs to something that
         is itself chosen.
     """
-    inputs = {name: _input(question, name, where) for name in names}
+    every = {entry.name: entry for entry in _every(question)}
+    inputs: dict[str, Input] = {}
+    for name in names:
+        short = name.removeprefix(f"{question.table}.") if question.table else name
+        known = every.get(name) or every.get(short)
+        if known is None:
+            raise where.error(name, nearest(name, every))
+        inputs[name] = replace(known, name=name)
     chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
     for entry in inputs.values():
         if chosen.get(entry.key, entry.name) != entry.name:
             problem = f"members differ in '{chosen[entry.key]}' itself; leave out one of the two"
             raise where.at(entry.name).error("a number", problem)
     return inputs
-
-
-def _input(question: Question, name: str, where: Where) -> Input:
-    inputs = {one.name: one for one in _every(question)}
-    short = name.removeprefix(f"{question.table}.") if question.table else name
-    for spelled in (name, short):
-        if spelled in inputs:
-            return replace(inputs[spelled], name=name)
-    raise where.error(name, nearest(name, inputs))
 
 
 def _every(question: Question) -> Iterator[Input]:
@@ -175,86 +171,59 @@ def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str
     EarthspinError
         If it cannot be, in one line.
     """
-    changes: dict[str, Any] = {}
-    labelled = False
-    for name, entry in inputs.items():
-        if entry.field:
-            continue
-        labelled = labelled or hasattr(values[name], "dims")
-        if entry.element is None:
-            changes[entry.key] = values[name]
-        else:
-            list_of = changes.get(entry.key, getattr(question, entry.key))
-            changes[entry.key] = _with_number(list_of, entry.element, values[name])
-    changed = question.replace(**with_bodies(question, inputs, values))
-    return changed.holding(**changes) if labelled else changed.replace(**changes)
-
-
-def _with_number(sequence: Any, place: int, value: Any) -> Any:
-    """A list of numbers with one of them changed, or changed to one for each member."""
-    if hasattr(sequence, "numbers"):
-        numbers = sequence.numbers
-        return replace(sequence, numbers=(*numbers[:place], value, *numbers[place + 1 :]))
-    if hasattr(value, "dims") and not hasattr(sequence, "dims"):
-        sequence = _for_each(sequence, value.size)
-    sequence = sequence.copy()
-    rows = value.size if hasattr(value, "dims") else 1
-    getattr(sequence, "values", sequence).reshape(rows, -1)[:, place] = value
-    return sequence
-
-
-def _for_each(values: FloatArray, count: int) -> xr.DataArray:
-    """The same numbers for each of so many members, `member` first."""
-    import xarray as xr
-
-    dims = (MEMBER, *(f"{MEMBER}_{axis}" for axis in range(values.ndim)))
-    return xr.DataArray(np.broadcast_to(values, (count, *values.shape)).copy(), dims=dims)
-
-
-def with_bodies(
-    question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Keys of a question that hold bodies, with values put into these.
-
-    Parameters
-    ----------
-    question : Question
-    inputs : mapping of str to Input
-    values : mapping of str to float or DataArray
-
-    Raises
-    ------
-    BodyError, UnitsError
-        If such a body cannot exist.
-    """
     fields: dict[tuple[str, int | None], dict[str, Any]] = {}
     for name, entry in inputs.items():
         if entry.field:
             fields.setdefault((entry.key, entry.element), {})[entry.field] = values[name]
-    changes: dict[str, Any] = {}
-    for (key, element), new_values in fields.items():
-        value = changes.get(key, getattr(question, key))
+    bodies: dict[str, Any] = {}
+    for (key, element), numbers in fields.items():
+        body = bodies.get(key, getattr(question, key))
         if element is None:
-            changes[key] = value.replace(**new_values)
+            bodies[key] = body.replace(**numbers)
         else:
-            new = value[element].replace(**new_values)
-            changes[key] = (*value[:element], new, *value[element + 1 :])
-    return changes
+            bodies[key] = _with_item(body, element, body[element].replace(**numbers))
+    changes: dict[str, Any] = {}
+    for name, entry in inputs.items():
+        if entry.element is None and not entry.field:
+            changes[entry.key] = values[name]
+        elif not entry.field:
+            sequence = changes.get(entry.key, getattr(question, entry.key))
+            changes[entry.key] = _with_number(sequence, entry.element, values[name])
+    changed = question.replace(**bodies)
+    labelled = any(hasattr(values[name], "dims") and not inputs[name].field for name in inputs)
+    return changed.holding(**changes) if labelled else changed.replace(**changes)
 
 
-def along_members(values: Mapping[str, Any], which: Any) -> dict[str, Any]:
-    """Values of several members as labelled arrays."""
+def _with_item(items: tuple[Any, ...], place: int, item: Any) -> tuple[Any, ...]:
+    return (*items[:place], item, *items[place + 1 :])
+
+
+def _with_number(sequence: Any, place: Any, value: Any) -> Any:
+    """A list of numbers with one of them changed, or changed to one for each member."""
+    if hasattr(sequence, "numbers"):
+        return replace(sequence, numbers=_with_item(sequence.numbers, place, value))
+    labelled = hasattr(value, "dims")
+    if labelled and not hasattr(sequence, "dims"):
+        sequence = _along_members(np.stack([sequence] * value.size))
+    sequence = sequence.copy()
+    rows = value.size if labelled else 1
+    getattr(sequence, "values", sequence).reshape(rows, -1)[:, place] = value
+    return sequence
+
+
+def _along_members(values: NDArray[Any]) -> xr.DataArray:
+    """A labelled array, `member` first."""
     import xarray as xr
 
-    return {
-        name: xr.DataArray(
-            array[which], dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(array.ndim - 1)))
-        )
-        for name, array in values.items()
-    }
+    return xr.DataArray(values, dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(values.ndim - 1))))
 
 
-def one_member(values: Mapping[str, Any], number: int) -> dict[str, Any]:
+def along_members(values: Mapping[str, NDArray[Any]], which: Any) -> dict[str, Any]:
+    """Values of several members as labelled arrays."""
+    return {name: _along_members(array[which]) for name, array in values.items()}
+
+
+def one_member(values: Mapping[str, NDArray[Any]], number: int) -> dict[str, Any]:
     """Values of one member."""
     return {
         name: array[number].item() if array.ndim == 1 else array[number]

@@ -1,18 +1,12 @@
-"""Datasets: what each variable is called, measured in, and laid out along.
-
-Values in SI become labelled arrays here, in the units of a schema and with the attributes that the
-CF conventions ask for. Plain floats only: a Quantity would lose its unit on disk.
-"""
+"""Units that results are shown in, their factors from SI, and how files spell them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS
-from earthspin.errors import SceneError, UndefinedError, nearest
+from earthspin.errors import SceneError, nearest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,113 +62,6 @@ def from_si(unit: str) -> float:
     return FROM_SI[unit]
 
 
-@dataclass(frozen=True)
-class Variable:
-    """What a variable of a result is.
-
-    Attributes
-    ----------
-    dims : tuple of str
-        Its dimensions; a body with labelled arrays adds theirs.
-    units : str
-        As astropy.units parses it; "1" for pure numbers, "" for words and dates.
-    long_name : str
-        In plain words.
-    attrs : tuple of pairs
-        Further attributes, such as cell_methods or references.
-    error : str
-        Names of the variables that hold its error, where they are not called after it.
-    no_error : str
-        Why it carries no error.
-    short : str
-        Label of tables and axes.
-    """
-
-    dims: tuple[str, ...]
-    units: str
-    long_name: str
-    attrs: tuple[tuple[str, str], ...] = ()
-    error: str = ""
-    no_error: str = ""
-    short: str = ""
-
-
-Schema = Mapping[str, Variable]
-
-
-class SchemaError(Exception):
-    """A part gave something else than it declares: a defect of the program, not of the input."""
-
-
-def build(
-    schema: Schema,
-    values: Mapping[str, Any],
-    coords: Mapping[str, Any] | None = None,
-    no_error: str = "",
-) -> xr.Dataset:
-    """Label the values that a part gave.
-
-    Parameters
-    ----------
-    schema : Schema
-        What it declares.
-    values : mapping
-        Arrays or labelled arrays by variable name, in SI units; plain arrays are laid along
-        the declared dimensions.
-    coords : mapping, optional
-        Labels by dimension.
-    no_error : str
-        Why errors are not given where they are NaN; empty if all are given.
-
-    Raises
-    ------
-    SchemaError
-        If the variables are not the declared ones, or lack a declared dimension.
-    UndefinedError
-        If a number is missing.
-    """
-    import numpy as np
-    import xarray as xr
-
-    if set(values) != set(schema):
-        raise SchemaError(f"a part gave {sorted(values)}, declares {sorted(schema)}")
-    arrays: dict[str, xr.Variable] = {}
-    labels: dict[Any, Any] = dict(coords or {})
-    for name, declared in schema.items():
-        value = values[name]
-        if isinstance(value, xr.DataArray):
-            _collect(labels, value)
-            value = value.variable
-        else:
-            value = xr.Variable(declared.dims, value)
-        if not set(declared.dims) <= set(value.dims):
-            raise SchemaError(f"{name} has {value.dims}, declares {declared.dims}")
-        laid = value.transpose(*declared.dims, ...)
-        factor = from_si(declared.units)
-        data = laid.values if factor == 1 else np.asarray(laid.values * factor)
-        attributes = _attributes(name, declared, schema)
-        if data.dtype.kind == "f" and np.isnan(data).any():
-            if not (no_error and "_error" in name):
-                raise UndefinedError(
-                    f"{declared.long_name} has no value here; check the body's numbers"
-                )
-            attributes["no_error"] = no_error
-        arrays[name] = xr.Variable(laid.dims, data, attributes)
-    return xr.Dataset(arrays, coords=labels)
-
-
-def _collect(labels: dict[Any, Any], array: xr.DataArray) -> None:
-    """Add the labels of an array to those of the others, with which they must agree."""
-    for name, own in array.coords.items():
-        known = labels.setdefault(name, own.variable)
-        if (
-            known is not own.variable
-            and hasattr(known, "equals")
-            and not known.equals(own.variable)
-        ):
-            raise SchemaError(f"labels along '{name}' differ from one variable to the next")
-
-
 def si(array: xr.DataArray) -> xr.DataArray:
     """Values of a variable of a result, back in SI units.
 
@@ -184,15 +71,3 @@ def si(array: xr.DataArray) -> xr.DataArray:
         If its units are not among those that results are shown in.
     """
     return array / from_si(array.attrs.get("units", ""))
-
-
-def _attributes(name: str, variable: Variable, schema: Schema) -> dict[str, str]:
-    attributes = {"long_name": variable.long_name}
-    if variable.units:
-        attributes["units"] = variable.units
-    companions = [other for other in schema if other.startswith(f"{name}_error")]
-    if companions or variable.error:
-        attributes["ancillary_variables"] = variable.error or " ".join(companions)
-    if variable.no_error:
-        attributes["no_error"] = variable.no_error
-    return attributes | dict(variable.attrs)

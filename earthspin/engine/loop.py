@@ -15,17 +15,9 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from earthspin.engine import drafts
+from earthspin.engine import drafts, unfinished
 from earthspin.engine.store import MADE_OF, verify, zarr_of
-from earthspin.engine.unfinished import (
-    PARTIAL,
-    Layout,
-    Unfinished,
-    begin,
-    digest,
-    held,
-    write_block,
-)  # fmt: skip
+from earthspin.engine.unfinished import Layout, Unfinished, write_block
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
 from earthspin.progress import progress
 
@@ -93,27 +85,27 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     _check_client(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
-        words = "its name does not end in .zarr"
-        raise OutputError(place, words, "what is long goes to Zarr alone")
+        problem = "its name does not end in .zarr"
+        raise OutputError(place, problem, "what is long goes to Zarr alone")
     zarr_of()
     target, layout = drafts.prepared(place), work.layout
     asked = dict(work.asked) | {"size": f"{layout.size} along {layout.along} by {layout.block}"}
-    there = _made_of(target)
-    if there is not None and there != digest(asked) and not replace:
+    existing = _made_of(target)
+    if existing is not None and existing != unfinished.digest(asked) and not replace:
         raise OutputError(place, "a store of something else stands there", "move it away")
-    if there == digest(asked):
-        with held(target, asked) as left:  # by a run that was ended when all was done
+    if existing == unfinished.digest(asked):
+        with unfinished.held(target, asked) as left:  # by a run that was ended when all was done
             if left is not None:
                 shutil.rmtree(left)
         return verify(place)
-    remedy = f"what is done stays in {target.name}{PARTIAL}: make room and run it again"
+    remedy = f"what is done stays in {target.name}{unfinished.PARTIAL}: make room and run it again"
     with drafts.output_errors(place, remedy):
         while True:
-            with held(target, asked) as folder:
+            with unfinished.held(target, asked) as folder:
                 if folder is not None:
                     _go_on(work, Unfinished(folder, layout), target, client)
                     return place
-            begin(target, asked, layout, work.first())
+            unfinished.begin(target, asked, layout, work.first())
 
 
 def hold(work: Work, *, client: object = None) -> xr.Dataset:
@@ -148,28 +140,28 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 # --- the loop ------------------------------------------------------------------------------------
 
 
-def _go_on(work: Work, unfinished: Unfinished, target: Path, client: object) -> None:
+def _go_on(work: Work, store: Unfinished, target: Path, client: object) -> None:
     """Make what is missing, and again what is damaged, until all is as the ledger says."""
     layout, own = work.layout, set[int]()
     try:
-        unfinished.drop_damaged()
+        store.drop_damaged()
         while True:
-            with progress(work.what, layout.size, unfinished.length) as advance:
-                for number, sums in _made(work, unfinished.missing, client, unfinished.folder):
-                    unfinished.note(number, sums)
+            with progress(work.what, layout.size, store.length) as advance:
+                for number, sums in _made(work, store.missing, client, store.folder):
+                    store.note(number, sums)
                     own.add(number)
                     advance(layout.length(number))
-            if not (damaged := unfinished.drop_damaged()):
+            if not (damaged := store.drop_damaged()):
                 break
             if own.intersection(damaged):
                 words = f"block {damaged[0]} is not what was just written"
-                raise OutputError(unfinished.folder, words, "check the disk and run it again")
+                raise OutputError(store.folder, words, "check the disk and run it again")
     except BaseException as ended:
         if not isinstance(ended, Exception):  # from outside
-            kept = f"{unfinished.length} of {layout.size} are kept in {unfinished.folder.name}"
+            kept = f"{store.length} of {layout.size} are kept in {store.folder.name}"
             ended.add_note(f"{kept}; the same command goes on from there")
         raise
-    unfinished.finish(target)
+    store.finish(target)
 
 
 def _made(
@@ -212,46 +204,46 @@ def _by_cluster(
 
 
 @contextmanager
-def _cluster(given: object) -> Iterator[Client]:
+def _cluster(client: object) -> Iterator[Client]:
     """A client of a cluster that there is, or of one that lives as long as it is needed."""
     try:
         import dask
         import distributed
     except ImportError:
         raise MissingExtraError("distributed", "scale", "work by many processes") from None
-    if isinstance(given, distributed.Client):
-        yield given
+    if isinstance(client, distributed.Client):
+        yield client
         return
-    options: dict[str, Any] = {"address": given, "timeout": PATIENCE}
-    if isinstance(given, int):
-        options = {"n_workers": given, "threads_per_worker": 1, "silence_logs": 50}
+    options: dict[str, Any] = {"address": client, "timeout": PATIENCE}
+    if isinstance(client, int):
+        options = {"n_workers": client, "threads_per_worker": 1, "silence_logs": 50}
         options |= {"host": HERE, "dashboard_address": f"{HERE}:0"}
     quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
-    with dask.config.set(quiet if isinstance(given, int) else {}):
+    with dask.config.set(quiet if isinstance(client, int) else {}):
         try:
-            client = distributed.Client(**options, set_as_default=False)
+            connected = distributed.Client(**options, set_as_default=False)
         except Exception as error:  # of the address, the network or another version
-            if isinstance(given, int):
+            if isinstance(client, int):
                 raise
             words = f"no scheduler answers there within {PATIENCE} s: {one_line(error)}"
-            raise SceneError("scheduler", given, words) from None
-        with client:
-            if not client.nthreads():
-                raise SceneError("scheduler", given, "it has no workers; start some")
-            yield client
+            raise SceneError("scheduler", client, words) from None
+        with connected:
+            if not connected.nthreads():
+                raise SceneError("scheduler", client, "it has no workers; start some")
+            yield connected
 
 
-def _check_client(given: object) -> None:
+def _check_client(client: object) -> None:
     """Refuse what is no client, before anything is computed.
 
     Raises
     ------
     SceneError
     """
-    counted = isinstance(given, int) and not isinstance(given, bool) and given > 0
-    if not (given is None or counted or isinstance(given, str) or hasattr(given, "scatter")):
+    counted = isinstance(client, int) and not isinstance(client, bool) and client > 0
+    if not (client is None or counted or isinstance(client, str) or hasattr(client, "scatter")):
         words = "give a number of workers, the address of a scheduler, or a Client of distributed"
-        raise SceneError("client", given, words)
+        raise SceneError("client", client, words)
 
 
 # --- what there is already -----------------------------------------------------------------------

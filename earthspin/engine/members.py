@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from earthspin.engine.given import from_scene, of_dataset, read_file
 from earthspin.errors import Where, nearest
-from earthspin.units import FloatArray, by_name, pack
+from earthspin.units import FloatArray, Word, by_name, pack
 
 #: As many members as numbers of one kind are ever held whole.
 MOST = 10_000_000
@@ -65,13 +65,13 @@ class Distribution:
             raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
         return cls(shape, tuple(map(_plain, numbers)))
 
-    def values(self, kind: Any, where: Where) -> tuple[float, ...] | tuple[str, ...]:
-        """Its numbers as the input is kept, or its words, checked."""
+    def checked(self, kind: Any, where: Where) -> Distribution:
+        """Return it with its numbers as the input is kept, or its words, checked."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
                 problem = f"{self.shape} is of numbers; of words and names give choice or grid"
                 raise where.error(list(self.numbers), problem)
-            return texts(self.numbers, kind, where)
+            return Distribution(self.shape, texts(self.numbers, kind, where))
         numbers = [kind.read(number, where) for number in self.numbers]
         if any(map(np.ndim, numbers)):
             raise where.error(self.numbers, "give single numbers")
@@ -79,7 +79,32 @@ class Distribution:
             raise where.error(self.numbers, "a standard deviation is zero or more")
         if self.shape == "uniform" and not numbers[0] <= numbers[1]:
             raise where.error(self.numbers, "the lowest value comes first")
-        return tuple(map(float, numbers))
+        return Distribution(self.shape, tuple(map(float, numbers)))
+
+    def values(self, normal: FloatArray, place: FloatArray) -> NDArray[Any]:
+        """Turn standard normal numbers into those of the distribution.
+
+        Parameters
+        ----------
+        normal : ndarray, shape (n,)
+        place : ndarray of int, shape (n,)
+            Of a grid: which value.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+        """
+        from scipy.special import ndtr
+
+        numbers = np.array(self.numbers)
+        if self.shape == "normal":
+            return np.asarray(numbers[0] + numbers[1] * normal)
+        share = ndtr(normal)
+        if self.shape == "uniform":
+            return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
+        if self.shape == "choice":
+            place = np.minimum((share * numbers.size).astype(int), numbers.size - 1)
+        return np.asarray(numbers[place])
 
 
 def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
@@ -106,37 +131,6 @@ def _plain(number: Any) -> Any:
     if hasattr(number, "to_value"):
         return f"{float(number.value)!r} {number.unit}"
     return number.item() if isinstance(number, np.generic) else number
-
-
-def drawn(
-    distribution: str, numbers: tuple[Any, ...], normal: FloatArray, place: FloatArray
-) -> NDArray[Any]:
-    """Turn standard normal numbers into those of a distribution.
-
-    Parameters
-    ----------
-    distribution : str
-    numbers : tuple of float or of str
-        As `Distribution.values` gives them.
-    normal : ndarray, shape (n,)
-    place : ndarray of int, shape (n,)
-        Of a grid: which value.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-    """
-    from scipy.special import ndtr
-
-    values = np.array(numbers)
-    if distribution == "normal":
-        return np.asarray(numbers[0] + numbers[1] * normal)
-    share = ndtr(normal)
-    if distribution == "uniform":
-        return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
-    if distribution == "choice":
-        place = np.minimum((share * values.size).astype(int), values.size - 1)
-    return np.asarray(values[place])
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
@@ -226,11 +220,10 @@ class Members:
                 problem = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
                 raise where.at(name).error(entry, problem)
         uncertainty = settings.get("uncertainty")
-        if not (uncertainty is None or _is_word(uncertainty, ("sample",))):
-            raise where.at("uncertainty").error(uncertainty, nearest(uncertainty, ["sample"]))
-        impossible = settings.get("impossible", "refuse")
-        if not _is_word(impossible, ("refuse", "drop")):
-            raise where.at("impossible").error(impossible, nearest(impossible, ["refuse", "drop"]))
+        if uncertainty is not None:
+            Word(("sample",)).read(uncertainty, where.at("uncertainty"))
+        impossible: Any = settings.get("impossible", "refuse")
+        Word(("refuse", "drop")).read(impossible, where.at("impossible"))
         values = settings.get("values", {})
         if not isinstance(values, Mapping):
             raise where.at("values").error(values, "give a table of inputs, each with its values")
@@ -241,7 +234,7 @@ class Members:
         return cls(
             n=None if n is None else _whole(n, where.at("n"), 1),
             seed=_whole(settings.get("seed", 0), where.at("seed"), 0, 2**64 - 1),
-            published=uncertainty == "sample",
+            published=uncertainty is not None,
             impossible=impossible,
             only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
@@ -252,14 +245,13 @@ class Members:
     def write(self) -> dict[str, Any]:
         """Give the table, with every number."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
-        if self.n is not None:
-            table["n"] = self.n
-        if self.published:
-            table["uncertainty"] = "sample"
-        if self.only:
-            table["only"] = list(self.only)
-        if self.correlations:
-            table["correlations"] = [list(correlation) for correlation in self.correlations]
+        options = {
+            "n": self.n,
+            "uncertainty": "sample" if self.published else "",
+            "only": list(self.only),
+            "correlations": [list(correlation) for correlation in self.correlations],
+        }
+        table |= {name: value for name, value in options.items() if value}
         table |= {
             name: {entry.shape: list(entry.numbers)} for name, entry in self.distributions.items()
         }
@@ -269,10 +261,6 @@ class Members:
                 for name, entry in self.values.items()
             }
         return table
-
-
-def _is_word(value: object, allowed: tuple[str, ...]) -> bool:
-    return isinstance(value, str) and value in allowed
 
 
 def _whole(value: Any, where: Where, low: int, high: int = MOST) -> int:
@@ -288,17 +276,14 @@ def _distributions(
 ) -> Iterator[tuple[str, Distribution]]:
     """Distributions by name; TOML makes tables within tables of names with points."""
     for name, entry in table.items():
-        if (
-            isinstance(entry, Mapping)
-            and entry
-            and not set(entry) & set(_SHAPES)
-            and all(isinstance(inner, Mapping) for inner in entry.values())
-        ):
-            yield from _distributions(entry, where, f"{before}{name}.")
-        elif isinstance(entry, Mapping):
-            yield f"{before}{name}", Distribution.read(entry, where.at(f"{before}{name}"))
+        full = f"{before}{name}"
+        if not isinstance(entry, Mapping):
+            raise where.at(full).error(entry, "give a table like normal = [1, 2]")
+        inner = [*entry.values()]
+        if inner and not set(entry) & set(_SHAPES) and all(isinstance(i, Mapping) for i in inner):
+            yield from _distributions(entry, where, f"{full}.")
         else:
-            raise where.at(f"{before}{name}").error(entry, "give a table like normal = [1, 2]")
+            yield full, Distribution.read(entry, where.at(full))
 
 
 def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
@@ -327,16 +312,16 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
     SceneError
         If they do not, or nothing says it.
     """
-    grid = math.prod(len(entry.numbers) for entry in inputs.values() if entry.shape == "grid")
-    gridded = any(entry.shape == "grid" for entry in inputs.values())
+    grids = [len(entry.numbers) for entry in inputs.values() if entry.shape == "grid"]
+    grid = math.prod(grids)
     counts = {"n": members.n} if members.n is not None else {}
     counts |= {name: len(entry) for name, entry in members.values.items()}
     if len(set(counts.values())) > 1:
         raise where.error(counts, "these are not equally many")
-    n = next(iter(counts.values()), grid if gridded else None)
+    n = next(iter(counts.values()), grid if grids else None)
     if n is None:
         raise where.at("n").error(None, "say how many members are drawn")
-    if gridded and n % grid:
+    if grids and n % grid:
         raise where.at("n").error(n, f"the grid has {grid} points: give a multiple of that")
     if max((*members.only, 0)) >= n:
         raise where.at("only").error(max(members.only), f"there are {n} members, from 0")
@@ -344,20 +329,15 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
 
 
 def draw(
-    members: Members,
-    inputs: Mapping[str, Distribution],
-    numbers: Mapping[str, tuple[Any, ...]],
-    which: FloatArray,
-    where: Where,
+    members: Members, inputs: Mapping[str, Distribution], which: FloatArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Values of every input that is drawn.
+    """Draw the values of every input that is drawn.
 
     Parameters
     ----------
     members : Members
     inputs : mapping of str to Distribution
-    numbers : mapping of str to tuple of float or of str
-        Of each distribution, as the input is kept.
+        With their numbers as the inputs are kept.
     which : ndarray of int, shape (n,)
         Numbers of the members.
     where : Where
@@ -368,15 +348,14 @@ def draw(
     """
     if not inputs:
         return {}
-    names = list(inputs)
-    normal = standard_normal(members.seed, which, len(names))
+    normal = standard_normal(members.seed, which, len(inputs))
     if members.correlations:
-        normal = _mixed(normal, _root(members, names, where))
+        normal = _mixed(normal, _root(members, [*inputs], where))
     place, values = which.astype(int), {}
-    for column, name in enumerate(names):
-        shape, size = inputs[name].shape, len(inputs[name].numbers)
-        values[name] = drawn(shape, numbers[name], normal[:, column], place % size)
-        if shape == "grid":
+    for (name, distribution), column in zip(inputs.items(), normal.T, strict=True):
+        size = len(distribution.numbers)
+        values[name] = distribution.values(column, place % size)
+        if distribution.shape == "grid":
             place = place // size
     return values
 

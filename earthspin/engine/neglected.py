@@ -6,8 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Self
 
+import numpy as np
+
 from earthspin.constants import Constant
-from earthspin.engine.labels import Variable, build, from_si
+from earthspin.engine.labels import from_si
+from earthspin.engine.variables import Labels, Value, Variables, labels, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,18 +73,16 @@ class Neglected:
         effects : sequence of str
             Labels that the answer has along `effect`; what is not left out then has size 0.
         """
-        by_size = sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
-        names = list(effects) or by_size
-        import numpy as np
-
+        names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
         notes = {"references": self.source, "of_unknown_size": self.unknown}
-        attrs = tuple((name, words) for name, words in notes.items() if words)
-        schema = {
-            "neglected_effect": Variable(("effect",), self.unit, self.what, attrs, no_error=BOUND)
-        }
+        attrs = {name: words for name, words in notes.items() if words}
+
+        class Effects(Variables, along=("effect",), no_error=BOUND):
+            """Sizes by effect."""
+
+            neglected_effect: Value = number(self.unit, self.what)
+            effect: Labels = labels()
+
         sizes = [float(self.sizes.get(name, 0.0)) for name in names]
-        return build(
-            schema,
-            {"neglected_effect": sizes},
-            coords={"effect": ("effect", np.array(names, dtype=str))},
-        )
+        laid = Effects(neglected_effect=sizes, effect=np.array(names, dtype=str))
+        return laid.with_attributes(neglected_effect=attrs).dataset()

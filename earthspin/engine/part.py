@@ -8,13 +8,12 @@ parameters may be None stands on one part or more of those.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
-from earthspin.engine.labels import Schema
-from earthspin.engine.variables import Variables
+from earthspin.engine.variables import Variable, Variables
 
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
@@ -48,7 +47,7 @@ class Part(Generic[P, R]):
         What it does: the first line of the docstring.
     needs, uses : tuple of str
         Keys and parts without which it does not run, and those that it takes if they are there.
-    gives : Schema
+    gives : mapping of str to Variable
         The variables that it adds to an answer or section; empty for an intermediate part.
     unless : tuple of callable
         Each takes keys of the question by name and gives a reason for leaving the part out.
@@ -69,9 +68,7 @@ class Part(Generic[P, R]):
         self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
-        self.__doc__, self.__module__ = function.__doc__, function.__module__
-        self.__name__ = self.__qualname__ = function.__name__
-        self.__wrapped__ = function
+        update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Compute."""
@@ -79,7 +76,7 @@ class Part(Generic[P, R]):
 
     def __reduce__(self) -> str:
         # A module holds the part under the name of its function: pickle and copy refer to it.
-        return self.__name__
+        return self.name
 
     def __repr__(self) -> str:
         return f"<part {self.title}: {self.does}>"
@@ -144,10 +141,9 @@ def part(
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
-    def made(function: Callable[P, R]) -> Part[P, R]:
-        return Part(function, reasons, chooses, tells)
-
-    return made if function is None else made(function)
+    if function is None:
+        return lambda function: Part(function, reasons, chooses, tells)
+    return Part(function, reasons, chooses, tells)
 
 
 def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
@@ -155,7 +151,7 @@ def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
-def _schema_of(function: Callable[..., Any]) -> Schema:
+def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
     """Variables of the class that a function returns by its annotation; none of another type."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
@@ -165,12 +161,10 @@ def _schema_of(function: Callable[..., Any]) -> Schema:
     return {}
 
 
+@cache
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
-    return tuple(
-        name
-        for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.default is default
-    )
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(entry.name for entry in parameters if entry.default is default)
 
 
 def _first_sentence(function: Callable[..., Any]) -> str:

@@ -107,7 +107,7 @@ class Plan:
 NOT_ASKED = "its section is not asked for"
 
 
-def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
+def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     """Work out which parts a question needs.
 
     Parameters
@@ -130,27 +130,23 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         """Choose a part and all that it stands on, or note why it is left out."""
         if name in chosen or name in reasons:
             return name in chosen
-        part = graph.parts[name]
-        why = part.reason(keys)
-        for other in part.needs if why is None else ():
-            if other in graph.parts and not choose(other):
-                title = graph.parts[other].title
-                why = f"it needs {title}, which is left out: {reasons[other]}"
-                break
-        if why is not None:
-            reasons[name] = why
-            return False
+        part, used = graph.parts[name], list[str]()
+        needed = [other for other in part.needs if other in graph.parts]
         offered = [other for other in part.uses if other in graph.parts]
-        used = [other for other in offered if choose(other)]
-        if offered and not used and not part.needs:
-            # it stands on one of several, and none of them is there
-            lacking = (
-                f"no {graph.parts[name_used].title}: {reasons[name_used]}" for name_used in offered
-            )
-            reasons[name] = "; ".join(lacking)
-            return False
-        chosen[name] = (*(other for other in part.needs if other in graph.parts), *used)
-        return True
+        why = part.reason(keys)
+        if why is None and not all(map(choose, needed)):
+            lacking = next(other for other in needed if other in reasons)
+            why = f"it needs {graph.parts[lacking].title}, which is left out: {reasons[lacking]}"
+        if why is None:
+            used = [other for other in offered if choose(other)]
+            if offered and not used and not part.needs:  # it needs one of several
+                lack = (f"no {graph.parts[other].title}: {reasons[other]}" for other in offered)
+                why = "; ".join(lack)
+        if why is None:
+            chosen[name] = (*needed, *used)
+        else:
+            reasons[name] = why
+        return why is None
 
     answer = [name for name in graph.answer if choose(name)]
     if graph.answer[0] not in answer:
@@ -158,9 +154,8 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         raise question.error("compute", question.word, f"nothing to do: {why}")
     for name in graph.sections[NEGLECTED]:
         choose(name)
-    wanted = _wanted(question, sections)
     applicable = []
-    for section in wanted:
+    for section in _named_sections(question, sections):
         names = [name for name in graph.sections[section] if choose(name)]
         if names:
             applicable.append(section)
@@ -176,7 +171,7 @@ def plan(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     return Plan(question, order, tuple(applicable), left_out)
 
 
-def _wanted(question: Question, sections: str | Iterable[str]) -> list[str]:
+def _named_sections(question: Question, sections: str | Iterable[str]) -> list[str]:
     """Names of sections, each once, in the order of the question."""
     known = question.graph.sections
     if isinstance(sections, str) and sections == ALL:

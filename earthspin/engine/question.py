@@ -77,17 +77,17 @@ class Key:
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
 
 
-def _read(kind: Kind[Any], given: object, where: Where) -> Any:
+def _read(kind: Kind[Any], value: object, where: Where) -> Any:
     """Read a value; whatever is given, what comes out is a value or one clear line.
 
     Anything at all may be given, and what a library or somebody's class says of it is no help.
     """
     try:
-        return kind.read(given, where)
+        return kind.read(value, where)
     except EarthspinError:
         raise
     except Exception as error:
-        raise where.error(given, f"it is not {kind.words}") from error
+        raise where.error(value, f"it is not {kind.words}") from error
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:
@@ -155,27 +155,28 @@ class Question:
         cls.word, cls.call, cls.table, cls.positional = word, call, table, positional
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
-    def __init__(self, **given: Any) -> None:
-        self._fill(given, source="", in_scene=False)
+    def __init__(self, **values: Any) -> None:
+        self._fill(values)
 
     def _fill(
         self,
-        given: Mapping[str, Any],
-        source: str,
-        in_scene: bool,
+        values: Mapping[str, Any],
+        *,
         known: Mapping[str, Any] | None = None,
+        source: str = "",
+        in_scene: bool = False,
         typed: Collection[str] = (),
-    ) -> None:
-        """Read each key once, refuse those that there are not, and check them together.
+    ) -> Self:
+        """Read each key once, refuse unknown ones, and check them together.
 
-        What is known has been read before.
+        Values in `known` have been read before.
         """
         known = known or {}
         keys = keys_of(type(self))
-        for name, value in given.items():
+        for name, value in values.items():
             if name not in keys:
                 raise SceneError(name, value, unknown_key(type(self), name), source=source)
-        chosen = {name: value for name, value in given.items() if value is not None}
+        chosen = {name: value for name, value in values.items() if value is not None}
         object.__setattr__(self, "given", frozenset({*chosen, *known}))
         object.__setattr__(self, "read_from", source)
         for name, entry in keys.items():
@@ -191,21 +192,19 @@ class Question:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        self._check_exclusive()
-        self._check_sample()
+        self._check_groups()
         self.check()
+        return self
 
-    def _check_exclusive(self) -> None:
+    def _check_groups(self) -> None:
+        """Refuse keys that exclude one another."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
             raise self.error(groups[0][0], "...", f"give either {ways}")
-
-    def _check_sample(self) -> None:
         if self.uncertainty == "sample" and self.members is not None:
-            raise self.error(
-                "uncertainty", "sample", "members tell it already; give one of the two"
-            )
+            problem = "members tell it already; give one of the two"
+            raise self.error("uncertainty", "sample", problem)
         if self.n is not None and self.uncertainty != "sample":
             raise self.error("n", self.n, "it belongs to uncertainty = 'sample'")
 
@@ -247,27 +246,23 @@ class Question:
         SceneError, UnitsError
             If a key is unknown, missing or wrong.
         """
-        keys, flat = keys_of(cls), {"title": title} if title else {}
+        keys, values = keys_of(cls), {"title": title} if title else {}
         for name, value in table.items():
             if cls.table and name == cls.table:
                 if not isinstance(value, Mapping):
                     raise SceneError(name, value, f"it is a table: [{name}]", source=source)
-                own = {n for n, known in keys.items() if known.setting}
-                for inner, entry in value.items():
+                own = {setting for setting, entry in keys.items() if entry.setting}
+                for inner in value:
                     if inner not in own:
-                        raise SceneError(
-                            f"{name}.{inner}", entry, nearest(inner, own), source=source
-                        )
-                flat |= value
+                        problem = nearest(inner, own)
+                        raise SceneError(f"{name}.{inner}", value[inner], problem, source=source)
+                values |= value
             elif name in keys and keys[name].setting:
-                raise SceneError(
-                    name, value, f"it belongs in the table [{cls.table}]", source=source
-                )
+                problem = f"it belongs in the table [{cls.table}]"
+                raise SceneError(name, value, problem, source=source)
             else:
-                flat[name] = value
-        question = cls.__new__(cls)
-        question._fill(flat, source, in_scene=True, typed=typed)
-        return question
+                values[name] = value
+        return cls.__new__(cls)._fill(values, source=source, in_scene=True, typed=typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Give the scene as a table: every key with every number, as TOML holds it.
@@ -299,41 +294,32 @@ class Question:
 
     def replace(self, **changes: Any) -> Self:
         """Return the question with some keys changed, checked again."""
-        before = {name: getattr(self, name) for name in self.given if name not in changes}
-        question = type(self).__new__(type(self))
-        changes = {"title": self.title} | changes
-        question._fill(changes, self.read_from, in_scene=False, known=before)
-        return question
+        return self._changed(changes, {})
 
-    def holding(self, **several: Any) -> Self:
+    def holding(self, **arrays: Any) -> Self:
         """Return the question with numbers of many members in some keys, checked one by one before.
 
         Parameters
         ----------
-        **several
+        **arrays
             As the parts of a question take them that says so (`define_parts`, `together`).
         """
-        before = {name: getattr(self, name) for name in self.given} | several
-        question = type(self).__new__(type(self))
-        question._fill({"title": self.title}, self.read_from, in_scene=False, known=before)
-        return question
+        return self._changed({}, arrays)
+
+    def _changed(self, changes: Mapping[str, Any], arrays: Mapping[str, Any]) -> Self:
+        before = {name: getattr(self, name) for name in self.given if name not in changes}
+        values, question = {"title": self.title} | dict(changes), type(self).__new__(type(self))
+        return question._fill(values, known=before | dict(arrays), source=self.read_from)
 
     def _repr_html_(self) -> str:
         """Every key with its value, the given ones marked, and what it means."""
-        rows = [
-            (
-                name,
-                _shown(value, entry.kind),
-                "given" if name in self.given else "default",
-                entry.doc,
-            )
-            for name, entry in keys_of(type(self)).items()
-            if (value := getattr(self, name)) is not None and name != "title"
-        ]
-        return card(
-            f"{self.title}: compute = {self.word}",
-            [(name, str(value), *rest) for name, value, *rest in rows],
-        )
+        rows = []
+        for name, entry in keys_of(type(self)).items():
+            value = getattr(self, name)
+            if value is not None and name != "title":
+                status = "given" if name in self.given else "default"
+                rows.append((name, str(_shown(value, entry.kind)), status, entry.doc))
+        return card(f"{self.title}: compute = {self.word}", rows)
 
     def __repr__(self) -> str:
         shown = [
@@ -350,22 +336,18 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 def keys_of(question: type[Question]) -> dict[str, Key]:
     """Keys of a question by name, in the order in which its class has them."""
     if "key_table" not in vars(question):
-        question.key_table = _read_keys(question)
+        hints = get_type_hints(question, include_extras=True)
+        question.key_table = {
+            entry.name: Key(
+                name=entry.name,
+                kind=kind_of(hints[entry.name]),
+                doc=entry.metadata["doc"],
+                shown=entry.default,
+                setting=entry.metadata["setting"],
+            )
+            for entry in fields(question)  # type: ignore[arg-type]
+        }
     return question.key_table
-
-
-def _read_keys(question: type[Question]) -> dict[str, Key]:
-    hints = get_type_hints(question, include_extras=True)
-    return {
-        entry.name: Key(
-            name=entry.name,
-            kind=kind_of(hints[entry.name]),
-            doc=entry.metadata["doc"],
-            shown=entry.default,
-            setting=entry.metadata["setting"],
-        )
-        for entry in fields(question)  # type: ignore[arg-type]
-    }
 
 
 def unknown_key(question: type[Question], name: str) -> str:
@@ -442,13 +424,11 @@ def define_parts(
         If a parameter of a part is neither a key nor a part, a name stands for both, nothing would
         use what the question is without, or it does not say what it neglects.
     """
-    ends = _several(answer)
-    in_sections = {name: _several(several_parts) for name, several_parts in sections.items()}
-    all_parts = [
-        *parts,
-        *ends,
-        *(part for several_parts in in_sections.values() for part in several_parts),
-    ]
+    groups = {
+        name: group if isinstance(group, tuple) else (group,)
+        for name, group in {"answer": answer, **sections}.items()
+    }
+    all_parts = [*parts, *(part for group in groups.values() for part in group)]
     named = {part.name: part for part in all_parts}
     names, keys = set(named), set(keys_of(question))
     if len({id(part) for part in all_parts}) != len(named) or names & keys:
@@ -463,21 +443,8 @@ def define_parts(
                 raise TypeError(f"{question.__name__}: {part.name} asks for '{parameter}'")
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
-    question.graph = Graph(
-        named,
-        tuple(part.name for part in ends),
-        {
-            name: tuple(part.name for part in several_parts)
-            for name, several_parts in in_sections.items()
-        },
-        without,
-        together,
-        widest,
-    )
-
-
-def _several(parts: Parts) -> tuple[Part[..., Any], ...]:
-    return parts if isinstance(parts, tuple) else (parts,)
+    ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
+    question.graph = Graph(named, ends.pop("answer"), ends, without, together, widest)
 
 
 # --- words for people ----------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Run the parts of a question in order, each timed, and lay out what they gave."""
+"""Run the parts of a plan in order, each timed, and merge what they gave into an answer."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from earthspin._version import __version__, version
 from earthspin.engine.imports import import_clock
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan, remember_seconds
+from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan_parts, remember_seconds
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.engine.variables import Variables
 from earthspin.errors import UndefinedError
@@ -37,12 +37,11 @@ class Run:
         return sources
 
     def numbers(self) -> xr.Dataset:
-        """Lay out the answer, without the attributes of the whole."""
-        names = self.plan.question.graph.answer
-        return _together([self.results[name] for name in names if name in self.results])
+        """Merge the datasets of the answer, without the attributes of the whole."""
+        return self._merged(self.plan.question.graph.answer)
 
     def answer(self) -> xr.Dataset:
-        """Lay out the answer, with all that it carries."""
+        """Return the answer with its attributes."""
         import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
         result = self.numbers()
@@ -50,27 +49,26 @@ class Run:
         remember_seconds(result.attrs[SCENE], self.plan.seconds)
         return result
 
-    def section(self, name: str, effects: Sequence[str] = ()) -> xr.Dataset:
-        """Lay out a section; the labels along `effect` are those of the answer, if it has any."""
-        names = self.plan.question.graph.sections[name]
-        parts = [self.results[part] for part in names if part in self.results]
-        return _together([p.dataset(effects) if isinstance(p, Neglected) else p for p in parts])
+    def tree(self) -> xr.DataTree:
+        """Return the answer at the root, a node for each section, and the node ``plan``."""
+        import xarray as xr
 
+        answer = self.answer()
+        effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
+        sections = self.plan.question.graph.sections
+        nodes = {name: self._merged(sections[name], effects) for name in self.plan.sections}
+        return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
 
-def run(question: Question) -> xr.Dataset:
-    """The answer to a question for one, its complete question among the attributes."""
-    return _run_parts(plan(question)).answer()
-
-
-def run_tree(question: Question, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """The answer at the root, a node for each section, and the node ``plan``."""
-    import xarray as xr
-
-    done = _run_parts(plan(question, sections))
-    answer = done.answer()
-    effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
-    nodes = {name: done.section(name, effects) for name in done.plan.sections}
-    return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(done.plan)})
+    def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
+        """Merge the datasets of parts; labels along `effect` are those of the answer, if any."""
+        results = [self.results[name] for name in parts if name in self.results]
+        first, *others = (
+            result.dataset(effects) if isinstance(result, Neglected) else result
+            for result in results
+        )
+        for other in others:
+            first = first.merge(other, join="exact", combine_attrs="override")
+        return first.copy()
 
 
 class Rerun:
@@ -84,50 +82,45 @@ class Rerun:
     """
 
     def __init__(self, question: Question, changing: Iterable[str]) -> None:
-        self.planned, self.changing = plan(question), {*changing}
-        for part in self.planned.parts:
+        self.plan, self.changing = plan_parts(question), {*changing}
+        for part in self.plan.parts:
             if self.changing & {*part.needs, *part.uses}:
                 self.changing.add(part.name)
-        fixed = tuple(part for part in self.planned.parts if part.name not in self.changing)
-        self.fixed = _run_parts(replace(self.planned, parts=fixed))
+        fixed = tuple(part for part in self.plan.parts if part.name not in self.changing)
+        self.fixed = run_parts(replace(self.plan, parts=fixed))
 
-    @property
-    def provenance(self) -> dict[str, str]:
-        """Sources of the numbers of the parts that run once."""
-        return self.fixed.provenance
-
-    def __call__(self, question: Question | None = None, **given: object) -> Run:
+    def __call__(self, question: Question | None = None, **values: object) -> Run:
         """Run the rest, of the question as it is or with keys changed."""
-        planned = self.planned if question is None else plan(question)
-        names = {part.name for part in planned.parts} - self.changing
+        plan = self.plan if question is None else plan_parts(question)
+        names = {part.name for part in plan.parts} - self.changing
         before = {name: value for name, value in self.fixed.results.items() if name in names}
-        return _run_parts(planned, before | given)
+        return run_parts(plan, before | values)
 
 
 def run_choosing(question: Question) -> list[Any]:
-    """What the parts choose that choose settings for an accuracy; no other part runs.
+    """Return what the parts that choose settings for an accuracy choose; no other part runs.
 
     Parameters
     ----------
     question : Question
     """
-    planned = plan(question)
-    needed = {part.name for part in planned.parts if part.chooses}
-    for part in reversed(planned.parts):
+    plan = plan_parts(question)
+    needed = {part.name for part in plan.parts if part.chooses}
+    for part in reversed(plan.parts):
         if part.name in needed:
             needed |= {*part.needs, *part.uses}
-    few = tuple(part for part in planned.parts if part.name in needed)
-    results = _run_parts(replace(planned, parts=few)).results
+    few = tuple(part for part in plan.parts if part.name in needed)
+    results = run_parts(replace(plan, parts=few)).results
     return [results[part.name] for part in few if part.chooses]
 
 
-def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Run:
-    """Run what has not been given yet."""
-    values = planned.question.keys() | dict(given or {})
+def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
+    """Run the parts of a plan in order, except those whose results are in `before`."""
+    values = plan.question.keys() | dict(before or {})
     seconds: dict[str, float] = {}
     with import_clock() as imports:
-        before = imports.seconds
-        for part in planned.parts:
+        imported = imports.seconds
+        for part in plan.parts:
             if part.name in values:
                 continue
             inputs = {name: values[name] for name in part.needs}
@@ -137,8 +130,8 @@ def _run_parts(planned: Plan, given: Mapping[str, Any] | None = None) -> Run:
                 value = part(**inputs)
                 values[part.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[part.name] = time.perf_counter() - imports.seconds - begun
-        seconds[IMPORTS] = imports.seconds - before
-    return Run(replace(planned, seconds=seconds), values)
+        seconds[IMPORTS] = imports.seconds - imported
+    return Run(replace(plan, seconds=seconds), values)
 
 
 @contextmanager
@@ -166,41 +159,29 @@ def in_range(what: str) -> Iterator[None]:
         ) from error
 
 
-# --- laying out ----------------------------------------------------------------------------------
+# --- attributes ----------------------------------------------------------------------------------
 
 
-def _together(pieces: list[xr.Dataset]) -> xr.Dataset:
-    first, *others = pieces
-    for other in others:
-        first = first.merge(other, join="exact", combine_attrs="override")
-    return first.copy()
-
-
-def plan_data(planned: Plan) -> xr.Dataset:
-    """The plan as data, with the seconds."""
+def plan_data(plan: Plan) -> xr.Dataset:
+    """Return the plan as data, with the seconds."""
     import xarray as xr
 
-    rows = planned.rows
-    columns = {
-        "status": ([row.status for row in rows], {"long_name": "whether the part ran"}),
-        "reason": (
-            [row.reason for row in rows],
-            {"long_name": "what the part does, or why it was left out"},
-        ),
-        "run_time": (
-            [row.seconds or 0.0 for row in rows],
-            {"units": "s", "long_name": "run time of the part"},
-        ),
-    }
+    rows = plan.rows
+    why = "what the part does, or why it was left out"
+    seconds = {"units": "s", "long_name": "run time of the part"}
     return xr.Dataset(
-        {name: ("part", values, attrs) for name, (values, attrs) in columns.items()},
+        {
+            "status": ("part", [row.status for row in rows], {"long_name": "whether the part ran"}),
+            "reason": ("part", [row.reason for row in rows], {"long_name": why}),
+            "run_time": ("part", [row.seconds or 0.0 for row in rows], seconds),
+        },
         {"part": ("part", [row.part for row in rows], {"long_name": "part of the plan"})},
     )
 
 
-def _attributes(done: Run) -> dict[str, str]:
+def _attributes(run: Run) -> dict[str, str]:
     """Global attributes: text alone, the same from run to run."""
-    question = done.plan.question
+    question = run.plan.question
     attributes = {
         "Conventions": CONVENTIONS,
         "title": question.title,
@@ -213,23 +194,24 @@ def _attributes(done: Run) -> dict[str, str]:
     }
     references: list[str] = []
     for name, value in question.keys().items():
-        bodies = value if isinstance(value, tuple) else (value,)
-        if bodies and all(hasattr(body, "reference") for body in bodies):
-            references += [body.reference for body in bodies if body.reference]
-        if bodies and all(hasattr(body, "changes") for body in bodies):
-            attributes[name] = " ".join(body.name for body in bodies)
-            changed = [body for body in bodies if getattr(body, "changes", "")]
-            if changed:
-                words = [
-                    body.changes if body is value else f"{body.name}: {body.changes}"
-                    for body in changed
-                ]
-                attributes[f"{name}_changes"] = "; ".join(words)
-        elif isinstance(value, tuple) and value and all(isinstance(body, str) for body in value):
+        items = value if isinstance(value, tuple) else (value,)
+        if items and all(hasattr(item, "reference") for item in items):
+            references += [item.reference for item in items if item.reference]
+        if items and all(hasattr(item, "changes") for item in items):
+            attributes[name] = " ".join(body.name for body in items)
+            alone = items[0] is value
+            changes = [
+                body.changes if alone else f"{body.name}: {body.changes}"
+                for body in items
+                if body.changes
+            ]
+            if changes:
+                attributes[f"{name}_changes"] = "; ".join(changes)
+        elif isinstance(value, tuple) and value and all(isinstance(item, str) for item in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    attributes |= done.provenance
-    attributes[NEGLECTED] = done.results[NEGLECTED].largest
+    attributes |= run.provenance
+    attributes[NEGLECTED] = run.results[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes
 

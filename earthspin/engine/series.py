@@ -48,12 +48,12 @@ class Series:
         return Rerun(self.question, {BLOCK})
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: of for name, of in vars(self).items() if name != "_rerun"}
+        return {name: value for name, value in vars(self).items() if name != "_rerun"}
 
     @cached_property
     def asked(self) -> Mapping[str, str]:
         """The question, the versions and the kernel."""
-        return asked_of(self.question, self._rerun.provenance)
+        return asked_of(self.question, self._rerun.fixed.provenance)
 
     def first(self) -> xr.Dataset:
         """Answer the first stretch; its attributes are those of the whole."""

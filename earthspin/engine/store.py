@@ -76,9 +76,8 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     """
     place = as_path(path)
     if not hasattr(result, "data_vars"):
-        raise OutputError(
-            place, f"{type(result).__name__} is no answer", "give a Dataset or DataTree"
-        )
+        problem = f"{type(result).__name__} is no answer"
+        raise OutputError(place, problem, "give a Dataset or DataTree")
     _refuse_attributes(result, place)
     if place.suffix not in (".nc", ".zarr"):
         raise OutputError(place, "it ends in neither .nc nor .zarr", "choose one of the two")
@@ -103,7 +102,7 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         try:
             for group, node in (groups | {"/": root}).items():
                 mode: Any = "w" if group == "/" else "a"
-                encoding = _netcdf_encoding(node)
+                encoding = encoding_of(node, zarr=False)
                 node.to_netcdf(path, mode=mode, group=group, engine="netcdf4", encoding=encoding)
         except (RuntimeError, OSError) as error:  # "HDF error", whatever the system said
             _raise_reason_of_system(path, sum(node.nbytes + _FRAME for node in groups.values()))
@@ -118,9 +117,8 @@ _NUMBERS = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"}
 def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     """Refuse attributes that are neither text nor real numbers: no file can hold them."""
     for node in getattr(result, "subtree", (result,)):
-        for owner, attrs in [("the answer", node.attrs)] + [
-            (f"'{name}'", variable.attrs) for name, variable in node.variables.items()
-        ]:
+        owners = {f"'{name}'": variable.attrs for name, variable in node.variables.items()}
+        for owner, attrs in ({"the answer": node.attrs} | owners).items():
             for name, value in attrs.items():
                 if not (isinstance(name, str) and _is_storable(value)):
                     what = f"attribute {name!r} of {owner} is of type {type(value).__name__}"
@@ -189,20 +187,12 @@ def spelled(node: xr.Dataset) -> xr.Dataset:
     return node
 
 
-def _as_shown(node: xr.Dataset) -> xr.Dataset:
-    """Units as people read them, where a file of ours has both spellings."""
-    for variable in node.variables.values():
-        if SHOWN in variable.attrs:
-            variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
-    return node
-
-
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     """Write an answer with its sections to Zarr, a group for each node."""
     with zarr_of().config.set({"threading.max_workers": 1}):
         for group, node in _groups(result).items():
             mode: Any = "w" if group == "/" else "a"
-            node.to_zarr(path, mode=mode, group=group, encoding=zarr_encoding(node), **ZARR)
+            node.to_zarr(path, mode=mode, group=group, encoding=encoding_of(node), **ZARR)
     checksums.write_ledger(path, checksums.of_files(path, checksums.files_in(path)))
 
 
@@ -260,13 +250,15 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
 
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
-    place = as_path(path)
-    nodes = {name: _as_shown(node) for name, node in _read(place).items()}
+    nodes = _read(as_path(path))
+    for node in nodes.values():
+        for variable in node.variables.values():
+            if SHOWN in variable.attrs:  # a file of ours has both spellings
+                variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
     root = nodes["/"]
-    attrs = {name: value for name, value in root.attrs.items() if name not in _OWN}
-    if "history" in attrs:  # the date belongs to the file
-        attrs["history"] = _STAMP.sub("", attrs["history"])
-    root = nodes["/"] = root.drop_attrs(deep=False).assign_attrs(attrs)
+    root.attrs = {name: value for name, value in root.attrs.items() if name not in _OWN}
+    if "history" in root.attrs:  # the date belongs to the file
+        root.attrs["history"] = _STAMP.sub("", root.attrs["history"])
     return root if len(nodes) == 1 else xr.DataTree.from_dict(nodes)
 
 
@@ -317,18 +309,18 @@ def _verify_files(store: Path) -> bool:
     OutputError
     """
     put_back(store)
-    opened, ledger = identity(store), checksums.ledger_of(store)
-    if ledger is None:
-        return False
+    opened = identity(store)
     try:
-        written = checksums.read_entries(ledger)
-        found = checksums.of_files(store, [*written, *checksums.files_in(store)])
+        ledger = checksums.ledger_of(store)
+        if ledger is None:
+            return False
+        sums = checksums.of_files(store, [*ledger, *checksums.files_in(store)])
     except OSError as error:
         check_identity(store, opened)
         raise _unreadable(store, error) from None
     check_identity(store, opened)
-    for name, digest in found.items():
-        checksums.check_file(store, name, digest, written)
+    for name, digest in sums.items():
+        checksums.check_file(store, name, digest, ledger)
     return True
 
 
@@ -356,7 +348,9 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
             if line_holds is False:
                 raise checksums.changed(path, "its bytes")
             nodes = xr.open_groups(path, decode_times=coder, engine="netcdf4")
-            nodes = {name: _loaded(node) for name, node in nodes.items()}
+            for node in nodes.values():
+                with node:
+                    node.load()
         content = None if line_holds else nodes["/"].attrs.get(checksums.CONTENT)
         if content and content != checksums.of_content(nodes):
             raise checksums.changed(path, "its names, numbers, words or attributes")
@@ -379,12 +373,6 @@ def _unreadable(path: Path, error: Exception) -> OutputError:
     return OutputError(path, f"it cannot be read: {words}")
 
 
-def _loaded(node: xr.Dataset) -> xr.Dataset:
-    """Read a node whole and close its file."""
-    with node:
-        return node.load()
-
-
 #: Attribute of a store that was made in blocks: one word for what was asked, and of which versions.
 MADE_OF = "made_of_sha256"
 #: Attributes that belong to the file, not to the answer.
@@ -396,42 +384,33 @@ _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 read = open
 
 
-def _netcdf_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
-    """How variables are laid down in netCDF.
+def encoding_of(
+    node: xr.Dataset, *, zarr: bool = True, chunked: str = ""
+) -> dict[str, dict[str, Any]]:
+    """Return the encoding of each variable.
 
-    A coordinate variable is a number to the CF conventions; words along a dimension stand as rows
-    of characters, which xarray reads as the labels that they were.
-    """
-    encoding = _time_encoding(node)
-    for name, variable in node.variables.items():
-        entry = encoding[str(name)]
-        if variable.dims == (name,) and variable.dtype.kind in "UO":
-            entry["dtype"] = "S1"
-        if variable.dtype.kind == "f" or variable.dims == (name,):
-            entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
-    return encoding
-
-
-def zarr_encoding(node: xr.Dataset, *, chunked: str = "") -> dict[str, dict[str, Any]]:
-    """How variables are laid down in Zarr; a chunk that is missing reads as no number.
+    A coordinate variable of netCDF is a number to the CF conventions; words along a dimension stand
+    as rows of characters, which xarray reads as the labels that they were. A chunk that is missing
+    from Zarr reads as no number.
 
     Parameters
     ----------
     node : Dataset
+    zarr : bool
+        Whether it is for Zarr, or for netCDF.
     chunked : str
         A dimension along which the node is one chunk of a longer one.
     """
-    encoding = _time_encoding(node)
+    encoding: dict[str, dict[str, Any]] = {}
     for name, variable in node.variables.items():
+        kind, coordinate = variable.dtype.kind, variable.dims == (name,)
+        entry = encoding[str(name)] = dict(TIME_ENCODING) if kind == "M" else {}
+        if zarr and kind == "f":
+            entry["_FillValue"] = np.nan
+        elif not zarr and (kind == "f" or coordinate):
+            entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
+        if not zarr and coordinate and kind in "UO":
+            entry["dtype"] = "S1"
         if chunked in variable.dims:
-            encoding[str(name)]["chunks"] = variable.shape
-        if variable.dtype.kind == "f":
-            encoding[str(name)]["_FillValue"] = np.nan
+            entry["chunks"] = variable.shape
     return encoding
-
-
-def _time_encoding(node: xr.Dataset) -> dict[str, dict[str, Any]]:
-    return {
-        str(name): dict(TIME_ENCODING) if variable.dtype.kind == "M" else {}
-        for name, variable in node.variables.items()
-    }

@@ -29,7 +29,7 @@ from filelock import FileLock, Timeout
 
 from earthspin.engine import drafts
 from earthspin.engine.checksums import entries, files_in, of_files, read_entries, write_ledger
-from earthspin.engine.store import MADE_OF, ZARR, spelled, zarr_encoding, zarr_of
+from earthspin.engine.store import MADE_OF, ZARR, encoding_of, spelled, zarr_of
 from earthspin.errors import OutputError, one_line
 
 if TYPE_CHECKING:
@@ -135,8 +135,7 @@ class Unfinished:
         except (OSError, ValueError, AttributeError, TypeError):
             intact = False
         if not intact:
-            words = "its names, sizes or attributes are not what was written"
-            raise OutputError(self.folder, words, "take it away and run it again")
+            raise _damaged(self.folder, "its names, sizes or attributes are")
 
     def drop_damaged(self) -> list[int]:
         """Drop the blocks whose bytes do not match the ledger, and return their numbers.
@@ -194,7 +193,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     zarr, store = zarr_of(), folder / STORE
     if not store.is_dir():
         raise OutputError(folder, "it was taken away while it was written", "run it again")
-    apart = [name for name, of in block.variables.items() if layout.along not in of.dims]
+    apart = [n for n, variable in block.variables.items() if layout.along not in variable.dims]
     grown = block.drop_vars(apart).drop_indexes(layout.along, errors="ignore")  # else left out
     region = {layout.along: slice(*layout.bounds(number))}
     try:
@@ -274,13 +273,16 @@ def _refuse_another(folder: Path, asked: dict[str, str]) -> None:
     except (OSError, ValueError, RecursionError):
         begun = None
     if not isinstance(begun, dict):
-        words = f"its {ASKED} is not what was written"
-        raise OutputError(folder, words, "take it away and run it again")
+        raise _damaged(folder, f"its {ASKED} is")
     differ = [name for name in asked | begun if asked.get(name) != begun.get(name)]
     if differ:
         what = " and ".join(name.replace("_", " ") for name in differ)
         words = f"it was begun with another {what}"
         raise OutputError(folder, words, "finish that, or move it away")
+
+
+def _damaged(folder: Path, what: str) -> OutputError:
+    return OutputError(folder, f"{what} not what was written", "take it away and run it again")
 
 
 def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
@@ -304,12 +306,11 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
     zarr = zarr_of()
     node = spelled(first).assign_attrs({MADE_OF: digest(asked)})
     with drafts.box_of(place) as box:
-        drafts.clear_up_after_the_dead(place, box)
         folder = box / "begun"
         folder.mkdir()
         store = folder / STORE
         with zarr.config.set({"threading.max_workers": 1}):
-            encoding = zarr_encoding(node, chunked=layout.along)
+            encoding = encoding_of(node, chunked=layout.along)
             node.to_zarr(store, mode="w", encoding=encoding, **ZARR)
             group, grown = zarr.open_group(store, mode="r+"), _grown(store, layout.along)
             for name in grown:
@@ -318,9 +319,9 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
         (folder / FRAME).write_bytes(entries(_frame(store, layout.along)))
         _append(folder / LEDGER, of_files(store, _files(grown, 0)))
         drafts.sync(folder)
-        there = place.with_name(place.name + PARTIAL)
-        if not there.exists():  # another run may have been faster
-            os.rename(folder, there)
+        partial = place.with_name(place.name + PARTIAL)
+        if not partial.exists():  # another run may have been faster
+            os.rename(folder, partial)
             drafts.sync_one(place.parent)
 
 

@@ -1,15 +1,20 @@
 """Answers as classes: each variable is declared once, with its unit, meaning, dimensions and error.
 
-A part returns an instance, whose values are in SI; the engine lays it out as a Dataset.
+A part returns an instance, whose values are in SI; `dataset` labels them, in the units of the class
+and with the attributes that the CF conventions ask for. Plain floats only: a Quantity would lose
+its unit on disk.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
 
-from earthspin.engine.labels import SchemaError, Variable, build
+import numpy as np
+
+from earthspin.engine.labels import from_si
+from earthspin.errors import UndefinedError
 from earthspin.numerics.estimate import Estimate
 
 if TYPE_CHECKING:
@@ -36,6 +41,53 @@ _PHASES = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
 
 
 @dataclass(frozen=True)
+class Variable:
+    """What a variable of a result is.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Its dimensions; a body with labelled arrays adds theirs.
+    units : str
+        As astropy.units parses it; "1" for pure numbers, "" for words and dates.
+    long_name : str
+        In plain words.
+    attrs : tuple of pairs
+        Further attributes, such as cell_methods or references.
+    error : str
+        Names of the variables that hold its error, where they are not called after it.
+    no_error : str
+        Why it carries no error.
+    short : str
+        Label of tables and axes.
+    """
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    attrs: tuple[tuple[str, str], ...] = ()
+    error: str = ""
+    no_error: str = ""
+    short: str = ""
+
+    def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
+        """Attributes of the variable of this name in a dataset with these others."""
+        attributes = {"long_name": self.long_name}
+        if self.units:
+            attributes["units"] = self.units
+        companions = [other for other in others if other.startswith(f"{name}_error")]
+        if companions or self.error:
+            attributes["ancillary_variables"] = self.error or " ".join(companions)
+        if self.no_error:
+            attributes["no_error"] = self.no_error
+        return attributes | dict(self.attrs)
+
+
+class SchemaError(Exception):
+    """A part gave something else than it declares: a defect of the program, not of the input."""
+
+
+@dataclass(frozen=True)
 class Field:
     """Declaration of one field of an answer.
 
@@ -55,27 +107,6 @@ class Field:
     along: tuple[str, ...] | None
     endings: Mapping[str, str]
     default: Any
-
-    def variables(self, name: str, along: tuple[str, ...]) -> dict[str, Variable]:
-        """Its variables by name."""
-        first = replace(self.variable, dims=along if self.along is None else self.along)
-        error = Variable(first.dims, first.units, "")
-        return {
-            name + ending: replace(
-                error if ending.startswith("_error") else first,
-                long_name=meaning.format(first.long_name),
-            )
-            for ending, meaning in self.endings.items()
-        }
-
-    def values(self, name: str, value: Any) -> dict[str, Any]:
-        """The values of its variables by name."""
-        if len(self.endings) == 1:
-            return {name: value}
-        if isinstance(value, Estimate):
-            shares = (value.value, value.error, value.method, value.given)
-            value = shares[: len(self.endings)]
-        return dict(zip((name + ending for ending in self.endings), value, strict=True))
 
 
 def _field(
@@ -184,23 +215,20 @@ class Variables:
         """Collect what the class declares."""
         cls.dims = cls.dims if along is None else along
         own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
-        cls.fields = {**cls.fields, **own}
-        schema = dict(cls.schema)
+        cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
         for name, field in own.items():
-            schema |= field.variables(name, cls.dims)
-        bare = {
-            name
-            for name, variable in schema.items()
-            if variable.units
-            and "_error" not in name
-            and name != error
-            and f"{name}_error" not in schema
-            and not (variable.error or variable.no_error)
-        }
-        cls.schema = {
-            name: replace(variable, error=error, no_error=no_error) if name in bare else variable
-            for name, variable in schema.items()
-        }
+            dims = cls.dims if field.along is None else field.along
+            variable = replace(field.variable, dims=dims)
+            half_width = Variable(dims, variable.units, "")
+            for ending, meaning in field.endings.items():
+                declared = half_width if ending.startswith("_error") else variable
+                words = meaning.format(variable.long_name)
+                schema[name + ending] = replace(declared, long_name=words)
+        for name, variable in schema.items():
+            has_error = variable.error or variable.no_error or f"{name}_error" in schema
+            if variable.units and not has_error and "_error" not in name and name != error:
+                schema[name] = replace(variable, error=error, no_error=no_error)
+        cls.schema = schema
 
     def __init__(self, **values: Any) -> None:
         unknown = values.keys() - self.fields.keys()
@@ -236,22 +264,59 @@ class Variables:
         UndefinedError
             If a number is missing.
         """
+        import xarray as xr
+
+        values, coords = self._by_variable()
+        arrays: dict[str, xr.Variable] = {}
+        for name, value in values.items():
+            declared = self.schema[name]
+            if isinstance(value, xr.DataArray):
+                for dim, own in value.coords.items():
+                    known = coords.setdefault(dim, own.variable)
+                    if hasattr(known, "equals") and not known.equals(own.variable):
+                        problem = f"labels along '{dim}' differ from one variable to the next"
+                        raise SchemaError(problem)
+                value = value.variable
+            else:
+                value = xr.Variable(declared.dims, value)
+            if not set(declared.dims) <= set(value.dims):
+                raise SchemaError(f"{name} has {value.dims}, declares {declared.dims}")
+            laid = value.transpose(*declared.dims, ...)
+            factor = from_si(declared.units)
+            data = laid.values if factor == 1 else np.asarray(laid.values * factor)
+            attributes = declared.attributes(name, values)
+            if data.dtype.kind == "f" and np.isnan(data).any():
+                if not (self._no_error and "_error" in name):
+                    problem = f"{declared.long_name} has no value here; check the body's numbers"
+                    raise UndefinedError(problem)
+                attributes["no_error"] = self._no_error
+            arrays[name] = xr.Variable(laid.dims, data, attributes)
+        result = xr.Dataset(arrays, coords=coords)
+        for name, extra in self._attributes.items():
+            result[name].attrs.update(extra)
+        return result
+
+    def _by_variable(self) -> tuple[dict[str, Any], dict[Any, Any]]:
+        """Values that are given by the names of their variables, and labels by dimension."""
         values: dict[str, Any] = {}
-        coords: dict[str, Any] = {}
+        coords: dict[Any, Any] = {}
         for name, field in self.fields.items():
             value = self._values[name]
             if value is None:
                 continue
-            if field.endings:
-                values |= field.values(name, value)
+            if len(field.endings) == 1:
+                values[name] = value
+            elif field.endings:
+                if isinstance(value, Estimate):
+                    shares = (value.value, value.error, value.method, value.given)
+                    value = shares[: len(field.endings)]
+                names = (name + ending for ending in field.endings)
+                values |= dict(zip(names, value, strict=True))
             elif hasattr(value, "dims"):  # labelled arrays keep their own attributes
                 coords[name] = value
             else:
-                attrs = {"units": field.variable.units, "long_name": field.variable.long_name}
-                attrs = {n: text for n, text in attrs.items() if text}
-                coords[name] = (name, value, attrs | dict(field.variable.attrs))
-        schema = {name: variable for name, variable in self.schema.items() if name in values}
-        result = build(schema, values, coords, no_error=self._no_error)
-        for name, attributes in self._attributes.items():
-            result[name].attrs.update(attributes)
-        return result
+                label = field.variable
+                attrs = {"units": label.units} if label.units else {}
+                attrs |= {"long_name": label.long_name} if label.long_name else {}
+                coords[name] = (name, value, attrs | dict(label.attrs))
+        return values, coords

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from earthspin.engine.question import Question
@@ -21,25 +20,9 @@ if TYPE_CHECKING:
 Words = tuple[str, ...]
 #: Questions whose parts are kept at a time.
 KEPT = 16
-
-
-@dataclass(frozen=True)
-class Description:
-    """What the answer to one of the questions says beside its numbers.
-
-    Attributes
-    ----------
-    provenance : mapping of str to str
-        Versions, and checksums of the files that were read.
-    attributes : mapping of str to str
-        Of the whole.
-    of_variables : mapping of str to mapping
-        Attributes of each variable.
-    """
-
-    provenance: Mapping[str, str]
-    attributes: Mapping[str, Any]
-    of_variables: Mapping[str, Mapping[str, Any]]
+#: Names in a description, beside those of variables: the attributes of the whole, and the versions
+#: and checksums of files.
+_WHOLE, _SOURCES = "/", "/sources"
 
 
 class Variants:
@@ -57,10 +40,10 @@ class Variants:
     def __init__(self, question: Question, keys: tuple[str, ...], moving: Iterable[str]) -> None:
         self._question, self._keys, self._moving = question, keys, {*moving}
         self._kept: OrderedDict[Words, Rerun] = OrderedDict()
-        self._descriptions: dict[Words, Description] = {}
+        self._descriptions: dict[Words, dict[str, Mapping[str, Any]]] = {}
 
     def question(self, words: Words) -> Question:
-        """The question with these words.
+        """Return the question with these words.
 
         Raises
         ------
@@ -72,7 +55,7 @@ class Variants:
         return self._question.replace(**dict(zip(self._keys, words, strict=True)))
 
     def __getitem__(self, words: Words) -> Rerun:
-        """The question with these words, its parts that no number touches having run."""
+        """Return the question with these words, its parts that no number touches having run."""
         if words not in self._kept:
             self._kept[words] = Rerun(self.question(words), self._moving)
             if len(self._kept) > KEPT:
@@ -81,44 +64,42 @@ class Variants:
         return self._kept[words]
 
     def nominal(self, words: Words) -> xr.Dataset:
-        """Its answer, without members."""
-        done = self[words]()
-        answer = done.answer()
-        of_variables = {str(name): array.attrs for name, array in answer.variables.items()}
-        self._descriptions[words] = Description(done.provenance, answer.attrs, of_variables)
+        """Return its answer, without members."""
+        run = self[words]()
+        answer = run.answer()
+        self._descriptions[words] = {
+            _WHOLE: answer.attrs,
+            _SOURCES: run.provenance,
+            **{str(name): array.attrs for name, array in answer.variables.items()},
+        }
         return answer
 
-    def _description(self, words: Words) -> Description:
-        if words not in self._descriptions:
-            self.nominal(words)
-        return self._descriptions[words]
-
-    # --- what all of them say ---------------------------------------------------------------------
-
-    def provenance(self, every: Iterable[Words]) -> dict[str, str]:
-        """Where the numbers of each come from, by name and words."""
+    def _attributes(self, every: Iterable[Words], name: str) -> dict[Words, Mapping[str, Any]]:
+        """Attributes of the whole or of a variable by words, where the answer has it."""
+        for words in every:
+            if words not in self._descriptions:
+                self.nominal(words)
         return {
-            f"{name} of {', '.join(words)}" if words else name: source
+            words: self._descriptions[words][name]
             for words in every
-            for name, source in self._description(words).provenance.items()
+            if name in self._descriptions[words]
         }
 
-    def attributes(self, every: Iterable[Words]) -> dict[str, Any]:
-        """Attributes of the whole; where they differ, each with its words."""
-        return _joined({words: self._description(words).attributes for words in every})
+    def provenance(self, every: Iterable[Words]) -> dict[str, str]:
+        """Sources of the numbers of each, by name and words."""
+        return {
+            f"{name} of {', '.join(words)}" if words else name: source
+            for words, sources in self._attributes(every, _SOURCES).items()
+            for name, source in sources.items()
+        }
 
     def describe(self, answer: xr.Dataset, every: Iterable[Words]) -> xr.Dataset:
-        """Give variables the attributes of all; where they differ, each with its words."""
-        attributes = {words: self._description(words).of_variables for words in every}
-        described = answer.copy()
+        """Give an answer the attributes of all; where they differ, each with its words."""
+        described = answer.assign_attrs(_joined(self._attributes(every, _WHOLE)))
         for name in described.variables:
-            differing = {
-                words: variables[str(name)]
-                for words, variables in attributes.items()
-                if str(name) in variables
-            }
-            if len(differing) > 1:
-                described[name].attrs = _joined(differing)
+            attributes = self._attributes(every, str(name))
+            if len(attributes) > 1:
+                described[name].attrs = _joined(attributes)
         return described
 
 
@@ -130,7 +111,6 @@ def _joined(attributes: Mapping[Words, Mapping[str, Any]]) -> dict[str, Any]:
         if len(values) == len(attributes) and len(set(map(repr, values.values()))) == 1:
             joined[name] = next(iter(values.values()))
         elif all(isinstance(value, str) for value in values.values()):
-            joined[name] = "; ".join(
-                f"{', '.join(words)}: {value}" for words, value in values.items()
-            )
+            parts = (f"{', '.join(words)}: {value}" for words, value in values.items())
+            joined[name] = "; ".join(parts)
     return joined

@@ -28,9 +28,7 @@ class ZarrFolder(LocalStore):
 
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
         super().__init__(root, read_only=read_only)
-        self._opened = identity(Path(root))
-        ledger = checksums.ledger_of(root)
-        self._ledger = None if ledger is None else checksums.read_entries(ledger)
+        self._opened, self._ledger = identity(root), checksums.ledger_of(root)
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
         """Read a file of the store.
@@ -41,8 +39,8 @@ class ZarrFolder(LocalStore):
             If it is not what was written, or the store has been replaced.
         """
         content = await super().get(key, prototype, byte_range)
-        check_identity(Path(self.root), self._opened)
+        check_identity(self.root, self._opened)
         if self._ledger is not None and byte_range is None:
             digest = "" if content is None else hashlib.sha256(content.to_bytes()).hexdigest()
-            checksums.check_file(Path(self.root), key, digest, self._ledger)
+            checksums.check_file(self.root, key, digest, self._ledger)
         return content

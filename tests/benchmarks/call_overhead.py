@@ -2,24 +2,22 @@
 
 Run it with `python tests/benchmarks/call_overhead.py`. The seconds of the parts are those that the
 run itself counts; what is left of the call is overhead. Parts that end in a Dataset label it, too:
-that share is measured at `labels.build`, and is no part of the overhead. Medians of several calls.
+that share is measured at `Variables.dataset`, and is no part of the overhead. Medians of calls.
 """
 
 from __future__ import annotations
 
 import statistics
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import xarray as xr
 
 import earthspin
 from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
-from earthspin.engine import labels
 from earthspin.engine.plan import SCENE, seconds_of
+from earthspin.engine.variables import Variables
 
 RUNS = 31
 #: At most so long may a call take beyond its physics, ms.
@@ -52,28 +50,21 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
 
 @contextmanager
 def labelling() -> Iterator[list[float]]:
-    """Seconds of each dataset that is labelled, in every module that does so."""
+    """Seconds of each dataset that is labelled."""
     seconds: list[float] = []
-    build = labels.build
+    dataset = Variables.dataset
 
-    def timed(*args: Any, **kwargs: Any) -> xr.Dataset:
+    def timed(variables: Variables) -> xr.Dataset:
         begun = time.perf_counter()
-        made = build(*args, **kwargs)
+        labelled = dataset(variables)
         seconds.append(time.perf_counter() - begun)
-        return made
+        return labelled
 
-    users = [
-        module
-        for name, module in sys.modules.items()
-        if name.startswith("earthspin") and getattr(module, "build", None) is build
-    ]
-    for module in users:
-        module.build = timed  # type: ignore[attr-defined]
+    Variables.dataset = timed  # type: ignore[method-assign]
     try:
         yield seconds
     finally:
-        for module in users:
-            module.build = build  # type: ignore[attr-defined]
+        Variables.dataset = dataset  # type: ignore[method-assign]
 
 
 def measured(call: Callable[[], xr.Dataset]) -> tuple[float, float, float]:

@@ -315,10 +315,9 @@ def test_correlated_numbers_of_a_member_are_the_same_alone() -> None:
     pairs = tuple((a, b, 0.4) for a, b in pairwise(names))
     members = Members(n=50, correlations=pairs)
     normal = dict.fromkeys(names, Distribution("normal", (1.0, 1.0)))
-    numbers = dict.fromkeys(names, (1.0, 1.0))
-    together = draw(members, normal, numbers, np.arange(50), here)
+    together = draw(members, normal, np.arange(50), here)
     for number in range(50):
-        alone = draw(members, normal, numbers, np.array([number]), here)
+        alone = draw(members, normal, np.array([number]), here)
         assert all(alone[name][0] == together[name][number] for name in names)
 
 

@@ -9,7 +9,8 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.labels import SchemaError, Variable, build, si
+from earthspin.engine.labels import si
+from earthspin.engine.variables import SchemaError, Value, Variables, number
 from tests import shipped
 
 #: Physical type by unit: what a unit must mean for a variable that carries it.
@@ -94,39 +95,60 @@ def test_attributes_are_text_and_numbers(nodes: dict[str, xr.Dataset]) -> None:
     assert result.attrs["earthspin_version"] == earthspin.__version__
 
 
-SCHEMA = {"x": Variable(("time",), "deg", "an angle")}
+class Angles(Variables, along=("time",)):
+    """One variable."""
+
+    x: Value = number("deg", "an angle")
 
 
 def test_values_are_turned_from_si() -> None:
-    built = build(SCHEMA, {"x": np.array([np.pi])})
-    assert built.x.values == pytest.approx([180.0], rel=1e-15, abs=0)
-    assert built.x.attrs == {"long_name": "an angle", "units": "deg"}
+    laid = Angles(x=np.array([np.pi])).dataset()
+    assert laid.x.values == pytest.approx([180.0], rel=1e-15, abs=0)
+    assert laid.x.attrs == {"long_name": "an angle", "units": "deg"}
 
 
 def test_a_part_must_keep_its_word() -> None:
+    with pytest.raises(SchemaError, match="missing"):
+        Angles()  # type: ignore[call-arg]
     with pytest.raises(SchemaError, match="declares"):
-        build(SCHEMA, {})
-    with pytest.raises(SchemaError, match="declares"):
-        build(SCHEMA, {"x": xr.DataArray([1.0], dims="other")})
+        Angles(x=xr.DataArray([1.0], dims="other")).dataset()
 
 
 def test_extra_dimensions_come_last() -> None:
     values = xr.DataArray(np.ones((2, 3)), dims=("draw", "time"))
-    assert build(SCHEMA, {"x": values}).x.dims == ("time", "draw")
+    assert Angles(x=values).dataset().x.dims == ("time", "draw")
+
+
+def test_labels_that_differ_are_refused() -> None:
+    class Two(Variables, along=("time",)):
+        """Two variables."""
+
+        x: Value = number("deg", "an angle")
+        y: Value = number("deg", "another angle")
+
+    first = xr.DataArray([1.0, 2.0], dims="time", coords={"time": [0, 1]})
+    with pytest.raises(SchemaError, match="labels along 'time' differ"):
+        Two(x=first, y=first.assign_coords(time=[1, 2])).dataset()
 
 
 def test_numbers_that_are_missing_are_refused_in_one_line() -> None:
     with pytest.raises(UndefinedError, match="an angle has no value here"):
-        build(SCHEMA, {"x": np.array([np.nan])})
+        Angles(x=np.array([np.nan])).dataset()
 
 
 def test_a_unit_that_is_not_known_is_not_taken_for_si() -> None:
     """A radius in km once came back as 7,000,000 of them."""
+
+    class Far(Variables):
+        """One variable in a unit that no result is shown in."""
+
+        length: Value = number("km", "a length")
+
     far = xr.DataArray(7000.0, attrs={"units": "km"})
     with pytest.raises(earthspin.SceneError, match="units = 'km'"):
         si(far)
     with pytest.raises(earthspin.SceneError, match="units = 'km'"):
-        build({"x": Variable((), "km", "a length")}, {"x": 7e6})
+        Far(length=7e6).dataset()
     assert float(si(xr.DataArray(2.0, attrs={"units": "d"}))) == 172800.0
 
 

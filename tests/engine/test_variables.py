@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from earthspin.engine.labels import SchemaError
 from earthspin.engine.part import part
 from earthspin.engine.variables import (
     Labels,
     Pair,
+    SchemaError,
     Value,
     Variables,
     amplitude,

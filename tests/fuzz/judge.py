@@ -56,12 +56,12 @@ def elsewhere() -> Iterator[None]:
 @contextlib.contextmanager
 def only_planned() -> Iterator[None]:
     """Read and plan whatever is asked, and compute nothing."""
-    planned = mock.Mock(side_effect=lambda question, *_: run.plan(question))
+    planned = mock.Mock(side_effect=lambda question, *_: run.plan_parts(question))
     with (
         elsewhere(),
-        mock.patch.object(asking, "run", planned),
-        mock.patch.object(answering, "run", planned),
-        mock.patch.object(answering, "run_tree", planned),
+        mock.patch.object(asking, "answer", planned),
+        mock.patch.object(answering, "answer", planned),
+        mock.patch.object(answering, "answer_tree", planned),
         mock.patch("earthspin.scenes._say_what_differs"),
         mock.patch.object(run.Rerun, "__init__", side_effect=UndefinedError("not tried")),
     ):
