@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.choosing.averages import AveragedBody, Averaging, Pull, average_choices
+from earthspin.choosing.averages import Averaging, average_choices
 from earthspin.choosing.choice import Choice, cheapest
 from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.promises import MARGIN
@@ -17,9 +17,7 @@ from earthspin.motion.effects import GEODESIC, MEASURED_WITH
 from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, Stretch
-from earthspin.sky.equator import angle
 from earthspin.sky.sources import OF_DATE, SourceName
-from earthspin.torque.average import best_window
 from earthspin.torque.rates import left_for_method
 
 
@@ -73,27 +71,6 @@ def chosen_windows(
     return best if choice is None else [choice, *best]
 
 
-def averages_on_offer(
-    body: Body, perturbers: tuple[Body, ...], stretch: Stretch
-) -> list[Choice[Averaging]]:
-    """Windows of an average over orbits; none where the sky was not measured."""
-    if not all(member.naif for member in (body, *perturbers)):
-        return []
-    cycle = max(p.cycle for p in perturbers)
-    pole = body.needed("pole")
-    normal = pole.orbit_normal(body.orbit_pole)
-    averaged = AveragedBody(
-        code=body.naif[0],
-        obliquity=angle(pole.true(0.0), normal),
-        normal=normal,
-        moving=pole.of_the_iau,
-        pulls={p.name: Pull(p.naif[0], float(p.gm), p.slow_swing) for p in perturbers},
-        cycle=cycle,
-    )
-    widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    return average_choices(averaged, widest.cycles)
-
-
 @part(unless=no_accuracy, chooses=True)
 def chosen_average(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
@@ -106,7 +83,7 @@ def chosen_average(
     # the strongest pull may be all of the rate: its GM stands for all
     u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in perturbers)
     allowed = MARGIN * left_for_method(accuracy or math.inf, u_h, u_gm)
-    menu = averages_on_offer(body, perturbers, stretch)
+    menu = average_choices(body, perturbers, stretch.first, stretch.last)
     widest = max((choice.settings.cycles for choice in menu), default=0)
     # where none will do, the widest window at the closest step
     finest = next((choice for choice in menu if choice.settings.cycles == widest), None)

@@ -26,7 +26,6 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
-from earthspin.numerics.estimate import Estimate
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
@@ -104,24 +103,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
 # --- the answer ----------------------------------------------------------------------------------
 
 
-def _check_accuracy(asked: float | None, rate: Estimate) -> None:
-    """Refuse a relative accuracy that the total does not reach, and say what takes most of it."""
-    if asked is None:
-        return
-    if not all_of(of_all(rate.value) != 0):
-        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, by_input, best = (
-        float((of_all(share) / abs(of_all(rate.value))).max())
-        for share in (rate.method, rate.given, rate.error)
-    )
-    remedy = (
-        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
-        if by_input > method
-        else f"the average is known to {method:.2g}: give a longer span"
-    )
-    refuse_unkept(asked, best, "1", remedy)
-
-
 _OVER_WINDOW = "time: mean (weighted by the taper)"
 
 
@@ -196,11 +177,22 @@ class RateAccuracy(Report, units="1", error_of="relative, of the rate by all per
 @part(unless=no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
     """Accuracy of the rate: asked, estimated, and the method chosen."""
-    _check_accuracy(accuracy, mean_rates.rate)
-    rate, error = mean_rates.total()
+    rate = mean_rates.rate
+    size = abs(of_all(rate.value))
+    if not all_of(size != 0):
+        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
+    method, by_input, best = (
+        float((of_all(share) / size).max()) for share in (rate.method, rate.given, rate.error)
+    )
+    remedy = (
+        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
+        if by_input > method
+        else f"the average is known to {method:.2g}: give a longer span"
+    )
+    refuse_unkept(accuracy, best, "1", remedy)
     return RateAccuracy(
         error_asked=accuracy,
-        error_estimated=float((error / abs(rate)).max()),
+        error_estimated=best,
         method_chosen=mean_rates.means.method,
         evaluations=mean_rates.means.evaluations,
     )
@@ -252,21 +244,21 @@ def no_figure(body: Body) -> str | None:
     return None
 
 
-class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
+class FigureModels(
+    Variables,
+    along=("earth_model",),
+    no_error="a model of the figure, for comparison with the others",
+):
     """Models of the figure, and what follows from them."""
 
-    h_by_model: Value = number(
-        "1", "dynamical flattening (C - A)/C", along=("earth_model",), short="H = (C-A)/C"
-    )
+    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
     period_by_model: Value = number(
-        "yr", "period of one full turn of precession", along=("earth_model",), short="precession"
+        "yr", "period of one full turn of precession", short="precession"
     )
-    wobble_by_model: Value = number(
-        "d", "period of the rigid free wobble", along=("earth_model",), short="wobble"
-    )
-    moment_difference: Value = number("kg m2", "C - A from J2")
-    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
-    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
+    wobble_by_model: Value = number("d", "period of the rigid free wobble", short="wobble")
+    moment_difference: Value = number("kg m2", "C - A from J2", along=())
+    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H", along=())
+    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A", along=())
 
 
 @part(unless=(no_figure, many_pulls))
@@ -275,33 +267,27 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     import xarray as xr
 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
-    precessing = mean_torques.precessing[-1]
-    h = xr.concat(
-        [
-            xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
-            xr.DataArray(inertia.h_homogeneous(j2)),
-            xr.DataArray(measured_h),
-        ],
-        dim=xr.Variable("earth_model", list(MODELS)),
-    )
-    spin_period = body.needed("spin_period")
-    difference = inertia.moment_difference(j2, body.mass, body.needed("radius"))
+    by_mccullough = inertia.h_mccullough(body.needed("flattening"))
+    models = (by_mccullough, inertia.h_homogeneous(j2), measured_h)
+    h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
+    precessing, radius = mean_torques.precessing[-1], body.needed("radius")
+    difference = inertia.moment_difference(j2, body.mass, radius)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
-        wobble_by_model=free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
+        wobble_by_model=free_wobble_period(
+            inertia.ellipticity_from_h(h), body.needed("spin_period")
+        ),
         moment_difference=difference,
         polar_moment_factor=inertia.polar_moment_factor(j2, measured_h),
-        j2_from_moment_difference=inertia.j2_from_moment_difference(
-            difference, body.mass, body.needed("radius")
-        ),
+        j2_from_moment_difference=inertia.j2_from_moment_difference(difference, body.mass, radius),
     )
 
 
 def is_sphere(body: Body) -> str | None:
     """Leave the wobble of a sphere out."""
-    round_ = not all_of(body.needed("dynamical_flattening") != 0)
-    return "a sphere does not wobble" if round_ else None
+    oblate = all_of(body.needed("dynamical_flattening") != 0)
+    return None if oblate else "a sphere does not wobble"
 
 
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):

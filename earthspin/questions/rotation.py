@@ -47,7 +47,7 @@ from earthspin.parts.pulls import (
 )
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import places, sky
-from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of, epochs
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import AngleError, FloatArray, Numbers
@@ -95,10 +95,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     views, page = "rotation", "rotation"
 
-    span: Span = key(
-        ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
-        doc="first and last date, TDB; the last is included if the step meets it",
-    )
+    span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
         None,
@@ -408,15 +405,10 @@ def turning(
     block: Block | None = None,
 ) -> Attitudes:
     """Attitude, spin and angular momentum at every time, with what they may be off by."""
-    if block is None:
-        refuse_what_does_not_fit(
-            epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
-        )
-        block = Block(0, epochs.size)
-    now = epochs.days(block.first, block.last)
+    now = days_of(epochs, block, by_region("series.zarr"))
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
-    begin = 0.0 if block.first == 0 else float(seconds[0])
+    begin = 0.0 if block is None or block.first == 0 else float(seconds[0])
     rotor.refuse_many_turns(begin, float(seconds[-1]))
     series = _followed(motion, rotor, seconds, begin)
     if accuracy is not None and float(series.error[0, 0].max()) > accuracy:
@@ -508,8 +500,7 @@ def parting(rotor: Rotor) -> Divergence:
 @part(unless=one_date)
 def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> Growth:
     """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
-    now = epochs.days(0, epochs.size)
+    now = days_of(epochs)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
     return Growth(

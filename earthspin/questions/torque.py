@@ -22,7 +22,7 @@ from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import Dated, Series, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.torque.gravity import torque_error, torque_from_declination
 from earthspin.torque.neglected import largest_torque_on_figure
 from earthspin.units import AngleError
@@ -58,10 +58,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
 
     views, page = "torque", "theory"
 
-    span: Span = key(
-        ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
-        doc="first and last date, TDB; the last is included if the step meets it",
-    )
+    span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     equator: Literal["mean", "true"] = key(
         "mean", doc="equator and equinox of date that directions refer to"
@@ -76,11 +73,8 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         """The true equator needs a model of nutation."""
         super().check()
         if self.equator == "true" and no_iau_model(self.body):
-            raise self.error(
-                "equator",
-                "true",
-                f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'",
-            )
+            why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"
+            raise self.error("equator", "true", why)
 
 
 @part(unless=(on_mean_equator, equator_comes_along))
@@ -137,14 +131,7 @@ def torques(
     """Declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
-    if block is None:
-        refuse_what_does_not_fit(
-            epochs,
-            "write them by region with write_series(scene, 'series.zarr') or run --out",
-            (body, *perturbers),
-        )
-        block = Block(0, epochs.size)
-    now = epochs.days(block.first, block.last)
+    now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     turned = 0.0 if chosen_nutation is None else chosen_nutation.error
