@@ -355,6 +355,10 @@ class TimeList(Listed):
         return self.listed[first:last]
 
 
+#: The times of a series.
+Epochs = TimeGrid | TimeList
+
+
 @dataclass(frozen=True)
 class Spacing(Number):
     """Kind of a step between times: a microsecond or more, less than 10,000 years."""

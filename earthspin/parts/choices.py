@@ -11,7 +11,7 @@ from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.promises import MARGIN
 from earthspin.choosing.windows import PoleWindows, window_choices
 from earthspin.constants import DAY
-from earthspin.dates import TimeGrid, TimeList
+from earthspin.dates import Epochs
 from earthspin.engine.part import part
 from earthspin.motion.effects import GEODESIC, MEASURED_WITH
 from earthspin.parts.pulls import Pulls, forces_of, start_of
@@ -26,7 +26,7 @@ def windows_on_offer(
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where sky or effects were not measured."""
     measured = set(effects) <= set(MEASURED_WITH)
@@ -55,7 +55,7 @@ def chosen_windows(
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     accuracy: float | None,
 ) -> list[Choice[PoleWindows]]:
     """The cheapest windows of the pole that meet the accuracy asked for, then the most accurate.
@@ -102,7 +102,7 @@ def equator_comes_along(source: SourceName) -> str | None:
 
 @part(unless=(no_accuracy, on_mean_equator, no_iau_model, equator_comes_along), chooses=True)
 def chosen_nutation(
-    sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
+    sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
     """The cheapest nutation that meets the accuracy asked for, with what the kernel is off by."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())

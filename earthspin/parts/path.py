@@ -14,7 +14,7 @@ from earthspin.bodies import Body
 from earthspin.choosing.choice import Choice
 from earthspin.choosing.windows import PoleWindows
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
-from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import UndefinedError
@@ -24,7 +24,7 @@ from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.figure import fastest_sweep
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
-from earthspin.parts.predicted import CHOSEN, Prediction, no_layers
+from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
 from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.times import days_of
@@ -54,7 +54,7 @@ _AT_ONCE = 1 << 16
 @part
 def axis_path(
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     accuracy: float | None,
@@ -123,7 +123,7 @@ class PathErrors:
     """
 
     path: AxisPath
-    epochs: TimeGrid | TimeList
+    epochs: Epochs
     body: Body
     pulls: Pulls
     shift: Shift | None = None
@@ -192,7 +192,7 @@ class LargestError:
 @part(unless=no_accuracy)
 def largest_error(
     axis_path: AxisPath,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     pulls: Pulls,
     interior_shift: Shift | None = None,
@@ -241,7 +241,7 @@ def _follow(
     body: Body,
     pulls: Pulls,
     effects: Sequence[str],
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
@@ -331,9 +331,7 @@ def path_over(
     return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(
-    pulls: Pulls, epochs: TimeGrid | TimeList
-) -> tuple[FloatArray, FloatArray, ComplexArray]:
+def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
     """Nutation of the IAU at the days of a series.
 
     Returns
@@ -596,3 +594,7 @@ def predicted_shift(
     circles = pole_analysis.our_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
     return _shift(pole_analysis, circles.amplitude * factor, effects)
+
+
+#: What stands between the pulls and the response of the interior, for the questions that use it.
+INTERIOR = (pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)

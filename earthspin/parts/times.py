@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.dates import Span, Step, TimeGrid, TimeList
+from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key
 from earthspin.engine.variables import Labels, Variables, labels
@@ -49,7 +49,7 @@ class FromStart(Variables, along=("time",)):
 
 
 @part
-def epochs(span: Span, step: float, times: TimeList | None) -> TimeGrid | TimeList:
+def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
     """The dates of the series."""
     return TimeGrid.over(span, step) if times is None else times
 
@@ -70,7 +70,7 @@ def by_region(store: str) -> str:
 
 
 def days_of(
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     block: Block | None = None,
     remedy: str = "choose a longer step or a shorter span",
     bodies: Iterable[Body] = (),

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.dates import TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
@@ -33,25 +33,21 @@ from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of, published_effects
 from earthspin.parts.path import (
+    INTERIOR,
     Comparison,
     PoleComparison,
     ResponseFit,
     Shift,
     core_response,
     iau_nutation,
-    nonrigid_shift,
     path_over,
-    pole_analysis,
-    predicted_shift,
     residual_error,
-    response_apart,
     rigid,
     steady_figure,
 )
-from earthspin.parts.predicted import prediction
-from earthspin.parts.pulls import Pulls, pulls, start_of
-from earthspin.parts.sky import places, sky, unmeasured
-from earthspin.parts.times import Dated, epochs
+from earthspin.parts.pulls import PULLS, Pulls, start_of
+from earthspin.parts.sky import unmeasured
+from earthspin.parts.times import Dated
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
@@ -248,7 +244,7 @@ def differences(
     pole_analysis: PoleComparison,
     nonrigid_shift: Shift,
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
@@ -628,10 +624,7 @@ define_parts(
         "inferred_flattening": inferred_flattening,
         "neglected": neglected,
     },
-    parts=(
-        places, sky, pulls, epochs, pole_analysis, rates_by_effect, core_response, response_apart,
-        nonrigid_shift, prediction, predicted_shift, differences,
-    ),
-)  # fmt: skip
+    parts=(*PULLS, *INTERIOR, rates_by_effect, core_response, differences),
+)
 
 compare_iau = public_call(IAU)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
-from earthspin.dates import TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
@@ -39,9 +39,8 @@ from earthspin.parts.path import (
     steady_figure,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import Pulls, pulls
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import Dated, epochs
+from earthspin.parts.pulls import PULLS, Pulls
+from earthspin.parts.times import Dated
 from earthspin.progress import progress
 from earthspin.units import Number
 
@@ -137,7 +136,7 @@ def left(
     pole_analysis: PoleComparison,
     models: Prediction,
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
@@ -403,7 +402,7 @@ define_parts(
         "residuals": residuals,
         "neglected": neglected,
     },
-    parts=(places, sky, pulls, epochs, pole_analysis, models, left),
+    parts=(*PULLS, pole_analysis, models, left),
 )
 
 nutation_ladder = public_call(NutationLadder)

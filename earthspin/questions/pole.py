@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -20,23 +20,19 @@ from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
+    INTERIOR,
     LargestError,
     PathErrors,
     Shift,
     Turns,
     axis_path,
     largest_error,
-    nonrigid_shift,
-    pole_analysis,
-    predicted_shift,
-    response_apart,
     turns_of,
 )
-from earthspin.parts.predicted import SOURCES, no_layers, prediction
-from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_error, start_note
+from earthspin.parts.predicted import SOURCES, no_layers
+from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of, epochs
+from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.units import AngleError
 
 if TYPE_CHECKING:
@@ -161,7 +157,7 @@ class Directions(Dated, error="direction_error"):
 @part
 def axes(
     axis_path: AxisPath,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
@@ -214,7 +210,7 @@ class ResponseError(Dated):
 def response_error(
     axes: xr.Dataset,
     interior_shift: Shift,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     response: str,
     block: Block | None = None,
 ) -> ResponseError:
@@ -245,7 +241,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns:
+def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> Turns:
     """Whole turns of the longitude psi, counted from the first time of the series."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
@@ -255,7 +251,7 @@ def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns
 def pole_angles(
     axes: xr.Dataset,
     turns: Turns,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     block: Block | None = None,
 ) -> Angles:
@@ -286,7 +282,7 @@ def pole_accuracy(
 
 
 @part
-def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
+def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
         half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
@@ -308,9 +304,8 @@ define_parts(
     answer=(axes, response_error, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
     parts=(
-        places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
-        pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift,
-        as_fitted, as_predicted, interior_shift,
+        *PULLS, chosen_windows, axis_path, largest_error, turns,
+        *INTERIOR, as_fitted, as_predicted, interior_shift,
     ),
 )  # fmt: skip
 

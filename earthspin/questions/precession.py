@@ -28,17 +28,11 @@ from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
+from earthspin.parts import reasons
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import (
-    many_pulls,
-    no_accuracy,
-    no_moon,
-    not_sun_and_moon,
-    not_the_iaus_earth,
-)
 from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
@@ -93,7 +87,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     def check(self) -> None:
         """One mass of each perturber where settings are chosen, or means of ellipses taken."""
         super().check()
-        many = many_pulls(self.perturbers)
+        many = reasons.many_pulls(self.perturbers)
         if many and self.accuracy is not None:
             raise self.error("accuracy", self.accuracy, f"{many}; ask for one at a time")
         if many and no_exact_means(self.body, self.perturbers) is None:
@@ -174,7 +168,7 @@ class RateAccuracy(Report, units="1", error_of="relative, of the rate by all per
     """Accuracy of the rate: asked, estimated, and the method chosen."""
 
 
-@part(unless=no_accuracy)
+@part(unless=reasons.no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
     """Accuracy of the rate: asked, estimated, and the method chosen."""
     rate = mean_rates.rate
@@ -212,7 +206,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     window_cycles: Labels = labels("length of the averaging window in cycles")
 
 
-@part(unless=many_pulls)
+@part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> Convergence:
     """Averaged rate against the length of the window, plain mean and tapers."""
     import xarray as xr
@@ -261,7 +255,7 @@ class FigureModels(
     j2_from_moment_difference: Value = number("1", "J2 computed back from C - A", along=())
 
 
-@part(unless=(no_figure, many_pulls))
+@part(unless=(no_figure, reasons.many_pulls))
 def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
@@ -334,7 +328,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
     )
 
 
-@part(unless=not_sun_and_moon)
+@part(unless=reasons.not_sun_and_moon)
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
@@ -345,7 +339,7 @@ def seasons(
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
-    another = not_the_iaus_earth(body, perturbers)
+    another = reasons.not_the_iaus_earth(body, perturbers)
     published = 0.0 if another else sum(published_effects().values())
     chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
     general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
@@ -385,7 +379,7 @@ class BesideIAU(Variables):
     )
 
 
-@part(unless=not_the_iaus_earth)
+@part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
     """IAU 2006 precession compared with the computed one, published effects included."""
     from earthspin.sky.iau import precession_rates
@@ -409,7 +403,7 @@ class Standstills(Variables, along=("standstill",)):
     standstill: Labels = labels("day of the extreme declination (TDB)")
 
 
-@part(unless=no_moon)
+@part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Major and minor standstills of the Moon: dates and extreme declinations."""
     from earthspin.sky.standstill import find_standstills
@@ -434,7 +428,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
-    unknown = not_the_iaus_earth(body, perturbers)
+    unknown = reasons.not_the_iaus_earth(body, perturbers)
     if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
         what = "contribution to the rate that the model leaves out; others were not measured"
         return Neglected.cited(LEFT_OUT_OF_RATES[body.name], what)

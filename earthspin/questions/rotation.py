@@ -13,7 +13,7 @@ from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -37,17 +37,16 @@ from earthspin.motion.rotation import (
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
+    PULLS,
     AxisMotion,
     Pulls,
     figure_of,
     forces_of,
-    pulls,
     start_note,
     switched_on,
 )
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of, epochs
+from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import AngleError, FloatArray, Numbers
@@ -184,7 +183,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 @part(unless=nothing_pulls)
 def pulling(
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
@@ -275,7 +274,7 @@ class Rotor:
 @part
 def rotor(
     body: Body,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     effects: tuple[str, ...],
     start_attitude: FloatArray | None,
     start_omega: FloatArray | None,
@@ -397,7 +396,7 @@ def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -
 def turning(
     motion: Motion,
     rotor: Rotor,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     start_attitude: FloatArray | None,
     accuracy: float | None,
@@ -498,7 +497,7 @@ def parting(rotor: Rotor) -> Divergence:
 
 
 @part(unless=one_date)
-def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> Growth:
+def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
     """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
     now = days_of(epochs)
     rate, spread = parting.rate
@@ -525,7 +524,7 @@ def neglected(
     body: Body,
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
 ) -> Neglected:
     """Sizes at the last date of what the model leaves out; what has none is named."""
     off = _switched_off(body, perturbers, effects)
@@ -567,7 +566,7 @@ define_parts(
     Rotation,
     answer=(turning, rotation_accuracy),
     sections={"divergence": divergence, "neglected": neglected},
-    parts=(places, sky, epochs, pulls, pulling, rotor, motion, parting),
+    parts=(*PULLS, pulling, rotor, motion, parting),
 )
 
 rotation = public_call(Rotation)

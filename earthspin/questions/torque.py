@@ -12,7 +12,7 @@ from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.choosing.choice import Choice
 from earthspin.choosing.nutation import NutationNodes
 from earthspin.choosing.promises import Report, refuse_unkept
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -79,7 +79,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
 
 @part(unless=(on_mean_equator, equator_comes_along))
 def nutation(
-    epochs: TimeGrid | TimeList, chosen_nutation: Choice[NutationNodes | None] | None = None
+    epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:
     """IAU nutation from nodes, for the true equator; None where the mean equator will do."""
     from earthspin.sky.iau import Nutation
@@ -118,7 +118,7 @@ class Torques(Dated, along=("time", "perturber")):
 
 @part
 def torques(
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     sky: Sky,
     body: Body,
     perturbers: tuple[Body, ...],
