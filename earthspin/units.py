@@ -319,12 +319,9 @@ class Number:
         """Check and convert."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
         if (isinstance(value, str) and not self.text) or (real and not self.plain):
-            hint = (
-                f"give it with its unit, like '{self.example}'"
-                if self.unit
-                else (f"give a number without quotes, like {self.example}")
-            )
-            raise where.error(value, hint)
+            form = f"it with its unit, like '{self.example}'"
+            bare = f"a number without quotes, like {self.example}"
+            raise where.error(value, f"give {form if self.unit else bare}")
         number = quantity(value, self.unit, where, self.example)
         if np.ndim(number) != 0:
             raise where.error(value, f"give one number, {self.words}")

@@ -125,15 +125,14 @@ class PerturbedBody(Question):
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for member in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(member) or (mixed and member.orbit is not None)
-            if getattr(self, "accuracy", None) is not None and of_unknown_error:
-                raise self.error(
-                    "accuracy",
-                    getattr(self, "accuracy", None),
+        accuracy = getattr(self, "accuracy", None)
+        for member in (self.body, *self.perturbers) if accuracy is not None else ():
+            if unmeasured(member) or (mixed and member.orbit is not None):
+                problem = (
                     f"how far off the positions of '{member.name}' are was never measured, so none "
-                    "can be promised; leave accuracy out",
+                    "can be promised; leave accuracy out"
                 )
+                raise self.error("accuracy", accuracy, problem)
 
     def needed(self) -> tuple[str, ...]:
         """What has to be known of the body, for the keys that are given."""

@@ -21,7 +21,8 @@ from earthspin.units import FloatArray, Numbers
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
-
+#: Sentences on keys that several questions declare with defaults of their own.
+DIRECTION_DOC = "largest error of a direction; the cheapest settings that keep it are chosen"
 SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 

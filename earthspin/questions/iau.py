@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
+from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -31,7 +31,7 @@ from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
-from earthspin.nutation.budget import Budget, budget_of, published_effects
+from earthspin.nutation.budget import Budget, budget_of
 from earthspin.parts.path import (
     INTERIOR,
     Comparison,
@@ -46,6 +46,7 @@ from earthspin.parts.path import (
     steady_figure,
 )
 from earthspin.parts.pulls import PULLS, Pulls, start_of
+from earthspin.parts.reasons import neglected_rates
 from earthspin.parts.sky import unmeasured
 from earthspin.parts.times import Dated
 from earthspin.progress import progress
@@ -602,13 +603,7 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 def neglected(effects: tuple[str, ...]) -> Neglected:
     """Published size of each effect on the rate of psi_A that is off or has no model here."""
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
-    off = {n: size for n, size in published_effects().items() if n not in rigid(effects)}
-    return Neglected(
-        off,
-        "arcsec/yr",
-        "published contribution to the rate that the model leaves out",
-        next(iter(PUBLISHED_EFFECTS.values())).source,
-    )
+    return neglected_rates(rigid(effects))
 
 
 define_parts(

@@ -32,7 +32,7 @@ from earthspin.parts.path import (
 from earthspin.parts.predicted import SOURCES, no_layers
 from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
+from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, by_region, days_of
 from earthspin.units import AngleError
 
 if TYPE_CHECKING:
@@ -79,9 +79,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
         doc="where the effect nonrigid takes the response of the inside from: fitted to IAU 2000A, "
         "or predicted from the layers of the body",
     )
-    accuracy: AngleError | None = key(
-        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
-    )
+    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
         """A response of the inside that is asked for must be known."""

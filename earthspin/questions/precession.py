@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.choosing.promises import Report, refuse_unkept
-from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
+from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -439,13 +439,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
             "bound on the contribution to the rate that the model leaves out",
             unknown=f"all other effects, because {unknown}",
         )
-
-    return Neglected(
-        published_effects(),
-        "arcsec/yr",
-        "published contribution to the rate that the model leaves out",
-        next(iter(PUBLISHED_EFFECTS.values())).source,
-    )
+    return reasons.neglected_rates()
 
 
 define_parts(

@@ -22,7 +22,7 @@ from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.torque.gravity import torque_error, torque_from_declination
 from earthspin.torque.neglected import largest_torque_on_figure
 from earthspin.units import AngleError
@@ -63,9 +63,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     equator: Literal["mean", "true"] = key(
         "mean", doc="equator and equinox of date that directions refer to"
     )
-    accuracy: AngleError | None = key(
-        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
-    )
+    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     needs = ("radius", "j2", "pole")
 
