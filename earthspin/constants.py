@@ -102,7 +102,6 @@ G = Constant(6.67430e-11, "m3 kg-1 s-2", 1.5e-15, "CODATA 2018, 2022", "astropy.
 
 # --- time ------------------------------------------------------------------------------------
 SIDEREAL_YEAR = Constant(365.256363004 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
-TROPICAL_YEAR = Constant(365.242190402 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
 # 1296000" over the rate of the mean longitude W1, 1732559343.73604" a century: 27.321662 d
 SIDEREAL_MONTH = Constant(
@@ -112,6 +111,8 @@ SIDEREAL_MONTH = Constant(
     "Chapront-Touze & Chapront 1983, A&A 124, 50 (ELP 2000), rate of W1",
     "codes of ELP 2000-82B and ELP/MPP02 in public repositories, rate of W1",
 )
+
+TROPICAL_YEAR = Constant(365.242190402 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
 JUPITER_ORBITAL_PERIOD = Constant(
     4332.59 * 86400.0,
