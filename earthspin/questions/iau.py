@@ -619,7 +619,7 @@ define_parts(
         "inferred_flattening": inferred_flattening,
         "neglected": neglected,
     },
-    parts=(*PULLS, *INTERIOR, rates_by_effect, core_response, differences),
+    parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences),
 )
 
 compare_iau = public_call(IAU)
