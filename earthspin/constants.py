@@ -81,6 +81,7 @@ IERS = "IERS Conventions (2010), IERS Technical Note 36"
 IERS_2010 = IERS + ", table 1.1"
 DE440 = "Park et al. 2021, AJ 161:105; header of DE440"
 P03 = "Capitaine, Wallace & Chapront 2003, A&A 412, 567 (adopted as IAU 2006)"
+_SIMON = "Simon et al. 1994, A&A 282, 663 (J2000.0)"
 _P03_TABLE3 = P03 + ", table 3, after Williams 1994 and Mathews et al. 2002"
 
 # --- where the numbers were read: public copies, with repository and path for files ---------------
@@ -100,13 +101,7 @@ G = Constant(6.67430e-11, "m3 kg-1 s-2", 1.5e-15, "CODATA 2018, 2022", "astropy.
 
 
 # --- time ------------------------------------------------------------------------------------
-SIDEREAL_YEAR = Constant(
-    365.256363004 * 86400.0,
-    "s",
-    0.0,
-    "Simon et al. 1994, A&A 282, 663 (J2000.0)",
-    _EOP_PC,
-)
+SIDEREAL_YEAR = Constant(365.256363004 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
 # 1296000" over the rate of the mean longitude W1, 1732559343.73604" a century: 27.321662 d
 SIDEREAL_MONTH = Constant(
@@ -117,13 +112,7 @@ SIDEREAL_MONTH = Constant(
     "codes of ELP 2000-82B and ELP/MPP02 in public repositories, rate of W1",
 )
 
-TROPICAL_YEAR = Constant(
-    365.242190402 * 86400.0,
-    "s",
-    0.0,
-    "Simon et al. 1994, A&A 282, 663 (J2000.0)",
-    _EOP_PC,
-)
+TROPICAL_YEAR = Constant(365.242190402 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
 JUPITER_ORBITAL_PERIOD = Constant(
     4332.59 * 86400.0,
@@ -144,39 +133,36 @@ SOLAR_CONSTANT = Constant(
 
 # --- what the IAU adopted, and what others found --------------------------------------------
 EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0", ERFA_P06E)
-PSI_A_RATE = Constant(50.38481507, "arcsec yr-1", None, P03 + ": psi_A, rate at J2000.0", ERFA_P06E)
-OMEGA_A_RATE = Constant(
-    -0.00025754, "arcsec yr-1", None, P03 + ": omega_A, rate at J2000.0", ERFA_P06E
-)
-CHI_A_RATE = Constant(0.10556403, "arcsec yr-1", None, P03 + ": chi_A, rate at J2000.0", ERFA_P06E)
-P_A_RATE = Constant(50.28796195, "arcsec yr-1", None, P03 + ": p_A, rate at J2000.0", ERFA_P06E)
+
+
+def _rate(value: float, source: str, read_in: str) -> Constant:
+    """A rate whose source gives no uncertainty, in arcseconds a year."""
+    return Constant(value, "arcsec yr-1", None, source, read_in)
+
+
+PSI_A_RATE = _rate(50.38481507, P03 + ": psi_A, rate at J2000.0", ERFA_P06E)
+OMEGA_A_RATE = _rate(-0.00025754, P03 + ": omega_A, rate at J2000.0", ERFA_P06E)
+CHI_A_RATE = _rate(0.10556403, P03 + ": chi_A, rate at J2000.0", ERFA_P06E)
+P_A_RATE = _rate(50.28796195, P03 + ": p_A, rate at J2000.0", ERFA_P06E)
 
 #: Contributions to the rate of psi_A at J2000.0 that sun and moon on the mean equator do not give.
 PUBLISHED_EFFECTS: dict[str, Constant] = {
-    "geodesic": Constant(-1919.883e-5, "arcsec yr-1", None, _P03_TABLE3, _TABLE3_READ),
-    "second-order": Constant(
-        -(33.10 + 13.68) * 1e-5, "arcsec yr-1", None, _P03_TABLE3, _TABLE3_READ
-    ),
-    "planets": Constant(31.367e-5, "arcsec yr-1", None, _P03_TABLE3, _TABLE3_READ),
-    "nonrigid": Constant(-21.05e-5, "arcsec yr-1", None, _P03_TABLE3, _TABLE3_READ),
-    "j4": Constant(2.60e-5, "arcsec yr-1", None, _P03_TABLE3, _TABLE3_READ),
+    "geodesic": _rate(-1919.883e-5, _P03_TABLE3, _TABLE3_READ),
+    "second-order": _rate(-(33.10 + 13.68) * 1e-5, _P03_TABLE3, _TABLE3_READ),
+    "planets": _rate(31.367e-5, _P03_TABLE3, _TABLE3_READ),
+    "nonrigid": _rate(-21.05e-5, _P03_TABLE3, _TABLE3_READ),
+    "j4": _rate(2.60e-5, _P03_TABLE3, _TABLE3_READ),
 }
 
-FIRST_ORDER_RATE = Constant(
+FIRST_ORDER_RATE = _rate(
     54.94062986,
-    "arcsec yr-1",
-    None,
     "Capitaine et al. 2004: first order, over cos(epsilon_0)",
     "follows from the rate of psi_A (ERFA, eraP06e) less the total of " + _TABLE3_READ,
 )
-J2_AND_TILT_RATE = Constant(
-    -269.43e-5, "arcsec yr-1", None, _P03_TABLE3 + ": J2, planetary tilt", _TABLE3_READ
-)
+J2_AND_TILT_RATE = _rate(-269.43e-5, _P03_TABLE3 + ": J2, planetary tilt", _TABLE3_READ)
 
 #: Of the rate of omega_A: the tides that the Earth raises and drags along tilt its axis.
-TIDES_IN_OBLIQUITY = Constant(
-    2.4e-5, "arcsec yr-1", None, _P03_TABLE3 + ": tides, in obliquity", _TABLE3_READ
-)
+TIDES_IN_OBLIQUITY = _rate(2.4e-5, _P03_TABLE3 + ": tides, in obliquity", _TABLE3_READ)
 
 # --- Mars, whose bulge and whose layers answer to the same numbers -----------------------------
 MARS_GM = Constant(42828.375816e9, "m3 s-2", None, DE440, GM_HORIZONS)
@@ -222,5 +208,4 @@ MAS = ARCSEC / 1000.0
 UAS = 1e-6 * ARCSEC
 ARCSEC_PER_YEAR = ARCSEC / JULIAN_YEAR  # rad/s
 J2000_JD = 2451545.0
-MJD_0 = 2400000.5  # Julian date of the modified Julian date 0
 NORMAL_95 = 1.959963984540054  # half-width of a 95 % interval in standard deviations

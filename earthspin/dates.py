@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeVar, cast
+from typing import Annotated, Any, Self, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -256,10 +256,8 @@ class Span:
         """Read two dates; the earlier comes first."""
         if isinstance(value, Span):
             return value
-        first, last = first_and_last(
-            value, where, microseconds, "two dates, like ['2000-01-01', '2001-01-01']"
-        )
-        return cls(first, last)
+        allowed = "two dates, like ['2000-01-01', '2001-01-01']"
+        return cls(*first_and_last(value, where, microseconds, allowed))
 
     def write(self) -> Plain:
         """Give the two dates, to the microsecond."""
@@ -307,32 +305,41 @@ class TimeGrid:
 
 
 @dataclass(frozen=True, eq=False)
-class TimeList:
+class Listed:
     """Times as they were listed, in any order.
 
     Attributes
     ----------
     listed : ndarray, shape (n,)
-        Days from J2000.0 TDB.
+        Days or seconds from J2000.0 TDB.
     """
 
     listed: FloatArray
 
-    words, hint = "a list of times", "Dates"
+    @classmethod
+    def times(cls, value: Any, where: Where) -> FloatArray:
+        """Read times in any form that `days` takes."""
+        return days(value, where).copy()
 
     @classmethod
-    def read(cls, value: object, where: Where) -> TimeList:
-        """Read times in any form that `days` takes."""
-        if isinstance(value, TimeList):
+    def read(cls, value: Any, where: Where) -> Self:
+        """Read times, or what `write` gives."""
+        if isinstance(value, cls):
             return value
-        listed = unpack(value, where) if isinstance(value, Mapping) else days(value, where).copy()
-        if listed.ndim != 1:
+        listed = unpack(value, where) if isinstance(value, Mapping) else cls.times(value, where)
+        if listed.ndim != 1 or listed.size == 0:
             raise where.error(f"shape {listed.shape}", "give one or more times in one list")
         return cls(listed)
 
     def write(self) -> Plain:
-        """Give the days from J2000.0 TDB as bytes."""
+        """Give the numbers as bytes."""
         return pack(self.listed)
+
+
+class TimeList(Listed):
+    """Days from J2000.0 TDB as they were listed."""
+
+    words, hint = "a list of times", "Dates"
 
     @property
     def size(self) -> int:
@@ -346,6 +353,10 @@ class TimeList:
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
         """Days from J2000.0 TDB of the times from `first` up to `last`."""
         return self.listed[first:last]
+
+
+#: The times of a series.
+Epochs = TimeGrid | TimeList
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import os
 import re
 import tomllib
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,12 +24,8 @@ from earthspin.engine.question import Question, keys_of
 from earthspin.engine.series import Series
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
-from earthspin.parts.orbits import OWN, OrbitChoice
-from earthspin.parts.sky import KernelName
 from earthspin.parts.times import epochs
-from earthspin.questions.polar_motion import C04, TableFile
-from earthspin.sky.columns import is_table
-from earthspin.sky.ephemeris import NAMED_KERNELS
+from earthspin.units import FileName
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -464,7 +460,7 @@ def toml(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, type]]:
+def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
     """Files that are read to answer a question: the key, the path, and the kind of the key.
 
     Parameters
@@ -473,50 +469,37 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
     but : iterable of str
         Keys to leave out.
     """
-    words = {KernelName: (*NAMED_KERNELS,), OrbitChoice: (OWN,), TableFile: (C04,)}
     members, files = question.members, []
     for name, key in keys_of(type(question)).items():
         dotted = f"{question.table}.{name}" if key.setting else name
-        kind = type(key.kind)
-        if kind not in words or dotted in but:
+        kind = key.kind
+        if not isinstance(kind, FileName) or dotted in but:
             continue
         values = [getattr(question, name)]
         if members is not None and name in members.distributions:
             values = [*members.distributions[name].numbers]
         elif members is not None and name in members.values:
             values = np.unique(members.values[name]).tolist()
-        files += [
-            (dotted, Path(value).absolute(), kind)
-            for value in values
-            if isinstance(value, str)
-            and (value.lower() if kind is KernelName else value) not in words[kind]
-        ]
+        files += [(dotted, Path(v).absolute(), kind) for v in values if kind.is_path(v)]
     return files
 
 
-#: Kinds of keys that name a file, with the test of its first bytes.
-_BEGINNINGS: dict[type, tuple[str, Callable[[bytes], bool]]] = {
-    KernelName: ("an SPK kernel", lambda head: head.startswith((b"DAF/SPK", b"NAIF/DAF"))),
-    OrbitChoice: ("the table of an orbit", lambda head: head[:2] == b"PK" or is_table(head)),
-    TableFile: ("a table of polar motion", is_table),
-}
 #: How many first bytes are looked at: more than any table has above its numbers.
 _HEAD = 1 << 16
 
 
-def _check_kind(key: str, path: Path, kind: type, source: str) -> None:
+def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
     """Refuse a file that a stored scene names and that is of another kind than the key takes.
 
     Raises
     ------
     SceneError
     """
-    what, is_like = _BEGINNINGS[kind]
     problem = no_plain_file(path)
     try:
         if not problem and path.exists():
             with path.open("rb") as file:
-                problem = "" if is_like(file.read(_HEAD)) else f"it is not {what}"
+                problem = "" if kind.begins(file.read(_HEAD)) else f"it is not {kind.content}"
     except OSError as error:
         problem = f"it cannot be read: {error.strerror}"
     if problem:

@@ -10,11 +10,11 @@ from __future__ import annotations
 import base64
 import datetime as dt
 import math
+import os
 import re
 import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin
 
@@ -319,12 +319,9 @@ class Number:
         """Check and convert."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
         if (isinstance(value, str) and not self.text) or (real and not self.plain):
-            hint = (
-                f"give it with its unit, like '{self.example}'"
-                if self.unit
-                else (f"give a number without quotes, like {self.example}")
-            )
-            raise where.error(value, hint)
+            form = f"it with its unit, like '{self.example}'"
+            bare = f"a number without quotes, like {self.example}"
+            raise where.error(value, f"give {form if self.unit else bare}")
         number = quantity(value, self.unit, where, self.example)
         if np.ndim(number) != 0:
             raise where.error(value, f"give one number, {self.words}")
@@ -446,8 +443,16 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
         raise where.error("a table", "give a list of numbers") from None
 
 
+class _AsItIs:
+    """A kind whose values a scene holds as they are."""
+
+    def write(self, value: Any) -> Plain:
+        """Give the value."""
+        return value
+
+
 @dataclass(frozen=True)
-class Whole:
+class Whole(_AsItIs):
     """A whole number, up to as many as fit into memory."""
 
     low: int = 1
@@ -468,13 +473,9 @@ class Whole:
             raise where.error(value, f"give {self.words}, and at most {self.high}")
         return int(value)
 
-    def write(self, value: int) -> Plain:
-        """Give the number."""
-        return value
-
 
 @dataclass(frozen=True)
-class Word:
+class Word(_AsItIs):
     """One of a few words.
 
     Attributes
@@ -505,13 +506,9 @@ class Word:
             raise where.error(value, nearest(value, self.allowed))
         return value
 
-    def write(self, value: str) -> Plain:
-        """Give the word."""
-        return value
-
 
 @dataclass(frozen=True)
-class Text:
+class Text(_AsItIs):
     """A line of text."""
 
     words, hint = "a line of text", "str"
@@ -522,27 +519,41 @@ class Text:
             raise where.error(value, f"it is {self.words}")
         return value
 
-    def write(self, value: str) -> str:
-        """Give the text."""
-        return value
-
 
 @dataclass(frozen=True)
-class FilePath:
-    """The path of a file or folder."""
+class FileName(_AsItIs):
+    """The path of a file or folder, or a word that stands for one.
 
-    words, hint = "the path of a file", "str | PathLike[str]"
+    Attributes
+    ----------
+    expected : str
+        What a message asks for; `words` if empty.
+    known : collection of str
+        Words that stand for something else than a file of this name.
+    content : str
+        What such a file holds.
+    """
+
+    words = "the path of a file"
+    hint = "str | PathLike[str]"
     by_name: ClassVar[bool] = True
+    expected: ClassVar[str] = ""
+    known: ClassVar[Collection[str]] = ()
+    content: ClassVar[str] = "text"
 
-    def read(self, value: object, where: Where) -> Path:
-        """Check that it is a path; whether something is there shows when it is opened."""
-        if not isinstance(value, (str, Path)) or not str(value).strip():
-            raise where.error(value, f"it is {self.words}")
-        return Path(value)
+    def read(self, value: object, where: Where) -> Any:
+        """Check that it is a path or word; whether there is a file shows when it is opened."""
+        if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
+            raise where.error(value, f"it is {self.expected or self.words}")
+        return os.fspath(value)
 
-    def write(self, value: Path) -> Plain:
-        """Give the text."""
-        return str(value)
+    def is_path(self, value: object) -> bool:
+        """Whether a value names a file."""
+        return isinstance(value, str) and value not in self.known
+
+    def begins(self, head: bytes) -> bool:
+        """Whether a file of this kind may begin with these bytes."""
+        return True
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.dates import J2000, days, first_and_last, microseconds
+from earthspin.dates import J2000, Listed, days, first_and_last, microseconds
 from earthspin.errors import Where
-from earthspin.units import FloatArray, Number, Plain, pack, quantity, unpack
+from earthspin.units import FloatArray, Number, Plain, quantity
 
 #: How far from J2000.0 a time may lie, and how short a step may be, s.
 FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
@@ -91,35 +90,22 @@ class YearSpan:
         """Read two times; the earlier comes first."""
         if isinstance(value, YearSpan):
             return value
-        first, last = first_and_last(value, where, seconds, "two times, like ['-1 Myr', '0 kyr']")
-        return cls(first, last)
+        allowed = "two times, like ['-1 Myr', '0 kyr']"
+        return cls(*first_and_last(value, where, seconds, allowed))
 
     def write(self) -> Plain:
         """Give the two times in seconds, to the last bit."""
         return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
-@dataclass(frozen=True, eq=False)
-class YearList:
-    """Times over millennia as they were listed, in any order.
-
-    Attributes
-    ----------
-    listed : ndarray, shape (n,)
-        s from J2000.0 TDB.
-    """
-
-    listed: FloatArray
+class YearList(Listed):
+    """Seconds from J2000.0 TDB over millennia, as they were listed."""
 
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"
 
     @classmethod
-    def read(cls, value: Any, where: Where) -> YearList:
+    def times(cls, value: Any, where: Where) -> FloatArray:
         """Read durations in one Quantity or a list, or dates in any form that `dates` reads."""
-        if isinstance(value, YearList):
-            return value
-        if isinstance(value, Mapping):
-            return cls(unpack(value, where))
         if isinstance(value, str):
             value = [value]
         if hasattr(value, "to_value") and not hasattr(value, "jd1"):
@@ -128,15 +114,9 @@ class YearList:
             listed = np.array([seconds(time, where) for time in value], dtype=float)
         else:
             listed = DAY * days(value, where)
-        if listed.ndim != 1 or listed.size == 0:
-            raise where.error(f"shape {listed.shape}", "give one or more times in one list")
-        if np.max(np.abs(listed)) > FARTHEST:
+        if np.max(np.abs(listed), initial=0.0) > FARTHEST:
             raise where.error("a time", "give at most 1 Gyr from J2000.0")
-        return cls(np.asarray(listed, dtype=float))
-
-    def write(self) -> Plain:
-        """Give the seconds as bytes."""
-        return pack(self.listed)
+        return np.asarray(listed, dtype=float)
 
 
 #: A step between times over millennia, s.

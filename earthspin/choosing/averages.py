@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
+from earthspin.bodies import Body
 from earthspin.choosing.choice import Choice, models
 from earthspin.constants import DAY
-from earthspin.torque.average import precessing_of_tensor
-from earthspin.units import FloatArray
+from earthspin.sky.equator import angle
+from earthspin.torque.average import best_window, precessing_of_tensor
 
 #: Orbits whose normals are closer than this are the one that was measured.
 SAME_ORBIT = 1e-6
@@ -39,85 +39,56 @@ class Averaging:
     torque_errors: Mapping[str, float]
 
 
-@dataclass(frozen=True)
-class AveragedBody:
-    """Numbers of a body by which an error of the mean tensor becomes one of the precession rate.
-
-    Attributes
-    ----------
-    code : int
-        NAIF, of the body.
-    obliquity : float
-        rad.
-    normal : ndarray, shape (3,)
-        Of the orbit, ICRF.
-    moving : bool
-        Whether its equinox is the moving one of date.
-    pulls : mapping of str to Pull
-        What pulls, by name.
-    cycle : float
-        The slowest, s.
-    """
-
-    code: int
-    obliquity: float
-    normal: FloatArray
-    moving: bool
-    pulls: Mapping[str, Pull]
-    cycle: float
-
-
-class Pull(NamedTuple):
-    """A perturber: NAIF code, GM (m3 s-2), and its slow swing, relative."""
-
-    code: int
-    gm: float
-    slow_swing: float
-
-
-def average_choices(body: AveragedBody, cycles: float) -> list[Choice[Averaging]]:
-    """Windows of an average with the relative error of the rate.
+def average_choices(
+    body: Body, perturbers: tuple[Body, ...], first: float, last: float
+) -> list[Choice[Averaging]]:
+    """Windows of an average over orbits with the relative error of the rate.
 
     Parameters
     ----------
-    body : AveragedBody
-    cycles : float
-        As many as there is room for.
+    body : Body
+    perturbers : tuple of Body
+    first, last : float
+        Days from J2000.0 TDB between which the average lies.
 
     Returns
     -------
     list of Choice of Averaging
         Empty if the sky has not been measured, or the rate vanishes.
     """
-    table = models()["average"]
-    rows = table["tensor"].get(str(body.code), {}).get(f"{body.cycle / DAY:.2f}", {})
-    if not all(str(pull.code) in rows for pull in body.pulls.values()):
+    if not all(member.naif for member in (body, *perturbers)):
         return []
-    if math.sin(body.obliquity) == 0 or body.moving != (str(body.code) in table["moving"]):
+    table, code = models()["average"], str(body.naif[0])
+    cycle, pole = max(p.cycle for p in perturbers), body.needed("pole")
+    normal = pole.orbit_normal(body.orbit_pole)
+    obliquity = angle(pole.true(0.0), normal)
+    all_rows = table["tensor"].get(code, {}).get(f"{cycle / DAY:.2f}", {})
+    if not all(str(p.naif[0]) in all_rows for p in perturbers):
         return []
-    if np.linalg.norm(body.normal - table["normal"][str(body.code)]) > SAME_ORBIT:
+    if math.sin(obliquity) == 0 or pole.of_the_iau != (code in table["moving"]):
         return []
-    precessing = {
-        name: pull.gm * precessing_of_tensor(rows[str(pull.code)]["mean"], 0.0, body.obliquity)
-        for name, pull in body.pulls.items()
+    if np.linalg.norm(normal - table["normal"][code]) > SAME_ORBIT:
+        return []
+    rows = {p.name: all_rows[str(p.naif[0])] for p in perturbers}
+    gm = {p.name: float(p.gm) for p in perturbers}
+    mean = {
+        name: gm[name] * precessing_of_tensor(row["mean"], 0.0, obliquity)
+        for name, row in rows.items()
     }
-    swing = sum(pull.slow_swing * precessing[name] for name, pull in body.pulls.items())
-    total = sum(precessing.values())
+    swing, total = sum(p.slow_swing * mean[p.name] for p in perturbers), sum(mean.values())
     if total == 0:
         return []
     in_plane, out_of_plane = (
-        {
-            name: pull.gm * 10.0 ** np.asarray(rows[str(pull.code)][plane])
-            for name, pull in body.pulls.items()
-        }
+        {name: gm[name] * 10.0 ** np.asarray(row[plane]) for name, row in rows.items()}
         for plane in ("in_plane", "out_of_plane")
     )
+    cycles = best_window(first * DAY, last * DAY, cycle).cycles
     choices = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
-            off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in body.pulls}
+            off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in rows}
             precessing = {
-                name: precessing_of_tensor(*pair, body.obliquity) for name, pair in off.items()
+                name: precessing_of_tensor(*pair, obliquity) for name, pair in off.items()
             }
             choices.append(
                 Choice(
@@ -129,7 +100,7 @@ def average_choices(body: AveragedBody, cycles: float) -> list[Choice[Averaging]
                         torque_errors={name: 3 * sum(pair) for name, pair in off.items()},
                     ),
                     error=(sum(precessing.values()) + swing) / total,
-                    evaluations=2 * math.floor(turns * body.cycle / DAY / 2 / days) + 1,
+                    evaluations=2 * math.floor(turns * cycle / DAY / 2 / days) + 1,
                 )
             )
     return choices

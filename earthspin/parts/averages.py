@@ -44,8 +44,6 @@ class Samples:
     ----------
     times : ndarray, shape (n,)
         s from J2000.0 TDB.
-    labels : list of str
-        The perturbers, and their total if there are several.
     precessing : ndarray, shape (n, perturber)
         Share of the torque per C - A that makes the axis precess, s-2.
     torque : ndarray, shape (n, perturber, 3)
@@ -66,7 +64,6 @@ class Samples:
     """
 
     times: FloatArray
-    labels: list[str]
     precessing: FloatArray
     torque: FloatArray
     window: Window
@@ -109,7 +106,6 @@ def torque_samples(
     normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
     return Samples(
         times=times,
-        labels=_labels(perturbers),
         precessing=np.stack([precessing_torque(t, axis, normals) for t in torques], axis=1),
         torque=np.stack(torques, axis=1),
         window=window,
@@ -239,7 +235,7 @@ def window_means(
     )
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
-        labels=samples.labels,
+        labels=_labels(perturbers),
         precessing=precessing,
         precessing_error=precessing_error,
         torque=vector,

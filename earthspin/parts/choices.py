@@ -5,21 +5,19 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.choosing.averages import AveragedBody, Averaging, Pull, average_choices
+from earthspin.choosing.averages import Averaging, average_choices
 from earthspin.choosing.choice import Choice, cheapest
 from earthspin.choosing.nutation import NutationNodes, nutation_choices
 from earthspin.choosing.promises import MARGIN
 from earthspin.choosing.windows import PoleWindows, window_choices
 from earthspin.constants import DAY
-from earthspin.dates import TimeGrid, TimeList
+from earthspin.dates import Epochs
 from earthspin.engine.part import part
 from earthspin.motion.effects import GEODESIC, MEASURED_WITH
 from earthspin.parts.pulls import Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, Stretch
-from earthspin.sky.equator import angle
 from earthspin.sky.sources import OF_DATE, SourceName
-from earthspin.torque.average import best_window
 from earthspin.torque.rates import left_for_method
 
 
@@ -28,7 +26,7 @@ def windows_on_offer(
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
     """Windows of the pole; none where sky or effects were not measured."""
     measured = set(effects) <= set(MEASURED_WITH)
@@ -57,7 +55,7 @@ def chosen_windows(
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     accuracy: float | None,
 ) -> list[Choice[PoleWindows]]:
     """The cheapest windows of the pole that meet the accuracy asked for, then the most accurate.
@@ -73,27 +71,6 @@ def chosen_windows(
     return best if choice is None else [choice, *best]
 
 
-def averages_on_offer(
-    body: Body, perturbers: tuple[Body, ...], stretch: Stretch
-) -> list[Choice[Averaging]]:
-    """Windows of an average over orbits; none where the sky was not measured."""
-    if not all(member.naif for member in (body, *perturbers)):
-        return []
-    cycle = max(p.cycle for p in perturbers)
-    pole = body.needed("pole")
-    normal = pole.orbit_normal(body.orbit_pole)
-    averaged = AveragedBody(
-        code=body.naif[0],
-        obliquity=angle(pole.true(0.0), normal),
-        normal=normal,
-        moving=pole.of_the_iau,
-        pulls={p.name: Pull(p.naif[0], float(p.gm), p.slow_swing) for p in perturbers},
-        cycle=cycle,
-    )
-    widest = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    return average_choices(averaged, widest.cycles)
-
-
 @part(unless=no_accuracy, chooses=True)
 def chosen_average(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
@@ -106,7 +83,7 @@ def chosen_average(
     # the strongest pull may be all of the rate: its GM stands for all
     u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in perturbers)
     allowed = MARGIN * left_for_method(accuracy or math.inf, u_h, u_gm)
-    menu = averages_on_offer(body, perturbers, stretch)
+    menu = average_choices(body, perturbers, stretch.first, stretch.last)
     widest = max((choice.settings.cycles for choice in menu), default=0)
     # where none will do, the widest window at the closest step
     finest = next((choice for choice in menu if choice.settings.cycles == widest), None)
@@ -125,7 +102,7 @@ def equator_comes_along(source: SourceName) -> str | None:
 
 @part(unless=(no_accuracy, on_mean_equator, no_iau_model, equator_comes_along), chooses=True)
 def chosen_nutation(
-    sky: Sky, epochs: TimeGrid | TimeList, accuracy: float | None
+    sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
     """The cheapest nutation that meets the accuracy asked for, with what the kernel is off by."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from earthspin.bodies import Body
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError, Where
+from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
-from earthspin.units import Plain, pack, unpack
+from earthspin.units import FileName, Plain, pack, unpack
 
 #: Word for the table that is shipped with a body.
 OWN = "own"
@@ -22,23 +21,21 @@ OWN = "own"
 _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
-@dataclass(frozen=True)
-class OrbitChoice:
+class OrbitChoice(FileName):
     """Kind of an orbit's table: that of the body, a file, or a table that was read."""
 
     words = '"own", the path of a table, or what read_orbit gives'
     hint = "str | PathLike[str] | OrbitTable"
-    by_name = True
+    known = (OWN,)
+    content = "the table of an orbit"
 
-    def read(self, value: object, where: Where) -> str | OrbitTable:
+    def read(self, value: object, where: Where) -> Any:
         """Take the word, a path, a table, or a table as `write` gives it."""
         if isinstance(value, OrbitTable):
             return value
         if isinstance(value, Mapping):
             return _table_of(value, where)
-        if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
-            raise where.error(value, f"it is {self.words}")
-        return os.fspath(value)
+        return super().read(value, where)
 
     def write(self, value: str | OrbitTable) -> Plain:
         """Give the word or the path; of a table every number."""
@@ -46,6 +43,10 @@ class OrbitChoice:
             return value
         numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
         return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
+
+    def begins(self, head: bytes) -> bool:
+        """Whether it begins as an archive of arrays or a table does."""
+        return head[:2] == b"PK" or is_table(head)
 
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:

@@ -14,8 +14,9 @@ from earthspin.bodies import Body
 from earthspin.choosing.choice import Choice
 from earthspin.choosing.windows import PoleWindows
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
-from earthspin.dates import TimeGrid, TimeList
+from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
+from earthspin.engine.question import key
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
@@ -23,10 +24,10 @@ from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.figure import fastest_sweep
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
-from earthspin.parts.predicted import CHOSEN, Prediction, no_layers
-from earthspin.parts.pulls import Pulls, forces_of, start_of
+from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
+from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.times import refuse_what_does_not_fit
+from earthspin.parts.times import days_of
 from earthspin.progress import progress
 from earthspin.sky.kernel_differences import DRIFT_FROM, growth
 from earthspin.units import FloatArray
@@ -53,7 +54,7 @@ _AT_ONCE = 1 << 16
 @part
 def axis_path(
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     accuracy: float | None,
@@ -75,11 +76,11 @@ def axis_path(
                 raise
             continue  # windows that are too wide for the slow manifold of this spin
         tried.append(path)
-        if choice and _largest_shares(path, epochs, body, pulls)["total"] <= (accuracy or 0.0):
+        if choice and PathErrors(path, epochs, body, pulls).total <= (accuracy or 0.0):
             break
     if len(tried) == 1:
         return tried[0]
-    return min(tried, key=lambda path: _largest_shares(path, epochs, body, pulls)["total"])
+    return min(tried, key=lambda path: PathErrors(path, epochs, body, pulls).total)
 
 
 @dataclass(frozen=True)
@@ -106,24 +107,13 @@ class Errors:
         )
 
 
-def errors_of(
-    path: AxisPath,
-    days: FloatArray,
-    figure: FloatArray,
-    epochs: TimeGrid | TimeList,
-    body: Body,
-    pulls: Pulls,
-    shift: Shift | None,
-) -> Errors:
-    """Errors of some directions of a series.
+@dataclass(frozen=True)
+class PathErrors:
+    """Errors of the directions of a path.
 
-    Parameters
+    Attributes
     ----------
     path : AxisPath
-    days : ndarray, shape (t,)
-        Some of the times, from J2000.0.
-    figure : ndarray, shape (t, 3)
-        Figure axis at these times.
     epochs : TimeGrid or TimeList
         All times of the series: how well the sky is known depends on the farthest.
     body : Body
@@ -131,13 +121,56 @@ def errors_of(
     shift : Shift or None
         Response of the interior, if it is switched on.
     """
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return Errors(
-        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
-        given=axes.error_of_input(path, figure, u_h),
-        kernel=_error_of_sky(path, figure, epochs, body, pulls),
-        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
-    )
+
+    path: AxisPath
+    epochs: Epochs
+    body: Body
+    pulls: Pulls
+    shift: Shift | None = None
+
+    def at(self, days: FloatArray, figure: FloatArray) -> Errors:
+        """Errors on some days from J2000.0, shape (t,), with the figure axis there, (t, 3)."""
+        u_h = self.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+        method = np.nan if self.pulls.sky.unmeasured else self.path.error
+        return Errors(
+            method=np.full(len(figure), method),
+            given=axes.error_of_input(self.path, figure, u_h),
+            kernel=self._of_sky(figure),
+            response=np.zeros(len(figure)) if self.shift is None else self.shift.half_width(days),
+        )
+
+    def _of_sky(self, figure: FloatArray) -> FloatArray:
+        """95 % half-width of a direction from errors of the positions, rad, shape (t,)."""
+        sky, body = self.pulls.sky, self.body
+        _, epoch = start_of(body, self.pulls)
+        positions = sky.positions(np.array([epoch / DAY]))
+        distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
+        drift = max(sky.drift(name, far) for name, far in distance.items())
+        speed = fastest_sweep(
+            body.number("dynamical_flattening"),
+            float(body.spin_rate),
+            [(self.pulls.gm[name], far) for name, far in distance.items()],
+        )
+        grown = max(map(growth, self.epochs.span()))
+        return grown * axes.error_of_sky(self.path, figure, drift, speed, DRIFT_FROM)
+
+    def largest(self) -> dict[str, float]:
+        """Largest error at the times wanted, total and by share, rad.
+
+        Windows decide on all shares but that of the response, which is left out without a shift.
+        """
+        largest: dict[str, float] = {}
+        for first in range(0, self.epochs.size, _AT_ONCE):
+            days = self.epochs.days(first, min(first + _AT_ONCE, self.epochs.size))
+            errors = self.at(days, self.path.at(days * DAY)["figure"])
+            for name, share in {"total": errors.total, **vars(errors)}.items():
+                largest[name] = float(np.maximum(largest.get(name, 0.0), share.max()))
+        return largest
+
+    @property
+    def total(self) -> float:
+        """Largest error at the times wanted, rad."""
+        return self.largest()["total"]
 
 
 @dataclass(frozen=True)
@@ -159,7 +192,7 @@ class LargestError:
 @part(unless=no_accuracy)
 def largest_error(
     axis_path: AxisPath,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     pulls: Pulls,
     interior_shift: Shift | None = None,
@@ -171,29 +204,8 @@ def largest_error(
         "response": "the response of the interior is known no better; leave nonrigid out",
         "method": "the integration takes the finest windows",
     }
-    shares = _largest_shares(axis_path, epochs, body, pulls, interior_shift)
+    shares = PathErrors(axis_path, epochs, body, pulls, interior_shift).largest()
     return LargestError(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
-
-
-def _largest_shares(
-    path: AxisPath,
-    epochs: TimeGrid | TimeList,
-    body: Body,
-    pulls: Pulls,
-    shift: Shift | None = None,
-) -> dict[str, float]:
-    """Largest error of a direction at the times wanted, total and by share, rad.
-
-    Windows decide on all shares but that of the response, which is left out without a shift.
-    """
-    largest: dict[str, float] = {}
-    for first in range(0, epochs.size, _AT_ONCE):
-        days = epochs.days(first, min(first + _AT_ONCE, epochs.size))
-        figure = path.at(days * DAY)["figure"]
-        errors = errors_of(path, days, figure, epochs, body, pulls, shift)
-        for name, share in {"total": errors.total, **vars(errors)}.items():
-            largest[name] = float(np.maximum(largest.get(name, 0.0), share.max()))
-    return largest
 
 
 @dataclass(frozen=True)
@@ -225,28 +237,11 @@ def turns_of(path: AxisPath, first: float, ecliptic: FloatArray) -> Turns:
     return Turns(times, psi - 2 * np.pi * np.rint(off / (2 * np.pi)))
 
 
-def _error_of_sky(
-    path: AxisPath, figure: FloatArray, epochs: TimeGrid | TimeList, body: Body, pulls: Pulls
-) -> FloatArray:
-    """95 % half-width of a direction from where the bodies may be off, rad, shape (t,)."""
-    _, epoch = start_of(body, pulls)
-    positions = pulls.sky.positions(np.array([epoch / DAY]))
-    distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
-    drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
-    speed = fastest_sweep(
-        body.number("dynamical_flattening"),
-        float(body.spin_rate),
-        [(pulls.gm[name], far) for name, far in distance.items()],
-    )
-    grown = max(map(growth, epochs.span()))
-    return grown * axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
-
-
 def _follow(
     body: Body,
     pulls: Pulls,
     effects: Sequence[str],
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
@@ -273,6 +268,16 @@ def _follow(
 
 
 # --- beside the IAU's ----------------------------------------------------------------------------
+
+
+class Comparison(AxisMotion):
+    """Keys of every question that compares the pole with the IAU's in time."""
+
+    span: Span = key(
+        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
+        doc="first and last date of the residuals, TDB",
+    )
+    step: Step = key("5 d", doc="interval between residuals")
 
 
 @dataclass(frozen=True)
@@ -326,9 +331,7 @@ def path_over(
     return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(
-    pulls: Pulls, epochs: TimeGrid | TimeList
-) -> tuple[FloatArray, FloatArray, ComplexArray]:
+def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
     """Nutation of the IAU at the days of a series.
 
     Returns
@@ -348,8 +351,7 @@ def iau_nutation(
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
-    days = epochs.days(0, epochs.size)
+    days = days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
@@ -592,3 +594,7 @@ def predicted_shift(
     circles = pole_analysis.our_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
     return _shift(pole_analysis, circles.amplitude * factor, effects)
+
+
+#: What stands between the pulls and the response of the interior, for the questions that use it.
+INTERIOR = (pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)

@@ -16,8 +16,8 @@ from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces
 from earthspin.parts.elements import all_by_elements
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import Series
+from earthspin.parts.sky import Sky, places, sky
+from earthspin.parts.times import Series, epochs
 from earthspin.sky.protocol import Place
 from earthspin.units import FloatArray, Several, Word
 
@@ -154,3 +154,7 @@ def start_error(body: Body) -> float | None:
     if body.pole_uncertainty is None:
         return None
     return NORMAL_95 * body.number("pole_uncertainty")
+
+
+#: What stands between a scene and all that turns the axis, for the questions that use it.
+PULLS = (places, sky, pulls, epochs)

@@ -1,8 +1,13 @@
-"""Reasons for leaving a part out that several questions share."""
+"""Reasons for leaving a part out that several questions share, and published sizes."""
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from earthspin.bodies import Body, in_a_sentence, proper
+from earthspin.constants import PUBLISHED_EFFECTS
+from earthspin.engine.neglected import Neglected
+from earthspin.nutation.budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:
@@ -50,3 +55,13 @@ def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
     """Leave out what is drawn of one sky where a mass stands for many."""
     many = [p.name for p in perturbers if hasattr(p.gm, "dims")]
     return f"the mass of '{many[0]}' stands for many" if many else None
+
+
+def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
+    """Published contributions to the rate of psi_A, those of some effects excluded."""
+    return Neglected(
+        {name: size for name, size in published_effects().items() if name not in modelled},
+        "arcsec/yr",
+        "published contribution to the rate that the model leaves out",
+        next(iter(PUBLISHED_EFFECTS.values())).source,
+    )

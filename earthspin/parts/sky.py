@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
+from earthspin.sky.ephemeris import NAMED_KERNELS
 from earthspin.sky.equator import rotate, spherical
 from earthspin.sky.poles import Pole
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
@@ -33,21 +33,21 @@ from earthspin.sky.sources import (
     open_source,
     place_of,
 )
-from earthspin.units import FloatArray
+from earthspin.units import FileName, FloatArray
 
 if TYPE_CHECKING:
     from earthspin.sky.iau import Nutation
 
 
-@dataclass(frozen=True)
-class KernelName:
+class KernelName(FileName):
     """Kind of an ephemeris: the name of a kernel, the path of a file, or a kernel of Skyfield's."""
 
     words = '"de421", "de440", or the path of a .bsp file'
     hint = "str | PathLike[str] | SpiceKernel"
-    by_name = True
+    expected = "a name, a path, or a Skyfield kernel"
+    content = "an SPK kernel"
 
-    def read(self, value: object, where: Where) -> str:
+    def read(self, value: object, where: Where) -> Any:
         """Take a name or a path; of a kernel of Skyfield's, its file."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
@@ -57,13 +57,15 @@ class KernelName:
                 "it places one body; give it to a perturber, like SUN.replace(position=...), and "
                 "a kernel here",
             )
-        if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
-            raise where.error(value, "it is a name, a path, or a Skyfield kernel")
-        return os.fspath(value)
+        return super().read(value, where)
 
-    def write(self, value: str) -> str:
-        """Give the name or path."""
-        return value
+    def is_path(self, value: object) -> bool:
+        """Whether a value names a file; names of kernels are read in any case."""
+        return isinstance(value, str) and value.lower() not in NAMED_KERNELS
+
+    def begins(self, head: bytes) -> bool:
+        """Whether it begins as an SPK kernel does."""
+        return head.startswith((b"DAF/SPK", b"NAIF/DAF"))
 
 
 SOURCE_DOC = (
@@ -123,15 +125,14 @@ class PerturbedBody(Question):
             raise self.error("perturbers", names, "a body does not pull on itself")
         # refuses elements that do not fit together
         mixed = not all_by_elements(self.body, self.perturbers)
-        for member in (self.body, *self.perturbers):
-            of_unknown_error = unmeasured(member) or (mixed and member.orbit is not None)
-            if getattr(self, "accuracy", None) is not None and of_unknown_error:
-                raise self.error(
-                    "accuracy",
-                    getattr(self, "accuracy", None),
+        accuracy = getattr(self, "accuracy", None)
+        for member in (self.body, *self.perturbers) if accuracy is not None else ():
+            if unmeasured(member) or (mixed and member.orbit is not None):
+                problem = (
                     f"how far off the positions of '{member.name}' are was never measured, so none "
-                    "can be promised; leave accuracy out",
+                    "can be promised; leave accuracy out"
                 )
+                raise self.error("accuracy", accuracy, problem)
 
     def needed(self) -> tuple[str, ...]:
         """What has to be known of the body, for the keys that are given."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.dates import Span, Step, TimeGrid, TimeList
-from earthspin.engine.part import part
+from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
+from earthspin.engine.part import Block, part
 from earthspin.engine.question import key
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, in_bytes
@@ -21,8 +21,9 @@ from earthspin.units import FloatArray, Numbers
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
-#: Attributes of the coordinates of time.
-DATES = {"long_name": "time (TDB)", "standard_name": "time", "axis": "T"}
+#: Sentences on keys that several questions declare with defaults of their own.
+DIRECTION_DOC = "largest error of a direction; the cheapest settings that keep it are chosen"
+SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
 class Series(PerturbedBody):
@@ -30,7 +31,7 @@ class Series(PerturbedBody):
 
     exclusive = (("times",), ("span", "step"))
 
-    span: Span = key(doc="first and last date, TDB; the last is included if the step meets it")
+    span: Span = key(doc=SPAN_DOC)
     step: Step = key(doc="time between two dates")
     times: TimeList | None = key(None, doc="instead of span and step, the very dates wanted")
 
@@ -49,7 +50,7 @@ class FromStart(Variables, along=("time",)):
 
 
 @part
-def epochs(span: Span, step: float, times: TimeList | None) -> TimeGrid | TimeList:
+def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
     """The dates of the series."""
     return TimeGrid.over(span, step) if times is None else times
 
@@ -64,23 +65,35 @@ def instants(duration: float, points: int, times: FloatArray | None) -> FloatArr
 BYTES_PER_TIME = 128
 
 
-def refuse_what_does_not_fit(
-    epochs: TimeGrid | TimeList, remedy: str, bodies: Iterable[Body] = ()
-) -> None:
-    """Refuse to hold a series in memory that is too long for it.
+def by_region(store: str) -> str:
+    """What to do with a series that is too long for memory and can be written block by block."""
+    return f"write them by region with write_series(scene, '{store}') or run --out"
+
+
+def days_of(
+    epochs: Epochs,
+    block: Block | None = None,
+    remedy: str = "choose a longer step or a shorter span",
+    bodies: Iterable[Body] = (),
+) -> FloatArray:
+    """Days from J2000.0 TDB of a block of a series, or of all its times.
 
     Parameters
     ----------
     epochs : TimeGrid or TimeList
+    block : Block, optional
     remedy : str
-        What to do instead.
+        What to do if all times do not fit into memory.
     bodies : iterable of Body
         Those whose labelled arrays multiply the series.
 
     Raises
     ------
     SceneError
+        If there is no block, and the series is too long for memory.
     """
+    if block is not None:
+        return epochs.days(block.first, block.last)
     count = members(bodies)
     size = epochs.size * count
     if size > LONGEST_IN_MEMORY:
@@ -91,3 +104,4 @@ def refuse_what_does_not_fit(
             f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory "
             f"(up to {LONGEST_IN_MEMORY}); {remedy}",
         )
+    return epochs.days()

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
+from earthspin.dates import Epochs, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import define_parts
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -31,26 +31,24 @@ from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
-from earthspin.nutation.budget import Budget, budget_of, published_effects
+from earthspin.nutation.budget import Budget, budget_of
 from earthspin.parts.path import (
+    INTERIOR,
+    Comparison,
     PoleComparison,
     ResponseFit,
     Shift,
     core_response,
     iau_nutation,
-    nonrigid_shift,
     path_over,
-    pole_analysis,
-    predicted_shift,
     residual_error,
-    response_apart,
     rigid,
     steady_figure,
 )
-from earthspin.parts.predicted import prediction
-from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_of
-from earthspin.parts.sky import places, sky, unmeasured
-from earthspin.parts.times import Dated, epochs
+from earthspin.parts.pulls import PULLS, Pulls, start_of
+from earthspin.parts.reasons import neglected_rates
+from earthspin.parts.sky import unmeasured
+from earthspin.parts.times import Dated
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
@@ -60,7 +58,7 @@ if TYPE_CHECKING:
 LARGEST = 30
 
 
-class IAU(AxisMotion, word="iau", call="compare_iau", positional=("start", "stop", "step")):
+class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop", "step")):
     """Computed pole compared with IAU 2006/2000A: budget, residuals, nutations, angles.
 
     Returns
@@ -86,23 +84,16 @@ class IAU(AxisMotion, word="iau", call="compare_iau", positional=("start", "stop
 
     views, page = "iau", "pole"
 
-    span: Span = key(
-        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
-        doc="first and last date of the residuals, TDB",
-    )
-    step: Step = key("5 d", doc="interval between residuals")
-
     def check(self) -> None:
         """What is compared to the microarcsecond stands on positions whose error is known."""
         super().check()
-        for one in (self.body, *self.perturbers):
-            if unmeasured(one) or one.orbit is not None:
-                raise self.error(
-                    "perturbers",
-                    one.name,
-                    "how far off its positions are was never measured, and the comparison with "
-                    "the IAU gives errors; use pole() for them",
-                )
+        problem = (
+            "how far off its positions are was never measured, and the comparison with the IAU "
+            "gives errors; use pole() for them"
+        )
+        for member in (self.body, *self.perturbers):
+            if unmeasured(member) or member.orbit is not None:
+                raise self.error("perturbers", member.name, problem)
 
 
 # --- the answer: rates effect by effect ----------------------------------------------------------
@@ -254,7 +245,7 @@ def differences(
     pole_analysis: PoleComparison,
     nonrigid_shift: Shift,
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
@@ -592,26 +583,19 @@ class Inferred(Variables, along=("origin",)):
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
     """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
-    h, j2 = body.number("dynamical_flattening"), body.number("j2")
-    u = body.relative_uncertainty
-    values = flat.compared_flattenings(
-        rates_by_effect,
-        h,
-        j2,
-        body.number("radius"),
-        u_h=u.get("dynamical_flattening", 0.0),
-        u_j2=u.get("j2", 0.0),
+    h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
+    u_h, u_j2 = (
+        body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")
     )
+    by_origin = flat.compared_flattenings(rates_by_effect, h, j2, radius, u_h=u_h, u_j2=u_j2)
+    values = by_origin.values()
     return Inferred(
-        flattening=(
-            [value.h for value in values.values()],
-            [NORMAL_95 * value.h_uncertainty for value in values.values()],
-        ),
+        flattening=([v.h for v in values], [NORMAL_95 * v.h_uncertainty for v in values]),
         polar_moment=(
-            [value.moment for value in values.values()],
-            [NORMAL_95 * value.moment_uncertainty for value in values.values()],
+            [v.moment for v in values],
+            [NORMAL_95 * v.moment_uncertainty for v in values],
         ),
-        origin=list(values),
+        origin=list(by_origin),
     )
 
 
@@ -619,13 +603,7 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 def neglected(effects: tuple[str, ...]) -> Neglected:
     """Published size of each effect on the rate of psi_A that is off or has no model here."""
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
-    off = {n: size for n, size in published_effects().items() if n not in rigid(effects)}
-    return Neglected(
-        off,
-        "arcsec/yr",
-        "published contribution to the rate that the model leaves out",
-        next(iter(PUBLISHED_EFFECTS.values())).source,
-    )
+    return neglected_rates(rigid(effects))
 
 
 define_parts(
@@ -641,10 +619,7 @@ define_parts(
         "inferred_flattening": inferred_flattening,
         "neglected": neglected,
     },
-    parts=(
-        places, sky, pulls, epochs, pole_analysis, rates_by_effect, core_response, response_apart,
-        nonrigid_shift, prediction, predicted_shift, differences,
-    ),
-)  # fmt: skip
+    parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences),
+)
 
 compare_iau = public_call(IAU)

@@ -118,15 +118,11 @@ class LongTerm(
             object.__setattr__(self, "perturbers", (SUN,))
         names = [p.name for p in self.perturbers]
         if "sun" not in names or set(names) - {"sun", "moon"}:
-            raise self.error(
-                "perturbers",
-                names,
-                "over millennia it is the Sun, or Sun and Moon; give no others",
-            )
+            problem = "over millennia it is the Sun, or Sun and Moon; give no others"
+            raise self.error("perturbers", names, problem)
         if self.accuracy is not None and self.body.pole_uncertainty is None:
-            raise self.error(
-                "accuracy", f"{self.accuracy / ARCSEC:.4g} arcsec", _unknown_start(self.body)
-            )
+            wanted = f"{self.accuracy / ARCSEC:.4g} arcsec"
+            raise self.error("accuracy", wanted, _unknown_start(self.body))
 
 
 def _unknown_start(body: Body) -> str:

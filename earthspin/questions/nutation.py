@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key, setting
+from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -30,6 +30,7 @@ from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.rotation import mode_period
 from earthspin.nutation import ladder
 from earthspin.parts.path import (
+    Comparison,
     PoleComparison,
     iau_nutation,
     path_over,
@@ -38,9 +39,8 @@ from earthspin.parts.path import (
     steady_figure,
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import AxisMotion, Pulls, pulls
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import Dated, epochs
+from earthspin.parts.pulls import PULLS, Pulls
+from earthspin.parts.times import Dated
 from earthspin.progress import progress
 from earthspin.units import Number
 
@@ -49,7 +49,7 @@ LARGEST = 12
 
 
 class NutationLadder(
-    AxisMotion,
+    Comparison,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -84,11 +84,6 @@ class NutationLadder(
 
     views, page = "nutation", "nutation"
 
-    span: Span = key(
-        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
-        doc="first and last date of the residuals, TDB",
-    )
-    step: Step = key("5 d", doc="interval between residuals")
     coupling: Literal["none", "inferred"] = setting(
         "none",
         doc="whether a last rung couples the core to what is around it beside its figure; the "
@@ -141,7 +136,7 @@ def left(
     pole_analysis: PoleComparison,
     models: Prediction,
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
@@ -407,7 +402,7 @@ define_parts(
         "residuals": residuals,
         "neglected": neglected,
     },
-    parts=(places, sky, pulls, epochs, pole_analysis, models, left),
+    parts=(*PULLS, pole_analysis, models, left),
 )
 
 nutation_ladder = public_call(NutationLadder)

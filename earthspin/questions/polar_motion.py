@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,10 +22,11 @@ from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, m
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
+from earthspin.sky.columns import is_table
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import (
     Days,
-    FilePath,
+    FileName,
     FloatArray,
     Number,
     Numbers,
@@ -63,22 +62,16 @@ _MJD = 51544.5
 C04 = "c04"
 
 
-@dataclass(frozen=True)
-class TableFile:
+class TableFile(FileName):
     """Kind of a table of polar motion: a known one, or a local file."""
 
-    words, hint = '"c04" or the path of a file', "str | PathLike[str]"
-    by_name = True
+    words = '"c04" or the path of a file'
+    known = (C04,)
+    content = "a table of polar motion"
 
-    def read(self, value: object, where: Where) -> str:
-        """Take a word or a path."""
-        if not isinstance(value, (str, Path)) or not fspath(value).strip():
-            raise where.error(value, f"it is {self.words}")
-        return fspath(value)
-
-    def write(self, value: str) -> str:
-        """Give the word or path."""
-        return value
+    def begins(self, head: bytes) -> bool:
+        """Whether it begins as a table does."""
+        return is_table(head)
 
 
 class PolarMotion(Question, word="polar-motion", call="polar_motion", table="polar_motion"):
@@ -275,19 +268,18 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     SceneError
         If it has no x and y with units along time, or its days repeat or go back.
     """
-    _need_series(pole, ("x", "y"), ("arcsec", "mas"))
     from earthspin.wobble.resonance import pole_of
 
-    time = _days_in_order(pole)
-    for name in ("x", "y"):
-        largest = float(abs(si(pole[name])).max())
+    time, x, y = _series(pole, ("x", "y"), ("arcsec", "mas"))
+    for name, values in (("x", x), ("y", y)):
+        largest = float(abs(values).max())
         if largest > 2 * ARCSEC:
             raise SceneError(
                 f"largest {name}",
                 f"{largest / ARCSEC:.3g} arcsec",
                 "polar motion stays below one; is the unit right?",
             )
-    p = pole_of(si(pole.x).values, si(pole.y).values) / MAS
+    p = pole_of(x, y) / MAS
     if 0 < np.max(abs(p)) < SMALLEST:
         raise SceneError(
             "largest distance of the pole",
@@ -297,47 +289,42 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, p
 
 
-def _days_in_order(series: xr.Dataset) -> FloatArray:
-    """Days from J2000.0 of a series, which may not go back.
+def _series(
+    series: Any, names: tuple[str, str], units: tuple[str, ...]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Days from J2000.0 of a Dataset, and two series in SI that say their units.
 
     Raises
     ------
     SceneError
-        If days repeat or go back, or there are fewer than two.
+        If it is no such Dataset, has fewer than two days, or its days repeat or go back.
     """
-    if series.time.size < 2:
-        raise SceneError("time", f"{series.time.size} days", "give two or more")
-    time = days(series.time, Where("time"))
-    if np.any(np.diff(time) <= 0):
-        bad = series.time.values[1:][np.diff(time) <= 0][0]
-        raise SceneError(
-            "time",
-            str(bad),
-            "days repeat or go back; sort them with ds.sortby('time') and drop "
-            "copies with ds.drop_duplicates('time')",
-        )
-    return time
-
-
-def _need_series(series: Any, names: tuple[str, str], units: tuple[str, ...]) -> None:
-    """Refuse what is no Dataset with two series along time that say their units."""
     if not hasattr(series, "data_vars"):
-        raise SceneError(
-            "series", type(series).__name__, f"give a Dataset with {' and '.join(names)}"
-        )
+        problem = f"give a Dataset with {' and '.join(names)}"
+        raise SceneError("series", type(series).__name__, problem)
     for name in names:
         if name not in series or series[name].dims != ("time",):
-            raise SceneError(
-                "series", list(map(str, series.data_vars)), f"'{name}' along 'time' is needed"
-            )
-        unit = series[name].attrs.get("units")
-        if series[name].dtype.kind != "f" or series["time"].dtype.kind != "M":
-            raise SceneError(
-                name, str(series[name].dtype), "give numbers along dates without a zone"
-            )
+            names_given = list(map(str, series.data_vars))
+            raise SceneError("series", names_given, f"'{name}' along 'time' is needed")
+        unit, kind = series[name].attrs.get("units"), series[name].dtype
+        if kind.kind != "f" or series["time"].dtype.kind != "M":
+            raise SceneError(name, str(kind), "give numbers along dates without a zone")
         if unit not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
             raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
+    if series.time.size < 2:
+        raise SceneError("time", f"{series.time.size} days", "give two or more")
+    time = days(series.time, Where("time"))
+    backward = np.diff(time) <= 0
+    if np.any(backward):
+        raise SceneError(
+            "time",
+            str(series.time.values[1:][backward][0]),
+            "days repeat or go back; sort them with ds.sortby('time') and drop "
+            "copies with ds.drop_duplicates('time')",
+        )
+    first, second = (si(series[name]).values for name in names)
+    return time, first, second
 
 
 @part
@@ -448,20 +435,16 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
             f"give means over the steps of the pole, each {step:.3g} d: those between its days; "
             "read_excitation(..., daily=True) makes them from 0h to 0h",
         )
-    return (
-        time[start : start + count],
-        p[start : start + count],
-        driving[first : first + count - 1],
-    )
+    both = slice(start, start + count)
+    return time[both], p[both], driving[first : first + count - 1]
 
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Days from J2000.0 of the middles of the steps, and chi1 + i chi2 in mas."""
     from earthspin.wobble.resonance import excitation_of
 
-    _need_series(chi, ("chi1", "chi2"), ("mas",))
-    time = _days_in_order(chi)
-    return time, excitation_of(si(chi.chi1).values, si(chi.chi2).values) / MAS
+    time, chi1, chi2 = _series(chi, ("chi1", "chi2"), ("mas",))
+    return time, excitation_of(chi1, chi2) / MAS
 
 
 class Excitation(Daily, no_error="the table from which it is read gives none"):
@@ -608,9 +591,8 @@ def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, floa
     if start is None:
         noted = chi.attrs.get("start_day")
         if noted is not None and abs(noted - first) > SAME_DAY:
-            raise SceneError(
-                "start", None, "the series begins at another day than was noted; give it"
-            )
+            problem = "the series begins at another day than was noted; give it"
+            raise SceneError("start", None, problem)
         start = (chi.attrs.get("start_x", 0.0), chi.attrs.get("start_y", 0.0))
     x, y = Numbers("mas", "50 mas", (2,)).read(start, Where("start"))
     return x, y
@@ -665,8 +647,8 @@ def read_excitation(
         components = Several(Text()).read(components, Where("components"))
     if not terms:
         raise SceneError("terms", terms, nearest("", TERMS))
-    paths = Several(FilePath()).read(path, Where("path"))
-    table = read_angular_momentum(paths, components, daily=daily)
+    paths = Several(FileName()).read(path, Where("path"))
+    table = read_angular_momentum([Path(name) for name in paths], components, daily=daily)
     chi = sum(getattr(table, term) for term in set(terms))
     result = Excitation(time=datetime64(table.mjd - _MJD), chi1=chi.real, chi2=chi.imag).dataset()
     names = " + ".join(components or ("all components",))
@@ -677,7 +659,6 @@ def _even_step(time: FloatArray) -> float:
     """Spacing of even times, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
-        raise SceneError(
-            "time", "uneven steps", "fill the gaps first: the exact pair needs even ones"
-        )
+        problem = "fill the gaps first: the exact pair needs even ones"
+        raise SceneError("time", "uneven steps", problem)
     return float((time[-1] - time[0]) / steps.size)

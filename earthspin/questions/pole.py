@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -20,24 +20,20 @@ from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
+    INTERIOR,
     LargestError,
+    PathErrors,
     Shift,
     Turns,
     axis_path,
-    errors_of,
     largest_error,
-    nonrigid_shift,
-    pole_analysis,
-    predicted_shift,
-    response_apart,
     turns_of,
 )
-from earthspin.parts.predicted import SOURCES, no_layers, prediction
-from earthspin.parts.pulls import AxisMotion, Pulls, pulls, start_error, start_note
+from earthspin.parts.predicted import SOURCES, no_layers
+from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
-from earthspin.units import AngleError, FloatArray
+from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, by_region, days_of
+from earthspin.units import AngleError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,64 +72,53 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     views, page = "pole", "pole"
 
-    span: Span = key(
-        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
-        doc="first and last date, TDB; the last is included if the step meets it",
-    )
+    span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
     response: Literal["fitted", "predicted"] = key(
         "fitted",
         doc="where the effect nonrigid takes the response of the inside from: fitted to IAU 2000A, "
         "or predicted from the layers of the body",
     )
-    accuracy: AngleError | None = key(
-        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
-    )
+    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
         """A response of the inside that is asked for must be known."""
         super().check()
-        if NONRIGID.name in self.effects and no_iau_model(self.body):
-            raise self.error(
-                "effects",
-                NONRIGID.name,
-                f"no response of the inside of {in_a_sentence(self.body.name)} is known; "
-                "leave it out",
-            )
-        predicted = NONRIGID.name in self.effects and self.response == "predicted"
-        if predicted and (why := no_layers(self.body)):
+        if NONRIGID.name not in self.effects:
+            return
+        if no_iau_model(self.body):
+            name = in_a_sentence(self.body.name)
+            problem = f"no response of the inside of {name} is known; leave it out"
+            raise self.error("effects", NONRIGID.name, problem)
+        if self.response == "predicted" and (why := no_layers(self.body)):
             raise self.error("response", self.response, f"{why}; take 'fitted'")
-
-
-def not_fitted(effects: tuple[str, ...], response: str) -> str | None:
-    """Leave the fitted response of the inside out where it is not asked for."""
-    if NONRIGID.name not in effects:
-        return "the non-rigid response is switched off"
-    return None if response == "fitted" else "the response is predicted"
-
-
-def not_predicted(effects: tuple[str, ...], response: str) -> str | None:
-    """Leave the predicted response of the inside out where it is not asked for."""
-    if NONRIGID.name not in effects:
-        return "the non-rigid response is switched off"
-    return None if response == "predicted" else "the response is fitted"
-
-
-@part(unless=not_fitted)
-def as_fitted(nonrigid_shift: Shift) -> Shift:
-    """The response of the inside as fitted, where it is switched on."""
-    return nonrigid_shift
-
-
-@part(unless=not_predicted)
-def as_predicted(predicted_shift: Shift) -> Shift:
-    """The response of the inside as predicted, where it is switched on."""
-    return predicted_shift
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:
     """Leave the response of the interior out of a rigid body."""
     return None if NONRIGID.name in effects else "the non-rigid response is switched off"
+
+
+def not_fitted(response: str) -> str | None:
+    """Leave the fitted response of the interior out if the predicted one is wanted."""
+    return None if response == "fitted" else "the response is predicted"
+
+
+def not_predicted(response: str) -> str | None:
+    """Leave the predicted response of the interior out if the fitted one is wanted."""
+    return None if response == "predicted" else "the response is fitted"
+
+
+@part(unless=(not_nonrigid, not_fitted))
+def as_fitted(nonrigid_shift: Shift) -> Shift:
+    """The response of the inside as fitted, where it is switched on."""
+    return nonrigid_shift
+
+
+@part(unless=(not_nonrigid, not_predicted))
+def as_predicted(predicted_shift: Shift) -> Shift:
+    """The response of the inside as predicted, where it is switched on."""
+    return predicted_shift
 
 
 @part(unless=not_nonrigid)
@@ -170,7 +155,7 @@ class Directions(Dated, error="direction_error"):
 @part
 def axes(
     axis_path: AxisPath,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     pulls: Pulls,
     body: Body,
     accuracy: float | None,
@@ -181,9 +166,10 @@ def axes(
     """Directions of angular-momentum, rotation and figure axis at every time."""
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
-    now = _days(epochs, block)
+    now = days_of(epochs, block, by_region("pole.zarr"))
     directions = axis_path.at(now * DAY)
-    errors = errors_of(axis_path, now, directions["figure"], epochs, body, pulls, interior_shift)
+    path_errors = PathErrors(axis_path, epochs, body, pulls, interior_shift)
+    errors = path_errors.at(now, directions["figure"])
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -222,26 +208,16 @@ class ResponseError(Dated):
 def response_error(
     axes: xr.Dataset,
     interior_shift: Shift,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     response: str,
     block: Block | None = None,
 ) -> ResponseError:
     """Share of the direction's error that the response of the interior leaves."""
-    half_width = interior_shift.half_width(_days(epochs, block))
+    half_width = interior_shift.half_width(days_of(epochs, block, by_region("pole.zarr")))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
         share.with_attributes(direction_error_response={"references": SOURCES})
     return share
-
-
-def _days(epochs: TimeGrid | TimeList, block: Block | None) -> FloatArray:
-    """Days of a stretch, or of all times if they fit into memory."""
-    if block is None:
-        refuse_what_does_not_fit(
-            epochs, "write them by region with write_series(scene, 'pole.zarr') or run --out"
-        )
-        block = Block(0, epochs.size)
-    return epochs.days(block.first, block.last)
 
 
 def no_longitude(body: Body) -> str | None:
@@ -263,7 +239,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns:
+def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> Turns:
     """Whole turns of the longitude psi, counted from the first time of the series."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
@@ -273,7 +249,7 @@ def turns(axis_path: AxisPath, epochs: TimeGrid | TimeList, body: Body) -> Turns
 def pole_angles(
     axes: xr.Dataset,
     turns: Turns,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     block: Block | None = None,
 ) -> Angles:
@@ -281,7 +257,7 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    psi = turns.unwrapped(angles[..., 0], _days(epochs, block) * DAY)
+    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, by_region("pole.zarr")) * DAY)
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1])
 
 
@@ -304,7 +280,7 @@ def pole_accuracy(
 
 
 @part
-def neglected(body: Body, effects: tuple[str, ...], epochs: TimeGrid | TimeList) -> Neglected:
+def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
     """Size of the effects that are switched off, at the time farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
         half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
@@ -326,9 +302,8 @@ define_parts(
     answer=(axes, response_error, pole_angles, pole_accuracy),
     sections={"neglected": neglected},
     parts=(
-        places, sky, epochs, pulls, chosen_windows, axis_path, largest_error, turns,
-        pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift,
-        as_fitted, as_predicted, interior_shift,
+        *PULLS, chosen_windows, axis_path, largest_error, turns,
+        *INTERIOR, as_fitted, as_predicted, interior_shift,
     ),
 )  # fmt: skip
 

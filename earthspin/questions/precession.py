@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.choosing.promises import Report, refuse_unkept
-from earthspin.constants import DAY, JULIAN_YEAR, PUBLISHED_EFFECTS
+from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -26,20 +26,13 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
-from earthspin.numerics.estimate import Estimate
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
+from earthspin.parts import reasons
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import (
-    many_pulls,
-    no_accuracy,
-    no_moon,
-    not_sun_and_moon,
-    not_the_iaus_earth,
-)
 from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
@@ -94,7 +87,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     def check(self) -> None:
         """One mass of each perturber where settings are chosen, or means of ellipses taken."""
         super().check()
-        many = many_pulls(self.perturbers)
+        many = reasons.many_pulls(self.perturbers)
         if many and self.accuracy is not None:
             raise self.error("accuracy", self.accuracy, f"{many}; ask for one at a time")
         if many and no_exact_means(self.body, self.perturbers) is None:
@@ -102,24 +95,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
 
 
 # --- the answer ----------------------------------------------------------------------------------
-
-
-def _check_accuracy(asked: float | None, rate: Estimate) -> None:
-    """Refuse a relative accuracy that the total does not reach, and say what takes most of it."""
-    if asked is None:
-        return
-    if not all_of(of_all(rate.value) != 0):
-        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, by_input, best = (
-        float((of_all(share) / abs(of_all(rate.value))).max())
-        for share in (rate.method, rate.given, rate.error)
-    )
-    remedy = (
-        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
-        if by_input > method
-        else f"the average is known to {method:.2g}: give a longer span"
-    )
-    refuse_unkept(asked, best, "1", remedy)
 
 
 _OVER_WINDOW = "time: mean (weighted by the taper)"
@@ -193,14 +168,25 @@ class RateAccuracy(Report, units="1", error_of="relative, of the rate by all per
     """Accuracy of the rate: asked, estimated, and the method chosen."""
 
 
-@part(unless=no_accuracy)
+@part(unless=reasons.no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
     """Accuracy of the rate: asked, estimated, and the method chosen."""
-    _check_accuracy(accuracy, mean_rates.rate)
-    rate, error = mean_rates.total()
+    rate = mean_rates.rate
+    size = abs(of_all(rate.value))
+    if not all_of(size != 0):
+        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
+    method, by_input, best = (
+        float((of_all(share) / size).max()) for share in (rate.method, rate.given, rate.error)
+    )
+    remedy = (
+        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
+        if by_input > method
+        else f"the average is known to {method:.2g}: give a longer span"
+    )
+    refuse_unkept(accuracy, best, "1", remedy)
     return RateAccuracy(
         error_asked=accuracy,
-        error_estimated=float((error / abs(rate)).max()),
+        error_estimated=best,
         method_chosen=mean_rates.means.method,
         evaluations=mean_rates.means.evaluations,
     )
@@ -220,7 +206,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     window_cycles: Labels = labels("length of the averaging window in cycles")
 
 
-@part(unless=many_pulls)
+@part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> Convergence:
     """Averaged rate against the length of the window, plain mean and tapers."""
     import xarray as xr
@@ -252,56 +238,50 @@ def no_figure(body: Body) -> str | None:
     return None
 
 
-class FigureModels(Variables, no_error="a model of the figure, for comparison with the others"):
+class FigureModels(
+    Variables,
+    along=("earth_model",),
+    no_error="a model of the figure, for comparison with the others",
+):
     """Models of the figure, and what follows from them."""
 
-    h_by_model: Value = number(
-        "1", "dynamical flattening (C - A)/C", along=("earth_model",), short="H = (C-A)/C"
-    )
+    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
     period_by_model: Value = number(
-        "yr", "period of one full turn of precession", along=("earth_model",), short="precession"
+        "yr", "period of one full turn of precession", short="precession"
     )
-    wobble_by_model: Value = number(
-        "d", "period of the rigid free wobble", along=("earth_model",), short="wobble"
-    )
-    moment_difference: Value = number("kg m2", "C - A from J2")
-    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H")
-    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A")
+    wobble_by_model: Value = number("d", "period of the rigid free wobble", short="wobble")
+    moment_difference: Value = number("kg m2", "C - A from J2", along=())
+    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H", along=())
+    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A", along=())
 
 
-@part(unless=(no_figure, many_pulls))
+@part(unless=(no_figure, reasons.many_pulls))
 def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     """Three models of the dynamical flattening, each with its precession and free wobble."""
     import xarray as xr
 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
-    precessing = mean_torques.precessing[-1]
-    h = xr.concat(
-        [
-            xr.DataArray(inertia.h_mccullough(body.needed("flattening"))),
-            xr.DataArray(inertia.h_homogeneous(j2)),
-            xr.DataArray(measured_h),
-        ],
-        dim=xr.Variable("earth_model", list(MODELS)),
-    )
-    spin_period = body.needed("spin_period")
-    difference = inertia.moment_difference(j2, body.mass, body.needed("radius"))
+    by_mccullough = inertia.h_mccullough(body.needed("flattening"))
+    models = (by_mccullough, inertia.h_homogeneous(j2), measured_h)
+    h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
+    precessing, radius = mean_torques.precessing[-1], body.needed("radius")
+    difference = inertia.moment_difference(j2, body.mass, radius)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
-        wobble_by_model=free_wobble_period(inertia.ellipticity_from_h(h), spin_period),
+        wobble_by_model=free_wobble_period(
+            inertia.ellipticity_from_h(h), body.needed("spin_period")
+        ),
         moment_difference=difference,
         polar_moment_factor=inertia.polar_moment_factor(j2, measured_h),
-        j2_from_moment_difference=inertia.j2_from_moment_difference(
-            difference, body.mass, body.needed("radius")
-        ),
+        j2_from_moment_difference=inertia.j2_from_moment_difference(difference, body.mass, radius),
     )
 
 
 def is_sphere(body: Body) -> str | None:
     """Leave the wobble of a sphere out."""
-    round_ = not all_of(body.needed("dynamical_flattening") != 0)
-    return "a sphere does not wobble" if round_ else None
+    oblate = all_of(body.needed("dynamical_flattening") != 0)
+    return None if oblate else "a sphere does not wobble"
 
 
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
@@ -348,7 +328,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
     )
 
 
-@part(unless=not_sun_and_moon)
+@part(unless=reasons.not_sun_and_moon)
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
@@ -359,7 +339,7 @@ def seasons(
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
-    another = not_the_iaus_earth(body, perturbers)
+    another = reasons.not_the_iaus_earth(body, perturbers)
     published = 0.0 if another else sum(published_effects().values())
     chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
     general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
@@ -399,7 +379,7 @@ class BesideIAU(Variables):
     )
 
 
-@part(unless=not_the_iaus_earth)
+@part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
     """IAU 2006 precession compared with the computed one, published effects included."""
     from earthspin.sky.iau import precession_rates
@@ -423,7 +403,7 @@ class Standstills(Variables, along=("standstill",)):
     standstill: Labels = labels("day of the extreme declination (TDB)")
 
 
-@part(unless=no_moon)
+@part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Major and minor standstills of the Moon: dates and extreme declinations."""
     from earthspin.sky.standstill import find_standstills
@@ -448,7 +428,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
-    unknown = not_the_iaus_earth(body, perturbers)
+    unknown = reasons.not_the_iaus_earth(body, perturbers)
     if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
         what = "contribution to the rate that the model leaves out; others were not measured"
         return Neglected.cited(LEFT_OUT_OF_RATES[body.name], what)
@@ -459,13 +439,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
             "bound on the contribution to the rate that the model leaves out",
             unknown=f"all other effects, because {unknown}",
         )
-
-    return Neglected(
-        published_effects(),
-        "arcsec/yr",
-        "published contribution to the rate that the model leaves out",
-        next(iter(PUBLISHED_EFFECTS.values())).source,
-    )
+    return reasons.neglected_rates()
 
 
 define_parts(

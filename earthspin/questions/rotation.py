@@ -13,7 +13,7 @@ from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
 from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -37,17 +37,16 @@ from earthspin.motion.rotation import (
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
+    PULLS,
     AxisMotion,
     Pulls,
     figure_of,
     forces_of,
-    pulls,
     start_note,
     switched_on,
 )
 from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.sky import places, sky
-from earthspin.parts.times import Dated, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import AngleError, FloatArray, Numbers
@@ -95,10 +94,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     views, page = "rotation", "rotation"
 
-    span: Span = key(
-        ("2000-01-01T12:00:00", "2000-02-01T12:00:00"),
-        doc="first and last date, TDB; the last is included if the step meets it",
-    )
+    span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
         None,
@@ -187,7 +183,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 @part(unless=nothing_pulls)
 def pulling(
     pulls: Pulls,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
@@ -278,7 +274,7 @@ class Rotor:
 @part
 def rotor(
     body: Body,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     effects: tuple[str, ...],
     start_attitude: FloatArray | None,
     start_omega: FloatArray | None,
@@ -400,7 +396,7 @@ def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -
 def turning(
     motion: Motion,
     rotor: Rotor,
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     body: Body,
     start_attitude: FloatArray | None,
     accuracy: float | None,
@@ -408,15 +404,10 @@ def turning(
     block: Block | None = None,
 ) -> Attitudes:
     """Attitude, spin and angular momentum at every time, with what they may be off by."""
-    if block is None:
-        refuse_what_does_not_fit(
-            epochs, "write them by region with write_series(scene, 'series.zarr') or run --out"
-        )
-        block = Block(0, epochs.size)
-    now = epochs.days(block.first, block.last)
+    now = days_of(epochs, block, by_region("series.zarr"))
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
-    begin = 0.0 if block.first == 0 else float(seconds[0])
+    begin = 0.0 if block is None or block.first == 0 else float(seconds[0])
     rotor.refuse_many_turns(begin, float(seconds[-1]))
     series = _followed(motion, rotor, seconds, begin)
     if accuracy is not None and float(series.error[0, 0].max()) > accuracy:
@@ -506,10 +497,9 @@ def parting(rotor: Rotor) -> Divergence:
 
 
 @part(unless=one_date)
-def divergence(parting: Divergence, rotor: Rotor, epochs: TimeGrid | TimeList) -> Growth:
+def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
     """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
-    refuse_what_does_not_fit(epochs, "choose a longer step or a shorter span")
-    now = epochs.days(0, epochs.size)
+    now = days_of(epochs)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
     return Growth(
@@ -534,7 +524,7 @@ def neglected(
     body: Body,
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
 ) -> Neglected:
     """Sizes at the last date of what the model leaves out; what has none is named."""
     off = _switched_off(body, perturbers, effects)
@@ -576,7 +566,7 @@ define_parts(
     Rotation,
     answer=(turning, rotation_accuracy),
     sections={"divergence": divergence, "neglected": neglected},
-    parts=(places, sky, epochs, pulls, pulling, rotor, motion, parting),
+    parts=(*PULLS, pulling, rotor, motion, parting),
 )
 
 rotation = public_call(Rotation)

@@ -12,7 +12,7 @@ from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.choosing.choice import Choice
 from earthspin.choosing.nutation import NutationNodes
 from earthspin.choosing.promises import Report, refuse_unkept
-from earthspin.dates import Span, Step, TimeGrid, TimeList, datetime64
+from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
@@ -22,7 +22,7 @@ from earthspin.mass.inertia import moment_difference
 from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import Dated, Series, epochs, refuse_what_does_not_fit
+from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.torque.gravity import torque_error, torque_from_declination
 from earthspin.torque.neglected import largest_torque_on_figure
 from earthspin.units import AngleError
@@ -58,17 +58,12 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
 
     views, page = "torque", "theory"
 
-    span: Span = key(
-        ("2000-01-01T12:00:00", "2001-01-01T12:00:00"),
-        doc="first and last date, TDB; the last is included if the step meets it",
-    )
+    span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     equator: Literal["mean", "true"] = key(
         "mean", doc="equator and equinox of date that directions refer to"
     )
-    accuracy: AngleError | None = key(
-        None, doc="largest error of a direction; the cheapest settings that keep it are chosen"
-    )
+    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     needs = ("radius", "j2", "pole")
 
@@ -76,16 +71,13 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         """The true equator needs a model of nutation."""
         super().check()
         if self.equator == "true" and no_iau_model(self.body):
-            raise self.error(
-                "equator",
-                "true",
-                f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'",
-            )
+            why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"
+            raise self.error("equator", "true", why)
 
 
 @part(unless=(on_mean_equator, equator_comes_along))
 def nutation(
-    epochs: TimeGrid | TimeList, chosen_nutation: Choice[NutationNodes | None] | None = None
+    epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:
     """IAU nutation from nodes, for the true equator; None where the mean equator will do."""
     from earthspin.sky.iau import Nutation
@@ -124,7 +116,7 @@ class Torques(Dated, along=("time", "perturber")):
 
 @part
 def torques(
-    epochs: TimeGrid | TimeList,
+    epochs: Epochs,
     sky: Sky,
     body: Body,
     perturbers: tuple[Body, ...],
@@ -137,14 +129,7 @@ def torques(
     """Declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
-    if block is None:
-        refuse_what_does_not_fit(
-            epochs,
-            "write them by region with write_series(scene, 'series.zarr') or run --out",
-            (body, *perturbers),
-        )
-        block = Block(0, epochs.size)
-    now = epochs.days(block.first, block.last)
+    now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     turned = 0.0 if chosen_nutation is None else chosen_nutation.error

@@ -34,14 +34,7 @@ from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean import global_ocean
 from earthspin.interior.rotation import chandler_by_core
 from earthspin.mass.inertia import ellipticity_from_h
-from earthspin.parts.layered import (
-    interior_of,
-    layers_of,
-    no_interior,
-    not_layered,
-    of_another_body,
-    refuse_unknown,
-)
+from earthspin.parts import layered
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
@@ -96,17 +89,17 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
         refuse_break_up(self.body)
-        refuse_unknown(self, self.body)
+        layered.refuse_unknown(self, self.body)
 
 
 def why_rigid(body: Body) -> str | None:
     """Why the ladder stops at the rigid rungs; None if it goes on."""
-    interior = interior_of(body)
+    interior = layered.interior_of(body)
     if interior is None:
-        return f"{no_interior(body)}; set body.interior"
+        return f"{layered.no_interior(body)}; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
-    return None if interior.layers is None else of_another_body(interior.layers, body)
+    return None if interior.layers is None else layered.of_another_body(interior.layers, body)
 
 
 # --- what lies inside ------------------------------------------------------------------------
@@ -156,7 +149,7 @@ def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
     """Inputs of the upper rungs, from the body, its interior and the ocean."""
     import xarray as xr
 
-    interior = interior_of(body)
+    interior = layered.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
     numbers = xr.broadcast(*(xr.DataArray(body.needed(name)) for name in names))
@@ -286,10 +279,10 @@ class InteriorNumbers(
     love: Labels = labels(default=["k2", "h2", "l2", "k2_load", "h2_load"])
 
 
-@part(unless=not_layered)
+@part(unless=layered.not_layered)
 def interior_response(body: Body) -> InteriorNumbers:
     """Love numbers and moments of the layered interior, by integration."""
-    layers = layers_of(body)
+    layers = layered.layers_of(body)
     love = elastic(layers)
     numbers = (love.k, love.h, love.l, love.k_load, love.h_load)
     return InteriorNumbers(
@@ -363,11 +356,11 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
 
 def no_inner_core(body: Body) -> str | None:
     """Leave out what the inner core does where none is known."""
-    if not_layered(body):
-        return not_layered(body)
+    if layered.not_layered(body):
+        return layered.not_layered(body)
     if body.labelled:
         return "it is computed for one body at a time"
-    return None if layers_of(body).inner_core_radius else "it has no inner core"
+    return None if layered.layers_of(body).inner_core_radius else "it has no inner core"
 
 
 class InnerCore(
@@ -387,7 +380,7 @@ class InnerCore(
 def inner_core(body: Body) -> InnerCore:
     """What a solid inner core does to the free wobble: the same system with all of its parts."""
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
-    turns = chandler_by_core(layers_of(body), e, abs(float(body.spin_rate)))
+    turns = chandler_by_core(layered.layers_of(body), e, abs(float(body.spin_rate)))
     day = abs(body.number("spin_period"))
     return InnerCore(
         chandler_by_core=[day * turn for turn in turns.values()], core_model=list(turns)

@@ -16,13 +16,14 @@ from numpy.random import Generator
 
 import earthspin
 from earthspin import Body
+from earthspin.choosing.averages import average_choices
 from earthspin.choosing.choice import models
 from earthspin.choosing.nutation import nutation_choices
 from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
-from earthspin.parts.choices import averages_on_offer, chosen_average, windows_on_offer
+from earthspin.parts.choices import chosen_average, windows_on_offer
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
 from earthspin.parts.sky import PerturbedBody, Sky, places, sky, stretch
 from earthspin.parts.times import epochs
@@ -188,7 +189,7 @@ def rate_outcome(rng: Generator) -> Outcome:
     rates = mean_rates(mean_torques(window_means(fewer, pulling, choice)), body, pulling)
     report = rate_accuracy(rates, asked).dataset()
     cost = cheapest = int(report.evaluations)
-    menu = averages_on_offer(body, pulling, within)
+    menu = average_choices(body, pulling, within.first, within.last)
     for one in sorted(menu, key=lambda c: c.evaluations):
         if one.evaluations < cheapest and off(one.settings.cycles, one.settings.step) <= asked:
             cheapest = one.evaluations
