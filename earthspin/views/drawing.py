@@ -223,10 +223,14 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
         ax.plot(x, value, color=colour, label=label, **how)
 
 
-def plot_both_angles(ax: Axes, time: Any, dpsi_sineps: Any, deps: Any) -> None:
-    """Series of a celestial pole offset in longitude and in obliquity."""
+def plot_both_angles(
+    ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
+) -> None:
+    """Series of a celestial pole offset in longitude and in obliquity, as one of several panels."""
     ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
     ax.plot(time, deps, color=RED, lw=0.6, label="deps")
+    ax.set_title(title, loc="left", fontsize=9)
+    ax.set_ylabel(label)
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:

@@ -67,7 +67,7 @@ def shares(tree: Result) -> Table:
     answer = _whole(tree)
     rows, headers = [], ["number"]
     note = "By straight lines in all inputs together; the last column is what they leave."
-    if _chiefs(answer) and _enough(answer):
+    if _numbers(answer) and _enough(answer):
         numbers, share, rest = _shares(answer)
         seen = np.abs(share).max(axis=0) >= SMALL
         rows = [
@@ -96,7 +96,7 @@ def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
 def lead(tree: Result) -> str:
     """The chief number in a sentence, and what most of its spread comes from."""
     answer = _whole(tree)
-    if not _chiefs(answer):
+    if not _numbers(answer):
         return _alike(answer)
     number = _chief(answer)
     low, middle, high = quantiles(answer)[number.name].sel(number.labels).values
@@ -164,7 +164,7 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
         If no number differs among the members, or they are too few.
     """
     answer = _whole(result)
-    if not _chiefs(answer):
+    if not _numbers(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
     rows, share, _ = _shares(answer)
     rows, share, inputs = rows[:MOST_ROWS], share[:MOST_ROWS], [*inputs_of(answer)]
@@ -189,13 +189,13 @@ FIGURES = [
         "How the members spread",
         _caption_of_spread,
         plot_spread,
-        applies=lambda tree: bool(_chiefs(_whole(tree))),
+        applies=lambda tree: bool(_numbers(_whole(tree))),
     ),
     PageFigure(
         "Where the spread comes from",
         _caption_of_shares,
         plot_shares,
-        applies=lambda tree: bool(_chiefs(_whole(tree))) and _enough(_whole(tree)),
+        applies=lambda tree: bool(_numbers(_whole(tree))) and _enough(_whole(tree)),
     ),
 ]
 

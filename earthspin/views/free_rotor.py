@@ -113,10 +113,6 @@ FIGURES = [
 # --- solids --------------------------------------------------------------------------------------
 
 
-#: Attitude of a body in which a picture is seen.
-AT_REST = [[1.0, 0.0, 0.0, 0.0]]
-
-
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
     """Inertia ellipsoid and momentum ellipsoid, meeting in the polhode (I.5.1 to I.5.5)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
@@ -137,7 +133,6 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
         ],
         radius=float(1.15 * max(inertia.max(), momentum.max())),
         times=answer.time.values,
-        attitude=AT_REST * answer.time.size,
     )
 
 
@@ -162,7 +157,6 @@ def polhode_with_sphere(tree: Result) -> Solid:
         ],
         radius=float(1.15 * max(inertia.max(), mean)),
         times=answer.time.values,
-        attitude=AT_REST * answer.time.size,
     )
 
 

@@ -242,12 +242,11 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
     figure, rows = drawing.stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
     for ax, (model, part) in zip(rows, table.along(series, "model"), strict=True):
-        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps_by_model, part.deps_by_model)
+        offset = part.dpsi_sineps_by_model, part.deps_by_model
         rms = sizes.residual_rms.sel(model=model, direction=["dpsi_sineps", "deps"]).values
         # one title of two lines: side by side they would meet on a narrow figure
         words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
-        ax.set_title(words, loc="left", fontsize=9)
-        ax.set_ylabel("residual (mas)")
+        drawing.plot_both_angles(ax, part.time, *offset, words, "residual (mas)")
     rows[-1].set_xlabel("time (TDB)")
     rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
     return figure

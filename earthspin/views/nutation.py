@@ -157,19 +157,17 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     near = np.abs(frequency) < SHOWN
     for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
-        of = data.transfer_real.sel(rung=rung).values
-        shown = np.flatnonzero(near & (np.abs(of - 1) < BEYOND))
+        transfer = data.transfer_real.sel(rung=rung).values
+        shown = np.flatnonzero(near & (np.abs(transfer - 1) < BEYOND))
         # no line from pole to pole, nor through rest in space
-        steps = np.diff(shown) > 1
-        steps |= np.diff(np.sign(frequency[shown])) > 0
+        steps = (np.diff(shown) > 1) | (np.diff(np.sign(frequency[shown])) > 0)
         for number, piece in enumerate(np.split(shown, np.flatnonzero(steps) + 1)):
             words = str(rung) if number == 0 else None
-            ax.plot(frequency[piece], of[piece], color=colour, lw=width, label=words)
-    rigid = main.predicted_in_phase.sel(rung="rigid")
+            ax.plot(frequency[piece], transfer[piece], color=colour, lw=width, label=words)
+    ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
     at = 365.25 / main.period.values
     inside = np.abs(at) < SHOWN
-    ratio = (main.iau_in_phase / rigid).values[inside]
-    ax.plot(at[inside], ratio, "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
+    ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(
         ylim=(0.85, 1.45),
@@ -195,11 +193,10 @@ def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     figure, rows = drawing.stacked(len(shown), 1.5 * len(shown), figure)
     for ax, rung in zip(rows, shown, strict=True):
         part, size = series.sel(rung=rung), sizes.sel(rung=rung)
-        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps, part.deps)
-        ax.set_title(rung, loc="left", fontsize=9)
+        offset = part.dpsi_sineps, part.deps
+        drawing.plot_both_angles(ax, part.time, *offset, rung, "left (mas)")
         words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
         ax.set_title(f"rms {words} mas", loc="right", fontsize=8)
-        ax.set_ylabel("left (mas)")
     rows[-1].set_xlabel(f"time (TDB), {date(series.time[0], 'Y')} to {date(series.time[-1], 'Y')}")
     rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
     return figure

@@ -36,7 +36,8 @@ class Solid:
     times : sequence of float
         In `unit`; one entry for a still picture.
     attitude : sequence of quaternions
-        w, x, y, z, body to space, one a time; carries what has the frame "body".
+        w, x, y, z, body to space, one a time or one for all times; carries what has the frame
+        "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
     """
@@ -57,7 +58,9 @@ class Solid:
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
         content = {name: value for name, value in vars(self).items() if name not in _WORDS}
-        content |= {name: np.asarray(content[name], float) for name in ("times", "attitude")}
+        times = np.asarray(self.times, float)
+        attitude = np.broadcast_to(np.asarray(self.attitude, float), (times.size, 4))
+        content |= {"times": times, "attitude": attitude}
         exact = json.dumps(content, default=lambda points: points.tolist())
         rounded = json.loads(exact, parse_float=lambda digits: float(f"{float(digits):.5g}"))
         return json.dumps(rounded, separators=(",", ":")).replace("<", "\\u003c")
