@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
-from typing import Any, TextIO
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from typing import Any, TextIO, TypeVar
 
 import numpy as np
 import xarray as xr
+
+T = TypeVar("T")
 
 #: Numbers that become text at once.
 AT_ONCE = 1 << 16
@@ -24,76 +27,59 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
     tree : DataTree
     stream : text file
     """
-    _write_node(tree.to_dataset(), stream)
+    _write_node(tree, stream)
     sections = {name: node for name, node in tree.children.items() if name != "plan"}
     if sections:
-        stream.write(',\n"sections": {')
-        for number, (name, node) in enumerate(sections.items()):
-            stream.write(f"{',' if number else ''}\n{json.dumps(name)}: ")
-            _write_node(node.to_dataset(), stream)
-            stream.write("}")
-        stream.write("\n}")
+        _write_members("sections", sections, _write_node, stream)
     stream.write("}\n")
 
 
-def _write_node(node: xr.Dataset, stream: TextIO) -> None:
-    """Write a Dataset, its last brace left open."""
-    stream.write('{"attrs": ')
-    stream.write(_text(dict(node.attrs)))
-    stream.write(f',\n"dims": {_text({str(dim): size for dim, size in node.sizes.items()})}')
-    for what, variables in (("coords", node.coords), ("data_vars", node.data_vars)):
-        stream.write(f',\n"{what}": {{')
-        for number, (name, array) in enumerate(variables.items()):
-            head = {"dims": list(array.dims), "attrs": array.attrs}
-            stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
-            stream.write(f'{_text(head)[:-1]}, "data": ')
-            _write_values(array.values, stream)
-            stream.write("}")
-        stream.write("\n}")
+def _write_members(
+    title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
+) -> None:
+    """Write members by name; `write` leaves the last brace of each open."""
+    stream.write(f',\n"{title}": {{')
+    for number, (name, member) in enumerate(members.items()):
+        stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
+        write(member, stream)
+        stream.write("}")
+    stream.write("\n}")
 
 
-def _write_values(values: np.ndarray[Any, Any], stream: TextIO) -> None:
+def _write_node(node: xr.DataTree, stream: TextIO) -> None:
+    data = node.to_dataset()
+    stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
+    _write_members("coords", data.coords, _write_array, stream)
+    _write_members("data_vars", data.data_vars, _write_array, stream)
+
+
+def _write_array(array: xr.DataArray, stream: TextIO) -> None:
+    values = array.values
+    stream.write(f'{_text({"dims": array.dims, "attrs": array.attrs})[:-1]}, "data": ')
     if values.ndim == 0:
-        stream.write(_text(_plain(values)))
+        stream.write(_text(values))
         return
     rows = max(1, AT_ONCE * values.shape[0] // max(1, values.size))
     stream.write("[")
     for first in range(0, values.shape[0], rows):
-        listed = _text(_plain(values[first : first + rows]))
-        stream.write(("," if first else "") + listed[1:-1])
+        stream.write(("," if first else "") + _text(values[first : first + rows])[1:-1])
     stream.write("]")
 
 
-def _plain(values: np.ndarray[Any, Any]) -> Any:
-    """Numbers, words and dates as JSON holds them."""
-    if values.dtype.kind == "M":
-        seconds = values.astype("M8[us]").ravel().tolist()
-        told = np.array([str(t) if t is None else t.isoformat() for t in seconds], dtype=object)
-        return told.reshape(values.shape).tolist()
-    if values.dtype.kind == "f" and not np.isfinite(values).all():
-        told = values.astype(object)
-        told[~np.isfinite(values)] = [str(float(v)) for v in values[~np.isfinite(values)]]
-        return told.tolist()
-    return values.tolist()
-
-
 def _text(value: Any) -> str:
-    return json.dumps(_finite(value) if isinstance(value, Mapping) else value, default=_listed)
+    return json.dumps(_plain(value), default=str)
 
 
-def _finite(value: Any) -> Any:
-    """Attributes whose numbers JSON has."""
+def _plain(value: Any) -> Any:
+    """Numbers, words and dates as JSON holds them."""
     if isinstance(value, Mapping):
-        return {str(key): _finite(inner) for key, inner in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray, np.generic)):
-        return _finite_list(value)
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        if value.dtype.kind == "f" and np.isfinite(value).all():
+            return value.tolist()
+        value = value.astype("M8[us]").tolist() if value.dtype.kind == "M" else value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, datetime):
+        return value.isoformat()
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _finite_list(value: Any) -> Any:
-    listed = value.tolist() if hasattr(value, "tolist") else list(value)
-    return [_finite(one) for one in listed] if isinstance(listed, list) else _finite(listed)
-
-
-def _listed(value: Any) -> Any:
-    return value.tolist() if hasattr(value, "tolist") else str(value)

@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
-from earthspin.views.drawing import BLUE, GREY, RED, PageFigure, axes
+from earthspin.views.drawing import BLUE, GREY, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.table import Column, Table, along, beside_observed, table_along
 
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
 
-
-def tables(tree: Result) -> list[Table]:
+def states(tree: Result) -> Table:
     """Each state, with its obliquity."""
     answer, left_out = answer_of(tree), needed(tree, "neglected")
-    first = answer.state[0]
 
-    def with_left_out(name: str) -> Callable[[xr.Dataset], str]:
-        # sizes of what is left out are those in the upright state, the first
-        return lambda row: beside_observed(
-            row[name], row[f"{name}_error"], left_out if row.state == first else None
-        )
+    def with_left_out(name: str) -> Column:
+        def text(row: xr.Dataset) -> str:
+            # sizes of what is left out are those in the upright state, the first
+            known = left_out if row.state == answer.state[0] else None
+            return beside_observed(row[name], row[f"{name}_error"], known)
+
+        return Column(name, text)
 
     note = (
         "Obliquity is counted from the normal of the orbit, tilt from the pole that this normal "
@@ -33,12 +28,12 @@ def tables(tree: Result) -> list[Table]:
         "the body's numbers and the sizes of what the model leaves out; where these are not known, "
         "the table says numbers only."
     )
-    columns = (
-        Column("obliquity", with_left_out("obliquity")),
-        Column("tilt", with_left_out("tilt")),
-        Column("stable", lambda row: "stable" if row.stable else "unstable", "beside it"),
-    )
-    return [table_along(answer, "state", "Cassini states", columns, note)]
+    stable = Column("stable", lambda row: "stable" if row.stable else "unstable", "beside it")
+    columns = with_left_out("obliquity"), with_left_out("tilt"), stable
+    return table_along(answer, "state", "Cassini states", columns, note)
+
+
+TABLES = [("", states)]
 
 
 def _caption(tree: Result) -> str:
@@ -65,8 +60,9 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
     inclination = np.radians(answer.tilt.attrs["inclination"])
     named = (0.0, "--", "normal of the orbit ", "right"), (inclination, ":", " its pole", "left")
     for angle, line, words, side in named:
-        ax.plot([0, 1.1 * np.sin(angle)], [0, 1.1 * np.cos(angle)], line, color=GREY, lw=1.2)
-        ax.annotate(words, (1.1 * np.sin(angle), 1.1 * np.cos(angle)), ha=side, color=GREY)
+        x, y = 1.1 * np.sin(angle), 1.1 * np.cos(angle)
+        ax.plot([0, x], [0, y], line, color=GREY, lw=1.2)
+        ax.annotate(words, (x, y), ha=side, color=GREY)
     turn = np.linspace(0, 2 * np.pi, 200)
     ax.plot(np.sin(turn), np.cos(turn), color=GREY, lw=0.5)
     for state, row in along(answer, "state"):

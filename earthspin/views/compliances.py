@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from earthspin.views.drawing import BLUE, GREY, RED, PageFigure, axes
-from earthspin.views.reading import Result, answer_of, needed, of_sections, section
-from earthspin.views.table import (
-    Column,
-    Table,
-    beside,
-    beside_published,
-    table_along,
-    words_of,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from earthspin.views.drawing import BLUE, GREY, RED, Axes, PageFigure, axes
+from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.table import Column, Table, beside, beside_published, table_along
 
 #: How a number is written in a figure; others as they are named.
 SYMBOLS = {
@@ -34,17 +22,10 @@ SYMBOLS = {
 LINEAR = 1e-10
 
 
-def tables(tree: Result) -> list[Table]:
-    """The numbers, with published ones where there are, and the free modes."""
-    return [numbers(tree), *of_sections(tree, {"modes": modes})]
-
-
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
-    answer = answer_of(tree)
-    published, sources = beside_published(
-        section(tree, "published"), "number", "number_value", "published_value", "published_source"
-    )
+    answer, known = answer_of(tree), section(tree, "published")
+    published, sources = beside_published(known, "number", "number_value")
     note = (
         "Products of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
         "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of mantle, fluid "
@@ -58,13 +39,13 @@ def numbers(tree: Result) -> Table:
 
 def modes(tree: Result) -> Table:
     """Free modes of the elastic body."""
-    columns = (
-        Column("free_mode", words_of("free_mode"), "mode"),
-        "compliance_mode_period:.1f",
-    )
+    columns = Column("free_mode", head="mode"), "compliance_mode_period:.1f"
     note = "Nutations have their periods in space, negative if retrograde; wobbles in the body."
     title = "Free modes of the elastic body"
     return table_along(needed(tree, "modes"), "free_mode", title, columns, note, first="")
+
+
+TABLES = [("", numbers), ("modes", modes)]
 
 
 def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -86,8 +67,8 @@ def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axvline(0, color=GREY, lw=0.8)
     ax.plot(theirs, place, "o", mfc="none", mec=RED, ms=9, label="published")
     ax.plot(ours, place, "o", color=BLUE, ms=4, label="from the layers")
-    for at, pair in zip(place, zip(ours, theirs, strict=True), strict=True):
-        _, over = beside(*pair)
+    for at, value, published in zip(place, ours, theirs, strict=True):
+        _, over = beside(value, published)
         ax.annotate(
             f"{over} %".replace("-", "\N{MINUS SIGN}"), (1.0, at),
             xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",

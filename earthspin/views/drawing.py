@@ -13,15 +13,20 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+import xarray as xr
 
 from earthspin.views.reading import Result, section
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    import matplotlib.axes
+    import matplotlib.figure
+
+#: Types for annotations, which do not import the library.
+Axes: TypeAlias = "matplotlib.axes.Axes"
+Figure: TypeAlias = "matplotlib.figure.Figure"
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008) and in print.
 BLUE, RED, GREEN, PINK, ORANGE, SKY = (
@@ -122,10 +127,10 @@ class Drawing:
             self.figure.set_size_inches(width, height)
 
 
+@style()
 def _saved(figure: Figure) -> str:
     text = io.StringIO()
-    with style():
-        figure.savefig(text, format="svg", metadata={"Date": None})
+    figure.savefig(text, format="svg", metadata={"Date": None})
     svg = text.getvalue()
     # The metadata name the drawing library, and addresses that no page needs.
     return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
@@ -169,22 +174,20 @@ class PageFigure:
         there = not self.section or section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
+    @style()
     def drawn(self, tree: Result) -> Drawing:
         """Figure of an answer, ready for the page."""
         caption = self.caption(tree) if callable(self.caption) else self.caption
-        with style():
-            shown = self.plot(tree)
-            phone = self.plot(tree, ax=axes(None, NARROW, self.phone)) if self.phone else None
-        narrow = None if phone is None else figure_of(phone)
-        return Drawing(self.title, caption, figure_of(shown), self.square, narrow)
+        figure, phone = figure_of(self.plot(tree)), None
+        if self.phone:
+            phone = figure_of(self.plot(tree, ax=axes(None, NARROW, self.phone)))
+        return Drawing(self.title, caption, figure, self.square, phone)
 
 
 def figure_of(shown: Axes | Figure) -> Figure:
     """Whole figure to which axes belong."""
-    from matplotlib.figure import Figure
-
-    figure = shown if isinstance(shown, Figure) else shown.get_figure(root=True)
-    assert isinstance(figure, Figure)
+    figure = shown.get_figure(root=True)
+    assert figure is not None
     return figure
 
 
@@ -213,10 +216,21 @@ def band(
     ax.plot(x, value, color=colour, **how)
 
 
-def plot_both_angles(ax: Axes, time: Any, dpsi_sineps: Any, deps: Any) -> None:
-    """Series of a celestial pole offset in longitude and in obliquity."""
+def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
+    """Draw a line for each label of the last dimension, in the colours of the cycle."""
+    labels = values[values.dims[-1]].values
+    for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
+        ax.plot(x, value, color=colour, label=label, **how)
+
+
+def plot_both_angles(
+    ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
+) -> None:
+    """Series of a celestial pole offset in longitude and in obliquity, as one of several panels."""
     ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
     ax.plot(time, deps, color=RED, lw=0.6, label="deps")
+    ax.set_title(title, loc="left", fontsize=9)
+    ax.set_ylabel(label)
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:

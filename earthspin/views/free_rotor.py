@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from earthspin.numerics.quaternion import multiply, rotate
-from earthspin.views import solids
-from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, PageFigure, axes, legend_above
+from earthspin.rotor.axisymmetric import SymmetricRotor
+from earthspin.units import FloatArray
+from earthspin.views import drawing, solids
+from earthspin.views.drawing import BLUE, GREEN, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.solids import BLACK, GREY, FloatArray, Solid
-from earthspin.views.table import Table, along, listed, quantities
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from earthspin.rotor.axisymmetric import SymmetricRotor
+from earthspin.views.solids import BLACK, GREY, Solid
+from earthspin.views.table import Table, listed, quantities
 
 
-def tables(tree: Result) -> list[Table]:
+def constants(tree: Result) -> Table:
     """Constants of a free rotor's motion."""
-    answer, poinsot = answer_of(tree), section(tree, "poinsot")
-    momentum = float(np.linalg.norm(answer.angular_momentum_body.isel(time=0)))
+    answer, poinsot = answer_of(tree).isel(time=0), section(tree, "poinsot")
+    momentum = float(np.linalg.norm(answer.angular_momentum_body))
     rows = [
-        *quantities(answer.isel(time=0), "energy:.10g"),
+        *quantities(answer, "energy:.10g"),
         ("angular momentum, kg m2/s", f"{momentum:.10g}"),
     ]
     if poinsot is not None:
@@ -32,20 +27,20 @@ def tables(tree: Result) -> list[Table]:
         advance = "none (the polhode has no period)"
         if "herpolhode_advance" in poinsot:
             advance = f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
-        rows += quantities(poinsot, "polhode_period:.10g", "invariable_plane_distance:.10g")
         rows += [
+            *quantities(poinsot, "polhode_period:.10g", "invariable_plane_distance:.10g"),
             ("radii of the herpolhode, rad/s", f"{inner:.8g} and {outer:.8g}"),
             ("advance of the herpolhode per period, deg", advance),
             ("growth rate about x, y, z, 1/s", listed(poinsot.growth_rate.values)),
         ]
-    table = Table(
-        "Free rotor",
-        ("quantity", "value"),
-        rows,
+    note = (
         "All values are constants of the motion. The growth rate is that of a small tilt away from "
-        "each axis; it is 0 if rotation about the axis is stable.",
+        "each axis; it is 0 if rotation about the axis is stable."
     )
-    return [table]
+    return Table("Free rotor", ("quantity", "value"), rows, note)
+
+
+TABLES = [("", constants)]
 
 
 # --- figures -------------------------------------------------------------------------------------
@@ -76,10 +71,9 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 8, 3.4)
     answer = answer_of(result)
-    for colour, (component, of) in zip(CYCLE, along(answer, "component"), strict=False):
-        ax.plot(answer.time, of.omega_body, color=colour, lw=1.2, label=component)
+    drawing.lines(ax, answer.time, answer.omega_body, lw=1.2)
     ax.set(xlabel="time (s)", ylabel="angular velocity (rad/s)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -119,10 +113,6 @@ FIGURES = [
 # --- solids --------------------------------------------------------------------------------------
 
 
-#: Attitude of a body in which a picture is seen.
-AT_REST = [[1.0, 0.0, 0.0, 0.0]]
-
-
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
     """Inertia ellipsoid and momentum ellipsoid, meeting in the polhode (I.5.1 to I.5.5)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
@@ -143,7 +133,6 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
         ],
         radius=float(1.15 * max(inertia.max(), momentum.max())),
         times=answer.time.values,
-        attitude=AT_REST * answer.time.size,
     )
 
 
@@ -168,7 +157,6 @@ def polhode_with_sphere(tree: Result) -> Solid:
         ],
         radius=float(1.15 * max(inertia.max(), mean)),
         times=answer.time.values,
-        attitude=AT_REST * answer.time.size,
     )
 
 

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views import drawing, table
-from earthspin.views.drawing import PageFigure, axes, note
-from earthspin.views.reading import Result, answer_of, needed, of_sections, section
+from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.table import Column, Table, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
 ADDITIONS_SHOWN = 6
@@ -35,18 +28,6 @@ MODELS = {
 # --- tables --------------------------------------------------------------------------------------
 
 
-def tables(tree: Result) -> list[Table]:
-    """The budget, and a table for each section that is there."""
-    makers = {
-        "residual_sizes": residuals,
-        "nutation": nutation,
-        "core": core,
-        "angles": angles,
-        "inferred_flattening": flattening,
-    }
-    return [budget(tree), *of_sections(tree, makers)]
-
-
 def budget(tree: Result) -> Table:
     """Rates by effect, their sum, and the difference from the IAU."""
     rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
@@ -59,32 +40,31 @@ def budget(tree: Result) -> Table:
         Column("psi_rate_published", published, "published"),
         Column("omega_rate", "+.3f", "omega_A, mas/cy"),
     )
-    effects = table_along(rates, "effect", "Rates at J2000.0, effect by effect", columns)
     total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
     closure = f"{float(rates.closure):+.3f}", "", f"{float(rates.omega_closure):+.3f}"
-    return replace(
-        effects,
-        rows=[
-            *effects.rows,
-            ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
-            ("closure (sum + non-linear term - IAU)", *closure),
-        ],
-        note="The contribution of each effect is measured by switching it off; the first order is "
+    more = [
+        ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
+        ("closure (sum + non-linear term - IAU)", *closure),
+    ]
+    note = (
+        "The contribution of each effect is measured by switching it off; the first order is "
         "what remains with all of them off. Published values are from Capitaine, Wallace & "
         "Chapront 2003, table 3; in the row of the sum, from IAU 2006. The closure is the computed "
         "sum plus the published non-linear term minus the IAU rate. H is fixed, not fitted; it "
         "comes from observed precession, so the closure tests consistency, not the theory. The "
         "same analysis of the IAU's own pole differs from its published rate by "
-        f"{float(rates.psi_rate_analysis_error):.2f} mas/cy.",
+        f"{float(rates.psi_rate_analysis_error):.2f} mas/cy."
     )
+    title = "Rates at J2000.0, effect by effect"
+    return table_along(rates, "effect", title, columns, note, more=more)
 
 
 def residuals(tree: Result) -> Table:
     """Size of the residuals in time, model by model."""
     series = section(tree, "residuals_by_model")
-    dates = (
-        "" if series is None else f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
-    )
+    dates = ""
+    if series is not None:
+        dates = f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -108,6 +88,12 @@ def nutation(tree: Result) -> Table:
     def neighbour(row: xr.Dataset) -> str:
         return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
 
+    def residual(row: xr.Dataset) -> str:
+        return f"{np.hypot(float(row.left_in_phase), float(row.left_out_of_phase)):.1f}"
+
+    terms = needed(tree, "nutation")
+    pairs = [(term, row.neighbour.item()) for term, row in table.along(terms, "term")]
+    neighbours = "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
     columns = (
         "period:.2f",
         Column("rigid_in_phase", ".3f", "rigid"),
@@ -116,7 +102,7 @@ def nutation(tree: Result) -> Table:
         Column("neighbour_in_phase", neighbour, "neighbour"),
         Column("ratio_in_phase", ".5f", "ratio"),
         Column("ratio_out_of_phase", "+.5f", "ratio, out"),
-        Column("", _size_left, "residual, uas"),
+        Column("", residual, "residual, uas"),
     )
     note = (
         "Circular amplitudes are in mas, and in phase unless marked 'out' (out of phase); a "
@@ -124,35 +110,21 @@ def nutation(tree: Result) -> Table:
         "'IAU' that of IAU 2000A, 'ratio' the second divided by the first, and 'residual' the "
         "part that the fitted resonance formula does not explain. Where 150 years are too short to "
         "separate a term from a neighbour, both amplitudes include the neighbour; the column "
-        "'neighbour' gives its share in the amplitude of IAU 2000A: "
-        f"{_neighbours(tree)}. The prograde annual term is not fitted, because IAU 2000A "
-        "includes an atmospheric tide of 0.11 mas there."
+        f"'neighbour' gives its share in the amplitude of IAU 2000A: {neighbours}. The prograde "
+        "annual term is not fitted, because IAU 2000A includes an atmospheric tide of 0.11 mas "
+        "there."
     )
-    terms, title = needed(tree, "nutation"), "The largest nutations"
-    return table_along(terms, "term", title, columns, note, first="l l' F D node")
-
-
-def _size_left(row: xr.Dataset) -> str:
-    return f"{np.hypot(float(row.left_in_phase), float(row.left_out_of_phase)):.1f}"
-
-
-def _neighbours(tree: Result) -> str:
-    """Terms that have a neighbour, each with it."""
-    terms = table.along(needed(tree, "nutation"), "term")
-    pairs = [(term, str(row.neighbour.values)) for term, row in terms]
-    return "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
+    title, first = "The largest nutations", "l l' F D node"
+    return table_along(terms, "term", title, columns, note, first=first)
 
 
 def core(tree: Result) -> Table:
     """The free core nutation."""
     fit = needed(tree, "core")
+    quality = float(fit.core_nutation_quality), CORE_NUTATION_QUALITY.value
     rows = [
         ("period in space, d", f"{float(fit.core_nutation_period):.2f}", f"{CORE_NUTATION.value}"),
-        (
-            "quality factor",
-            f"{float(fit.core_nutation_quality):,.0f}",
-            f"{CORE_NUTATION_QUALITY.value:,.0f}",
-        ),
+        ("quality factor", *(f"{value:,.0f}" for value in quality)),
     ]
     for _, row in table.along(fit.isel(added_to=slice(ADDITIONS_SHOWN)), "added_to"):
         words = f"added to a response at {float(row.added_period):.2f} d, uas"
@@ -179,19 +151,18 @@ def _both_phases(row: xr.Dataset, name: str) -> str:
 
 def angles(tree: Result) -> Table:
     """Polynomials of the angles of precession."""
-    return Table(
-        "Angles of precession",
-        ("angle", "constant", "t", "t2", "t3"),
-        [
-            (f"{angle}, {whose}", *(f"{of[name].values[degree]:.6f}" for degree in range(4)))
-            for angle, of in table.along(needed(tree, "angles"), "angle")
-            for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
-        ],
+    rows = [
+        (f"{angle}, {whose}", *(f"{coefficient:.6f}" for coefficient in row[name].values[:4]))
+        for angle, row in table.along(needed(tree, "angles"), "angle")
+        for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
+    ]
+    note = (
         "Coefficients are in arcsec, with t in Julian centuries from J2000.0, fitted over the "
         "analysed span. eps_A, chi_A and p_A need the ecliptic of date, which torques cannot give; "
         "it is taken from IAU 2006. The rows marked IAU are the angles of IAU 2006, fitted in the "
-        "same way.",
+        "same way."
     )
+    return Table("Angles of precession", ("angle", "constant", "t", "t2", "t3"), rows, note)
 
 
 def flattening(tree: Result) -> Table:
@@ -208,6 +179,14 @@ def flattening(tree: Result) -> Table:
     )
     origins, title = needed(tree, "inferred_flattening"), "H and C from the rate of precession"
     return table_along(origins, "origin", title, columns, note)
+
+
+TABLES = [
+    ("", budget),
+    ("residual_sizes", residuals),
+    *[("nutation", nutation), ("core", core), ("angles", angles)],
+    ("inferred_flattening", flattening),
+]
 
 
 # --- figures -------------------------------------------------------------------------------------
@@ -227,22 +206,22 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 7.2, 3.4)
     answer = answer_of(result)
-    effects = [e for e in answer.effect.values if e != "first-order"]
-    of, place = answer.sel(effect=effects), np.arange(len(effects))
+    answer = answer.sel(effect=answer.effect != "first-order")
+    place = np.arange(answer.effect.size)
     for by, name, colour, marker, words in (
         (0.14, "psi_rate", drawing.BLUE, "o", "measured by switching"),
         (-0.14, "psi_rate_published", drawing.ORANGE, "D", "published"),
     ):
-        sizes = of[name].values * table.MAS_PER_CENTURY
+        sizes = answer[name].values * table.MAS_PER_CENTURY
         ax.hlines(place + by, 0, sizes, color=colour, lw=0.8, alpha=0.6)
         ax.plot(sizes, place + by, marker, color=colour, ms=5, label=words)
     closure = float(answer.closure) * table.MAS_PER_CENTURY
     ax.axvline(0, color="0.4", lw=0.8, zorder=0)
     ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
-    ax.set_yticks(place, effects)
+    ax.set_yticks(place, answer.effect.values)
     ax.invert_yaxis()
     ax.set_xscale("symlog", linthresh=LINEAR)
-    reach = 2 * float(abs(of[["psi_rate", "psi_rate_published"]]).to_array().max())
+    reach = 2 * float(abs(answer[["psi_rate", "psi_rate_published"]]).to_array().max())
     ax.set_xlim(-reach * table.MAS_PER_CENTURY, reach * table.MAS_PER_CENTURY)
     ax.set_xlabel("contribution to the rate of psi_A (mas per century)")
     drawing.legend_above(ax)
@@ -263,12 +242,11 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
     figure, rows = drawing.stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
     for ax, (model, part) in zip(rows, table.along(series, "model"), strict=True):
-        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps_by_model, part.deps_by_model)
+        offset = part.dpsi_sineps_by_model, part.deps_by_model
         rms = sizes.residual_rms.sel(model=model, direction=["dpsi_sineps", "deps"]).values
         # one title of two lines: side by side they would meet on a narrow figure
         words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
-        ax.set_title(words, loc="left", fontsize=9)
-        ax.set_ylabel("residual (mas)")
+        drawing.plot_both_angles(ax, part.time, *offset, words, "residual (mas)")
     rows[-1].set_xlabel("time (TDB)")
     rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
     return figure
@@ -290,14 +268,9 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     words = f"free core nutation\n{period:.1f} d"
     note(ax, words, (365.25 / period, 1.25), (8, 0), ha="left", color="0.4")
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
-    ax.scatter(
-        terms.frequency,
-        terms.ratio_in_phase,
-        s=10 + 25 * np.log10(1 + np.abs(terms.rigid_in_phase.values)),
-        color=drawing.BLUE,
-        label="IAU 2000A / rigid",
-        zorder=3,
-    )
+    size = 10 + 25 * np.log10(1 + abs(terms.rigid_in_phase.values))
+    words = "IAU 2000A / rigid"
+    ax.scatter(terms.frequency, terms.ratio_in_phase, size, drawing.BLUE, label=words, zorder=3)
     words, fitted = "fitted response", terms.transfer_in_phase
     ax.plot(terms.frequency, fitted, "x", color=drawing.RED, ms=5, label=words, zorder=4)
     ax.set_xscale("symlog", linthresh=0.1)

@@ -2,48 +2,40 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
+import xarray as xr
 
 from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
+from earthspin.units import FloatArray
 from earthspin.views import drawing
-from earthspin.views.drawing import PageFigure, axes
+from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.stars import YEARS, Label, on_the_chart, plot_path, year_words
+from earthspin.views.stars import YEARS, on_the_chart, plot_path, year_labels
 from earthspin.views.table import Column, Table, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-FloatArray = NDArray[np.float64]
 
 #: Rows of the table, about.
 ROWS = 11
 
 
-def tables(tree: Result) -> list[Table]:
+def epochs(tree: Result) -> Table:
     """Obliquity, eccentricity, climatic precession and period at a dozen epochs."""
     answer = in_order(answer_of(tree))
     shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
-
-    def period(row: xr.Dataset) -> str:
-        return f"{float(row.precession_period.sel(perturber='total')):.0f}"
-
     columns = (
         Column("epoch", lambda row: f"{float(row.epoch) / 1000:g}", "kyr"),
         *("obliquity", "eccentricity", "climatic_precession"),
-        Column("precession_period", period),
+        Column("precession_period", lambda row: f"{float(row.precession_period[-1]):.0f}"),
     )
     note = (
         "Epochs count from J2000.0 TDB. Climatic precession is the eccentricity times the sine of "
         "the longitude of perihelion from the moving equinox. Errors are 95 % half-widths: method, "
         "orbit, start, and what tides and figure of the past are taken to be uncertain by."
     )
-    return [table_along(shown, "epoch", "Over millennia", columns, note, first="")]
+    return table_along(shown, "epoch", "Over millennia", columns, note, first="")
+
+
+TABLES = [("", epochs)]
 
 
 def _caption_of_climate(tree: Result) -> str:
@@ -71,14 +63,14 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         For the obliquity alone.
     """
-    of = in_order(answer_of(result))
+    answer = in_order(answer_of(result))
     panels = (
-        ("obliquity", "obliquity (deg)", drawing.BLUE),
-        ("eccentricity", "eccentricity (ratio)", drawing.RED),
-        ("climatic_precession", "climatic precession (ratio)", drawing.GREEN),
+        ("obliquity", "obliquity (deg)"),
+        ("eccentricity", "eccentricity (ratio)"),
+        ("climatic_precession", "climatic precession (ratio)"),
     )
-    curves = [(label, of[name], of[f"{name}_error"], colour) for name, label, colour in panels]
-    return _plot_curves(ax, of.epoch.values / 1000, curves, 5.6)
+    curves = [(label, answer[name], answer[f"{name}_error"]) for name, label in panels]
+    return _plot_curves(ax, curves, 5.6)
 
 
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -91,25 +83,17 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         For that of all together alone.
     """
-    of = in_order(answer_of(result))
-    labels = [str(label) for label in of.perturber.values[::-1]]
+    answer = in_order(answer_of(result))
+    period, error = answer.precession_period / 1000, answer.precession_period_error / 1000
     curves = [
-        (
-            f"{label} (1000 years)",
-            of.precession_period.sel(perturber=label) / 1000,
-            of.precession_period_error.sel(perturber=label) / 1000,
-            colour,
-        )
-        for label, colour in zip(labels, drawing.CYCLE, strict=False)
+        (f"{label} (1000 years)", period.sel(perturber=label), error.sel(perturber=label))
+        for label in answer.perturber.values[::-1]
     ]
-    return _plot_curves(ax, of.epoch.values / 1000, curves, 1.2 + 1.4 * len(labels))
+    return _plot_curves(ax, curves, 1.2 + 1.4 * len(curves))
 
 
 def _plot_curves(
-    ax: Axes | None,
-    kyr: FloatArray,
-    curves: list[tuple[str, xr.DataArray, xr.DataArray, str]],
-    height: float,
+    ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
     """Curves with their half-widths one above the other, or the first alone on given axes."""
     if ax is None:
@@ -117,8 +101,8 @@ def _plot_curves(
         figure.align_ylabels(rows)
     else:
         rows = [ax]
-    for row, (label, value, error, colour) in zip(rows, curves, strict=False):
-        marker = "o" if kyr.size == 1 else None
+    for row, (label, value, error), colour in zip(rows, curves, drawing.CYCLE, strict=False):
+        kyr, marker = value.epoch.values / 1000, "o" if value.size == 1 else None
         drawing.band(row, kyr, value.values, error.values, colour, lw=1.0, marker=marker)
         if kyr.size > 1:
             row.set_xlim(kyr[0], kyr[-1])
@@ -154,14 +138,14 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     from scipy.interpolate import CubicSpline
 
-    of = in_order(answer_of(result))
-    years = of.epoch.values
+    answer = in_order(answer_of(result))
+    years = answer.epoch.values
     if not path_is_there(years):
         raise UndefinedError(
             "no path to draw: give epochs within 13,000 years of J2000.0, at most 2,500 years apart"
         )
     near = np.abs(years) <= PATH
-    joined = CubicSpline(years[near], of.pole.values[near])
+    joined = CubicSpline(years[near], answer.pole.values[near])
     obliquity = np.radians(EPSILON_0.value / 3600)
 
     def on(times: FloatArray) -> FloatArray:
@@ -170,11 +154,7 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
 
     first, last = years[near][[0, -1]]
     marked = [year for year in YEARS if first <= year - 2000 <= last]
-    at = on(np.array(marked, dtype=float) - 2000).tolist()
-    dates = [
-        Label(year_words(year), (x, y), drawing.RED)
-        for year, (x, y) in zip(marked, at, strict=True)
-    ]
+    dates = year_labels(marked, on(np.array(marked, dtype=float) - 2000))
     count = int((last - first) / FINE) + 2
     return plot_path(on(np.linspace(first, last, count)), dates, obliquity, ax)
 
@@ -199,15 +179,11 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 8.0, 3.6)
     away = np.abs(shares.epoch.values) / 1000
     order = np.argsort(away, kind="stable")[np.count_nonzero(away == 0) :]
-    away = away[order]
-    found = {
-        str(cause): np.maximum.accumulate(shares.longitude_share.sel(cause=cause).values[order])
-        for cause in shares.cause.values
-    }
-    together = np.sqrt(sum(share**2 for share in found.values()))
+    away, share = away[order], shares.longitude_share.isel(epoch=order).transpose("epoch", "cause")
+    share = share.copy(data=np.maximum.accumulate(share.values))
+    together = np.sqrt(np.sum(share.values**2, axis=1))
     ax.plot(away, together, color="black", lw=2.0, label="together")
-    for (cause, share), colour in zip(found.items(), (*drawing.CYCLE, drawing.GREY), strict=False):
-        ax.plot(away, share, color=colour, lw=1.2, label=cause)
+    drawing.lines(ax, away, share, lw=1.2)
     ax.set(xscale="log", yscale="log")
     if away.size > 1:
         ax.set_xlim(away[0], away[-1])

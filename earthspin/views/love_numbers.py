@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
-from earthspin.views.drawing import CYCLE, GREY, PageFigure, note, stacked, style
-from earthspin.views.reading import Result, answer_of, needed, of_sections, section
+from earthspin.views.drawing import CYCLE, GREY, Figure, PageFigure, note, stacked, style
+from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.table import Column, Table, along, beside_published, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.figure import Figure
 
 #: How a number is written in a figure.
 SYMBOLS = {
@@ -27,23 +22,15 @@ EVERY = 4
 MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
-def tables(tree: Result) -> list[Table]:
-    """The numbers, and some of them by period."""
-    return [numbers(tree), *of_sections(tree, {"by_period": by_period})]
-
-
 def numbers(tree: Result) -> Table:
     """Each number, with the published one where there is one."""
     answer = answer_of(tree)
-    known, published = section(tree, "published"), "published_love_number"
-    beside, sources = beside_published(
-        known, "love", "love_number", published, "published_love_source"
-    )
-    columns: list[Column | str] = [
-        "love_number:.5f",
-        Column("love_number_imaginary", _unless_zero),
-        *beside,
-    ]
+    published, sources = beside_published(section(tree, "published"), "love", "love_number")
+
+    def unless_zero(row: xr.Dataset) -> str:
+        return f"{float(row.love_number_imaginary):.5f}" if row.love_number_imaginary else ""
+
+    imaginary = Column("love_number_imaginary", unless_zero)
     words = f"Layers: {answer.love_number.attrs['references']}."
     if sources:
         words += (
@@ -51,12 +38,8 @@ def numbers(tree: Result) -> Table:
             "flattened, which this sphere is not."
         )
     title = "Love numbers of degree two"
+    columns: list[Column | str] = ["love_number:.5f", imaginary, *published]
     return table_along(answer, "love", title, columns, words, first="Love number")
-
-
-def _unless_zero(row: xr.Dataset) -> str:
-    value = float(row.love_number_imaginary)
-    return f"{value:.5f}" if value else ""
 
 
 def by_period(tree: Result) -> Table:
@@ -68,21 +51,21 @@ def by_period(tree: Result) -> Table:
             "", lambda row: f"{float(row.love_number_by_period.sel(love=name)):.4f}", name
         )
 
-    names = [name for name in map(str, data.love.values) if name != SMALL]
-    columns = [
+    def lag(row: xr.Dataset) -> str:
+        k2 = row.sel(love="k2")
+        late = np.arctan2(k2.love_number_by_period_imaginary, k2.love_number_by_period)
+        return f"{-float(np.degrees(late)):.2f}"
+
+    columns = (
         Column("love_period", ".3g", "period, d"),
-        *map(real_part, names),
-        Column(
-            "love_number_by_period", lambda row: f"{_lag(row.sel(love='k2')):.2f}", "lag of k2, deg"
-        ),
-    ]
+        *(real_part(name) for name in map(str, data.love.values) if name != SMALL),
+        Column("", lag, "lag of k2, deg"),
+    )
     title = "Love numbers by period, real parts"
     return table_along(data, "love_period", title, columns, first="", words=())
 
 
-def _lag(row: xr.Dataset) -> float:
-    late = row.love_number_by_period_imaginary, row.love_number_by_period
-    return -float(np.degrees(np.arctan2(*late)))
+TABLES = [("", numbers), ("by_period", by_period)]
 
 
 @style()
@@ -99,22 +82,20 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     data = needed(result, "by_period")
     figure, (above, below) = stacked(2, 4.6, figure, width=7.5)
     days = data.love_period.values
-    for number, (name, of) in enumerate(along(data, "love")):
+    for number, (name, row) in enumerate(along(data, "love")):
         if name == SMALL:
             continue
-        ratio = of.love_number_by_period + 1j * of.love_number_by_period_imaginary
-        ratio = (ratio / of.elastic_love_number).values
+        ratio = row.love_number_by_period + 1j * row.love_number_by_period_imaginary
+        ratio = (ratio / row.elastic_love_number).values
         line, colour = "--" if name.endswith("load") else "-", CYCLE[number % 3]
         above.plot(days, 100 * (abs(ratio) - 1), line, color=colour, label=SYMBOLS[name])
         below.plot(days, -np.degrees(np.angle(ratio)), line, color=colour)
-    above.set_xscale("log")
-    above.set_ylabel("over the elastic one (%)")
+    above.set(xscale="log", ylabel="over the elastic one (%)")
     below.set(ylabel="lag (deg)", xlabel="period (d)")
-    for ax in (above, below):
-        for at in MARKS.values():
-            ax.axvline(at, color=GREY, lw=0.7, ls=":")
+    where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
     for words, at in MARKS.items():
-        where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
+        for ax in (above, below):
+            ax.axvline(at, color=GREY, lw=0.7, ls=":")
         note(below, words, (at, 0), (-3, 4), **where)
     above.legend(ncols=5, loc="upper left", fontsize=8)
     return figure

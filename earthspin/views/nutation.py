@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
-from earthspin.views.drawing import PageFigure, axes, note
-from earthspin.views.reading import Result, answer_of, needed, of_sections
-from earthspin.views.table import Column, Table, date, quality, table_along, with_error, words_of
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.reading import Result, answer_of, needed
+from earthspin.views.table import Column, Table, date, quality, table_along, with_error
 
 #: Frequencies in space between which the transfer function is shown, cycles per year.
 SHOWN = 6.0
@@ -27,17 +20,12 @@ BEYOND = 0.6
 # --- tables --------------------------------------------------------------------------------------
 
 
-def tables(tree: Result) -> list[Table]:
-    """The ladder, and a table for each section that is there."""
-    makers = {"beside": beside, "modes": modes, "terms": terms, "compliances": compliances}
-    return [ladder(tree), *of_sections(tree, makers)]
-
-
 def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") -> Table:
-    def size(name: str) -> Column:
-        return Column(name, lambda row: with_error(row[name], data[f"{prefix}rms_error"]))
+    def size(angle: str) -> Column:
+        name, error = f"{prefix}rms_{angle}", data[f"{prefix}rms_error"]
+        return Column(name, lambda row: with_error(row[name], error))
 
-    columns = size(f"{prefix}rms_dpsi_sineps"), size(f"{prefix}rms_deps"), f"{prefix}adds"
+    columns = size("dpsi_sineps"), size("deps"), f"{prefix}adds"
     return table_along(data, dim, title, columns, note, words=(0, 3))
 
 
@@ -69,9 +57,7 @@ def beside(tree: Result) -> Table:
 def modes(tree: Result) -> Table:
     """Free modes of each rung."""
     columns = (
-        "mode_rung",
-        Column("mode_name", words_of("mode_name")),
-        "mode_period",
+        *("mode_rung", "mode_name", "mode_period"),
         Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
     )
     note = (
@@ -87,14 +73,15 @@ def terms(tree: Result) -> Table:
     """Largest circular terms, of the last rung and of the IAU."""
     data = needed(tree, "terms")
 
-    def predicted(phase: str) -> Callable[[xr.Dataset], str]:
-        return lambda row: with_error(row[f"predicted_{phase}"], row.predicted_error)
+    def predicted(phase: str, head: str) -> Column:
+        name = f"predicted_{phase}"
+        return Column(name, lambda row: with_error(row[name], row.predicted_error), head)
 
     columns = (
         "period:.2f",
-        Column("", predicted("in_phase"), "in phase"),
+        predicted("in_phase", "in phase"),
         Column("iau_in_phase", ".3f", "IAU"),
-        Column("", predicted("out_of_phase"), "out of phase"),
+        predicted("out_of_phase", "out of phase"),
         Column("iau_out_of_phase", "+.3f", "IAU, out"),
     )
     note = (
@@ -114,6 +101,12 @@ def compliances(tree: Result) -> Table:
     )
     data, columns = needed(tree, "compliances"), ["compliance:.6e"]
     return table_along(data, "compliance_name", "Compliances", columns, note, first="name")
+
+
+TABLES = [
+    ("", ladder),
+    *[("beside", beside), ("modes", modes), ("terms", terms), ("compliances", compliances)],
+]
 
 
 # --- figures -------------------------------------------------------------------------------------
@@ -164,19 +157,17 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     near = np.abs(frequency) < SHOWN
     for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
-        of = data.transfer_real.sel(rung=rung).values
-        shown = np.flatnonzero(near & (np.abs(of - 1) < BEYOND))
+        transfer = data.transfer_real.sel(rung=rung).values
+        shown = np.flatnonzero(near & (np.abs(transfer - 1) < BEYOND))
         # no line from pole to pole, nor through rest in space
-        steps = np.diff(shown) > 1
-        steps |= np.diff(np.sign(frequency[shown])) > 0
+        steps = (np.diff(shown) > 1) | (np.diff(np.sign(frequency[shown])) > 0)
         for number, piece in enumerate(np.split(shown, np.flatnonzero(steps) + 1)):
             words = str(rung) if number == 0 else None
-            ax.plot(frequency[piece], of[piece], color=colour, lw=width, label=words)
-    rigid = main.predicted_in_phase.sel(rung="rigid")
+            ax.plot(frequency[piece], transfer[piece], color=colour, lw=width, label=words)
+    ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
     at = 365.25 / main.period.values
     inside = np.abs(at) < SHOWN
-    ratio = (main.iau_in_phase / rigid).values[inside]
-    ax.plot(at[inside], ratio, "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
+    ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(
         ylim=(0.85, 1.45),
@@ -202,11 +193,10 @@ def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figu
     figure, rows = drawing.stacked(len(shown), 1.5 * len(shown), figure)
     for ax, rung in zip(rows, shown, strict=True):
         part, size = series.sel(rung=rung), sizes.sel(rung=rung)
-        drawing.plot_both_angles(ax, part.time, part.dpsi_sineps, part.deps)
-        ax.set_title(rung, loc="left", fontsize=9)
+        offset = part.dpsi_sineps, part.deps
+        drawing.plot_both_angles(ax, part.time, *offset, rung, "left (mas)")
         words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
         ax.set_title(f"rms {words} mas", loc="right", fontsize=8)
-        ax.set_ylabel("left (mas)")
     rows[-1].set_xlabel(f"time (TDB), {date(series.time[0], 'Y')} to {date(series.time[-1], 'Y')}")
     rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
     return figure

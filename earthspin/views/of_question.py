@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 import xarray as xr
 
@@ -13,22 +13,12 @@ from earthspin.engine.plan import NOT_ASKED
 from earthspin.engine.spread import is_ensemble
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
-from earthspin.views.reading import (
-    Result,
-    answer_of,
-    changes_of,
-    question_of,
-    section,
-    views_of,
-)
-from earthspin.views.table import BRACKETS, Table, along
+from earthspin.views.drawing import Drawing, Figure, PageFigure
+from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
+from earthspin.views.solids import Solid
+from earthspin.views.table import BRACKETS, Column, Table, along, quantities
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from earthspin.views.drawing import Drawing, PageFigure
-    from earthspin.views.solids import Solid
-
+T = TypeVar("T")
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.
 PAGES = {
@@ -53,7 +43,7 @@ def tables_for(tree: Result) -> list[Table]:
         As `run` or `run_tree` give it; sections that it does not hold are not shown.
     """
     answer = answer_of(tree)
-    tables: list[Table] = _view(tree).tables(tree)
+    tables: list[Table] = _made(tree, _view(tree).TABLES)
     if "error_asked" in answer:
         tables = [_accuracy(answer), *tables]
     first, *others = [table for table in tables if table.rows]
@@ -75,8 +65,16 @@ def _figures(tree: Result) -> Sequence[PageFigure]:
 
 def solids_for(tree: Result) -> list[Solid]:
     """Three-dimensional pictures of an answer, which can be turned and played, if it has any."""
-    makers = getattr(_view(tree), "SOLIDS", ())
-    return [make(tree) for name, make in makers if not name or section(tree, name) is not None]
+    return _made(tree, getattr(_view(tree), "SOLIDS", ()))
+
+
+def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
+    """Views of an answer, each from the function beside the sections that it needs."""
+    return [
+        make(tree)
+        for sections, make in makers
+        if all(section(tree, name) is not None for name in sections.split())
+    ]
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
@@ -94,16 +92,14 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     """
     there = plan(answer, "all").sections
     needed = {name for figure in _figures(answer) for name in (figure.section, *figure.uses)}
-    applies = [name for name in there if name in needed]
-    more = run_tree(answer, applies) if applies else xr.DataTree()
-    nodes = {name: _alike(more[name].to_dataset(), answer) for name in applies}
-    tree = xr.DataTree.from_dict({"/": answer, **nodes})
-    return [drawing.figure for drawing in drawings_for(tree)]
-
-
-def _alike(section: xr.Dataset, answer: xr.Dataset) -> xr.Dataset:
-    """A section with the labels of an answer that may be a slice."""
-    return section.sel({dim: answer[dim] for dim in section.indexes if dim in answer.indexes})
+    nodes = {"/": answer}
+    if names := [name for name in there if name in needed]:
+        sections = run_tree(answer, names)
+        for name in names:  # with the labels of the answer, which may be a slice
+            node = sections[name].to_dataset()
+            shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
+            nodes[name] = node.sel(shared)
+    return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 
 def print_tables(tree: Result) -> None:
@@ -178,37 +174,28 @@ def what_ran(*trees: Result) -> list[Table]:
     list of Table
         One, or none if the answers do not carry their plans.
     """
-    plans = [found for found in (section(tree, "plan") for tree in trees) if found is not None]
-    rows, total = [], 0.0
-    for part, of in (row for found in plans for row in along(found, "part")):
-        reason, ran = of.reason.item(), of.status.item() == "ran"
-        total += float(of.run_time)
-        if ran:
-            rows.append((part, reason, f"{float(of.run_time) * 1e3:.1f}"))
+    plans = [parts for tree in trees if (parts := section(tree, "plan")) is not None]
+    rows = []
+    for part, row in (row for parts in plans for row in along(parts, "part")):
+        reason = row.reason.item()
+        if row.status.item() == "ran":
+            rows.append((part, reason, f"{float(row.run_time) * 1e3:.1f}"))
         elif len(trees) == 1 and reason != NOT_ASKED:
             rows.append((part, f"left out: {reason}", ""))
     title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
-    table = Table(
-        title,
-        ("part", "what it computes", "ms"),
-        rows,
-        words=(0, 1),
-        cost=f"{total:.2f} s in total",
-    )
-    return [table] if plans else []
+    headers = "part", "what it computes", "ms"
+    cost = f"{sum(float(parts.run_time.sum()) for parts in plans):.2f} s in total"
+    return [Table(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
 
 
 def _view(tree: Result) -> ModuleType:
     """Module of the question of an answer; a plain table for one that has none."""
-    if is_ensemble(tree):
-        return ensemble
-    return views_of(tree)
+    return ensemble if is_ensemble(tree) else views_of(tree)
 
 
 def _explained(tree: Result) -> str:
     """Where the documentation, which has no address of its own, explains a page."""
-    question = question_of(tree)
-    page = question.page if question is not None else ""
+    page = question.page if (question := question_of(tree)) else ""
     method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
 
@@ -217,13 +204,13 @@ def _accuracy(answer: xr.Dataset) -> Table:
     """Error asked for, error claimed, and the settings chosen for it."""
     unit = answer.error_asked.attrs["units"]
     shown = "" if unit == "1" else f", {unit}"
-    row = (
-        answer.method_chosen.item(),
-        f"{float(answer.error_asked):.3g}",
-        f"{float(answer.error_estimated):.3g}",
-        f"{int(answer.evaluations):,}",
+    columns = (
+        Column("method_chosen", head="method chosen"),
+        Column("error_asked", ".3g", f"error asked for{shown}"),
+        Column("error_estimated", ".3g", f"error claimed{shown}"),
+        Column("evaluations", ",.0f", "evaluations"),
     )
-    headers = ("method chosen", f"error asked for{shown}", f"error claimed{shown}", "evaluations")
+    headers, row = zip(*quantities(answer, *columns), strict=True)
     return Table("Accuracy", headers, [row])
 
 

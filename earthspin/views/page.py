@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from earthspin.engine import drafts
+from earthspin.views.drawing import Drawing
+from earthspin.views.solids import Solid
+from earthspin.views.table import Table
 from earthspin.views.typeset import anchor, figure_on_page, typeset
-
-if TYPE_CHECKING:
-    from earthspin.views.drawing import Drawing
-    from earthspin.views.solids import Solid
-    from earthspin.views.table import Table
 
 
 def page(
@@ -51,40 +51,50 @@ def page(
         HTML, self-contained.
     """
     shows_first = bool(drawings) and drawings[0].square
-    return (
-        environment()
-        .get_template("page.html.j2")
-        .render(
-            title=title,
-            tables=tables,
-            first=drawings[0] if shows_first else None,
-            drawings=drawings[1:] if shows_first else drawings,
-            solids=solids,
-            contents=[one.title for group in (drawings, solids, tables, last) for one in group],
-            lead=lead,
-            note=note,
-            links=links,
-            last=last,
-            footer=footer,
-            figure_on_page=figure_on_page,
-            sheet=source("page.css"),
-            script=source("touch.js") + source("solid.js"),
-        )
+    return rendered(
+        "page.html.j2",
+        title=title,
+        tables=tables,
+        first=drawings[0] if shows_first else None,
+        drawings=drawings[1:] if shows_first else drawings,
+        solids=solids,
+        contents=[part.title for parts in (drawings, solids, tables, last) for part in parts],
+        lead=lead,
+        note=note,
+        links=links,
+        last=last,
+        footer=footer,
+        figure_on_page=figure_on_page,
+        script=source("touch.js") + source("solid.js"),
     )
+
+
+def rendered(template: str, **content: object) -> str:
+    """Page from a template, with the style sheet of all pages."""
+    return environment().get_template(template).render(sheet=source("page.css"), **content)
+
+
+def write_texts(texts: Mapping[Path, str]) -> list[Path]:
+    """Write pages and figures, all files or none of them."""
+    with ExitStack() as together:
+        for path, text in texts.items():
+            draft = together.enter_context(drafts.replacing(path))
+            draft.write_text(text, encoding="utf-8")
+    return [*texts]
 
 
 @cache
 def environment() -> Environment:
     """Templates, and the filters that set words and names."""
-    made = Environment(
+    templates = Environment(
         loader=PackageLoader("earthspin.views"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters |= {"typeset": typeset, "anchor": anchor}
-    return made
+    templates.filters |= {"typeset": typeset, "anchor": anchor}
+    return templates
 
 
 def source(name: str) -> str:

@@ -9,15 +9,18 @@ from earthspin.views.table import Table
 ROWS = 40
 
 
-def tables(tree: Result) -> list[Table]:
+def numbers(tree: Result) -> Table:
     """The answer as a table, a column for each number with its unit."""
     answer = answer_of(tree)
     frame = answer.earthspin.to_frame()
-    units = {str(name): of.attrs.get("units", "") for name, of in answer.variables.items()}
-    headers = tuple(f"{n}, {units[n]}" if units.get(n, "1") not in ("", "1") else n for n in frame)
+    units = {name: variable.attrs.get("units", "") for name, variable in answer.variables.items()}
+    headers = tuple(n if units.get(n, "") in ("", "1") else f"{n}, {units[n]}" for n in frame)
     rows = [
         tuple(f"{cell:.9g}" if isinstance(cell, float) else str(cell) for cell in row)
         for row in frame.head(ROWS).itertuples(index=False)
     ]
     note = "" if len(frame) <= ROWS else f"The first {ROWS} of {len(frame)} rows."
-    return [Table(answer.attrs["title"], headers, rows, note)]
+    return Table(answer.attrs["title"], headers, rows, note)
+
+
+TABLES = [("", numbers)]

@@ -1,7 +1,8 @@
 """Pages to play with: a picture that moves, its settings, and numbers, in one file each.
 
-Their formulas stand in ``templates/formulas.js`` and are compared with this library's; what they
-start from, the bodies' numbers, comes from the library.
+Their words stand in ``templates/play_NAME.html.j2``; their formulas stand in
+``templates/formulas.js`` and are compared with this library's; what they start from, the bodies'
+numbers, comes from the library.
 """
 
 from __future__ import annotations
@@ -9,7 +10,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -23,37 +23,11 @@ from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
 from earthspin.scenes import run, run_tree
-from earthspin.views.page import environment, source
+from earthspin.views.page import rendered, source, write_texts
 from earthspin.wobble.ladder import Spin, inputs_of, love_radius
 
 #: One turn of the Earth, s.
 EARTH_TURNS = float(np.asarray(EARTH.spin_period))
-
-
-@dataclass(frozen=True)
-class Play:
-    """A page to play with.
-
-    Attributes
-    ----------
-    title, lead : str
-        Heading, and the sentence below it.
-    alternative : str
-        What the picture shows, for those who do not see it.
-    notes : tuple of str
-        What is drawn otherwise than it is, and what is left out.
-    given : callable
-        Numbers that its script starts from.
-    still : bool
-        Whether nothing moves in it.
-    """
-
-    title: str
-    lead: str
-    alternative: str
-    notes: tuple[str, ...]
-    given: Callable[[], dict[str, object]]
-    still: bool = False
 
 
 def _sky() -> dict[str, object]:
@@ -110,62 +84,12 @@ def _interior() -> dict[str, object]:
     }
 
 
-PLAYS = {
-    "precession": Play(
-        "Precession, to play with",
-        "What if the Moon were heavier, nearer, or not there? Change it, the obliquity and the "
-        "flattening, and see how fast the axis goes round, and where the pole goes.",
-        "A spinning planet with its axis, the circle that its pole describes about the pole of the "
-        "ecliptic, and the Moon on its way round.",
-        (
-            "The rate is that of Keplerian orbits, with the node of the Moon averaged. The "
-            "distances are those that give the mean torques of the report, which takes Sun and "
-            "Moon from an ephemeris, so the page starts at the period of the report. Spin and "
-            "month are slowed down to be visible; the flattening of the planet is exaggerated.",
-            "A Moon of another mass or distance would change the spin and the obliquity in the "
-            "long run; here each can be set by itself.",
-        ),
-        _sky,
-    ),
-    "rotor": Play(
-        "A free body, to play with",
-        "A brick, thrown. About its longest and its shortest side it turns steadily; about the "
-        "one between, the least push makes it tumble. Or a planet that wobbles.",
-        "A body that tumbles about its fixed angular momentum, with its angular velocity and the "
-        "path of the angular velocity on the body.",
-        (
-            "The angular momentum (L, blue) stays where it is in space; the angular velocity "
-            "(omega) moves along the polhode (red), which turns with the body. Of the planet, the "
-            "cone about the polhode (red) rolls without slipping on the one that the angular "
-            "velocity describes in space (blue).",
-        ),
-        dict,
-    ),
-    "top": Play(
-        "A heavy top, to play with",
-        "Let go, the top nods while it goes round: with a push along it draws waves, with none "
-        "cusps, with a push against it loops.",
-        "A spinning top on its point, the two circles between which its axis nods, and the curve "
-        "that the tip of the axis draws.",
-        (
-            "A disc of 0.2 kg whose centre of mass is 5 cm from the point, on the Earth, without "
-            "friction; drawn eight times slower than it moves, at speed 1.",
-        ),
-        dict,
-    ),
-    "wobble": Play(
-        "The ladder of the free wobble, to play with",
-        "A rigid Earth would wobble in ten months, ours takes fourteen. See what the mantle, the "
-        "core and the ocean do to the period.",
-        "Bars of the period of the free wobble by five models, and a line at the observed period.",
-        (
-            "Each rung adds to the one before it. How the inside softens at long periods is that "
-            "of PREM, whatever its Love number is set to. The three axes of the Earth are left "
-            "out.",
-        ),
-        _interior,
-        still=True,
-    ),
+#: Pages by name, each with the numbers that its script starts from.
+PLAYS: dict[str, Callable[[], dict[str, object]]] = {
+    "precession": _sky,
+    "rotor": dict,
+    "top": dict,
+    "wobble": _interior,
 }
 
 
@@ -189,24 +113,14 @@ def play_page(name: str) -> str:
     """
     if name not in PLAYS:
         raise SceneError("play", name, f"take one of {', '.join(PLAYS)}")
-    play = PLAYS[name]
-    numbers = json.dumps(play.given(), default=lambda number: np.asarray(number).item())
-    return (
-        environment()
-        .get_template("play.html.j2")
-        .render(
-            title=play.title,
-            lead=play.lead,
-            alternative=play.alternative,
-            notes=play.notes,
-            still=play.still,
-            given=numbers.replace("<", "\\u003c"),
-            sheet=source("page.css"),
-            formulas=source("formulas.js"),
-            engine=source("touch.js") + source("play.js"),
-            script=source(f"play_{name}.js"),
-            footer=f"earthspin {__version__}.",
-        )
+    given = json.dumps(PLAYS[name](), default=lambda number: np.asarray(number).item())
+    return rendered(
+        f"play_{name}.html.j2",
+        given=given.replace("<", "\\u003c"),
+        formulas=source("formulas.js"),
+        engine=source("touch.js") + source("play.js"),
+        script=source(f"play_{name}.js"),
+        footer=f"earthspin {__version__}.",
     )
 
 
@@ -233,6 +147,5 @@ def write_page(name: str, file: str | Path) -> Path:
     path = Path(file)
     text = play_page(name)
     drafts.check_writable(path.parent)
-    with drafts.replacing(path) as draft:
-        draft.write_text(text, encoding="utf-8")
+    write_texts({path: text})
     return path

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from earthspin.constants import MAS
+from earthspin.units import FloatArray
 from earthspin.views import drawing
-from earthspin.views.drawing import PageFigure, axes, note
-from earthspin.views.reading import Result, answer_of, needed, of_sections
+from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.table import Table, date, measured, quantities, with_error
 from earthspin.wobble.record import NEAR, YEAR
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 JULIAN = 365.25  # d, the year of the axes
 
@@ -26,74 +23,61 @@ JULIAN = 365.25  # d, the year of the axes
 # --- tables --------------------------------------------------------------------------------------
 
 
-def tables(tree: Result) -> list[Table]:
-    """The series, the observed wobble, and the statements of the source text about it."""
-    makers = (observed, statements)
-    return [series(tree), *(t for make in makers for t in of_sections(tree, {"chandler": make}))]
-
-
 def series(tree: Result) -> Table:
     """Range of the observed coordinates of the pole."""
     answer = answer_of(tree)
-    first, last = date(answer.time[0]), date(answer.time[-1])
-    return Table(
-        "Polar motion",
-        ("coordinate, arcsec", "smallest", "largest", "last"),
-        [
-            (
-                name,
-                f"{float(answer[name].min()):+.6f}",
-                f"{float(answer[name].max()):+.6f}",
-                measured(answer.isel(time=-1), name),
-            )
-            for name in ("x", "y")
-        ],
-        f"{answer.time.size} epochs from {first} to {last}; source: "
-        f"{answer.x.attrs['references']}.",
-    )
+    first, last, end = date(answer.time[0]), date(answer.time[-1]), answer.isel(time=-1)
+    rows = [
+        (
+            name,
+            f"{float(answer[name].min()):+.6f}",
+            f"{float(answer[name].max()):+.6f}",
+            measured(end, name),
+        )
+        for name in ("x", "y")
+    ]
+    source = answer.x.attrs["references"]
+    note = f"{answer.time.size} epochs from {first} to {last}; source: {source}."
+    headers = "coordinate, arcsec", "smallest", "largest", "last"
+    return Table("Polar motion", headers, rows, note)
 
 
 def observed(tree: Result) -> Table:
     """Period, quality factor and present amplitude of the observed wobble."""
-    found = needed(tree, "chandler")
-    rows = quantities(found, "chandler_period")
-    if "chandler_quality_factor" in found:
-        low, high = (float(found[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
+    fit = needed(tree, "chandler")
+    rows = quantities(fit, "chandler_period")
+    if "chandler_quality_factor" in fit:
+        low, high = (float(fit[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
         ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
-        rows.append(("quality factor", f"{float(found.chandler_quality_factor):.0f} ({ends})"))
-    size = found.chandler_amplitude.values
+        rows.append(("quality factor", f"{float(fit.chandler_quality_factor):.0f} ({ends})"))
+    size = fit.chandler_amplitude.values
     for words, at in (("largest", size.argmax()), ("smallest", size.argmin()), ("last", -1)):
-        of = found.isel(middle=at)
-        year = date(of.middle, "Y")
-        rows.append((f"{words} amplitude, mas, {year}", measured(of, "chandler_amplitude")))
-    annual = f"{float(found.annual_amplitude.median()):.1f}"
-    return Table(
-        "The observed wobble",
-        ("quantity", "value"),
-        [*rows, ("median amplitude of the prograde annual wobble, mas", annual)],
-        f"Method: {found.chandler_period.attrs['method']}. Errors and intervals are 95 %. "
+        window = fit.isel(middle=at)
+        year = date(window.middle, "Y")
+        rows.append((f"{words} amplitude, mas, {year}", measured(window, "chandler_amplitude")))
+    annual = f"{float(fit.annual_amplitude.median()):.1f}"
+    rows.append(("median amplitude of the prograde annual wobble, mas", annual))
+    note = (
+        f"Method: {fit.chandler_period.attrs['method']}. Errors and intervals are 95 %. "
         "Amplitudes are means over windows of one beat of the free and the annual wobble; the year "
-        "is that of the middle of the window.",
+        "is that of the middle of the window."
     )
+    return Table("The observed wobble", ("quantity", "value"), rows, note)
 
 
 def statements(tree: Result) -> Table:
     """Statements of the source text about the wobble, and the years in which they held."""
-    found, metres = needed(tree, "chandler"), _metres(answer_of(tree))
-    period, error = float(found.chandler_period), float(found.chandler_period_error)
-    amplitude = found.chandler_amplitude
-    rows = [
-        (
-            words,
-            f"{float(amplitude.min()) * scale:{shown}} to {float(amplitude.max()) * scale:{shown}}",
-            _years_near(amplitude, size / scale),
-        )
-        for words, size, scale, shown in (
-            ("circle of 6 m", 6.0, metres, ".1f"),
-            ("cone of 0.2 arcsec", 0.2, 1e-3, ".3f"),
-        )
-        if scale
-    ]
+    fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
+    period, error = float(fit.chandler_period), float(fit.chandler_period_error)
+    size = fit.chandler_amplitude
+    rows = []
+    for words, text, scale, form in (
+        ("circle of 6 m", 6.0, metres, ".1f"),
+        ("cone of 0.2 arcsec", 0.2, 1e-3, ".3f"),
+    ):
+        if scale:
+            low, high = float(size.min()) * scale, float(size.max()) * scale
+            rows.append((words, f"{low:{form}} to {high:{form}}", _years_near(size, text / scale)))
     within = "within the error" if abs(434 - period) <= error else "outside the error"
     return Table(
         "Statements of the source text (I.6)",
@@ -102,6 +86,9 @@ def statements(tree: Result) -> Table:
         'The source text is Appendix I, "Rigid Body Dynamics". The observed values are those of '
         "the free wobble alone, without the annual one.",
     )
+
+
+TABLES = [("", series), ("chandler", observed), ("chandler", statements)]
 
 
 def _metres(answer: xr.Dataset) -> float:
@@ -161,7 +148,8 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     if years is not None:
         first = answer.time.values[-1] - np.timedelta64(round(years * 365.25), "D")
         answer = answer.sel(time=slice(first, None))
-    x, y = _in_mas(answer)
+    scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
+    x, y = answer.x.values * scale, answer.y.values * scale
     when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
     ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
     dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
@@ -189,8 +177,8 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.8)
-    found = needed(result, "spectrum").spectral_amplitude
-    frequency, amplitude = found.frequency.values * JULIAN, found.values
+    spectrum = needed(result, "spectrum").spectral_amplitude
+    frequency, amplitude = spectrum.frequency.values * JULIAN, spectrum.values
     for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
         ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
@@ -200,8 +188,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.axvline(at, color="0.7", lw=0.7, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
         note(ax, words, (at, 0.97), (by, 0), color=drawing.GREY, **where)
-    ax.set_ylim(0.05, None)
-    ax.set(xlabel="frequency (cycles per year)", ylabel="amplitude (mas)")
+    ax.set(xlabel="frequency (cycles per year)", ylabel="amplitude (mas)", ylim=(0.05, None))
     ax.legend(loc="upper right", bbox_to_anchor=(1, 0.9))
     return ax
 
@@ -217,9 +204,8 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.4)
-    found, time, size, half = _free_wobble(result)
-    drawing.band(ax, time, size, half, drawing.BLUE, alpha=0.2, lowest=0.0, lw=1.4, label="free")
-    ax.plot(time, found.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
+    fit, time = _plot_free_wobble(ax, result, drawing.BLUE, "free")
+    ax.plot(time, fit.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
     ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
     note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
     ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
@@ -240,14 +226,10 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.4)
-    for found, colour, words in (
-        (observed, drawing.BLUE, "observed"),
-        (modelled, drawing.RED, modelled.attrs.get("source", "driven by a given excitation")),
-    ):
-        _, time, size, half = _free_wobble(found)
-        drawing.band(ax, time, size, half, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
-    ax.set_ylim(0, None)
-    ax.set_ylabel("amplitude (mas)")
+    _plot_free_wobble(ax, observed, drawing.BLUE, "observed")
+    driver = modelled.attrs.get("source", "driven by a given excitation")
+    _plot_free_wobble(ax, modelled, drawing.RED, driver)
+    ax.set(ylim=(0, None), ylabel="amplitude (mas)")
     ax.legend(loc="best")
     return ax
 
@@ -264,25 +246,30 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 2.6)
-    found, time, size, half = _free_wobble(result)
-    phase = found.chandler_phase.values
+    fit, time = _fit(result)
+    phase = fit.chandler_phase.values
+    known = fit.chandler_amplitude.values > 2 * fit.chandler_amplitude_error.values
     ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
-    ax.plot(time, np.where(size > 2 * half, phase, np.nan), color=drawing.BLUE, lw=1.6)
+    ax.plot(time, np.where(known, phase, np.nan), color=drawing.BLUE, lw=1.6)
     ax.set_ylabel("phase (deg)")
     return ax
 
 
-def _free_wobble(result: Result) -> tuple[xr.Dataset, np.ndarray, np.ndarray, np.ndarray]:
-    """The fit, the middles of its windows, the amplitude and its error."""
-    found = result if "chandler_amplitude" in result else needed(result, "chandler")
-    assert isinstance(found, xr.Dataset)
-    time = found[found.chandler_amplitude.dims[0]].values
-    return found, time, found.chandler_amplitude.values, found.chandler_amplitude_error.values
+def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
+    """The fitted free wobble, and the middles of its windows."""
+    fit = result if "chandler_amplitude" in result else needed(result, "chandler")
+    assert isinstance(fit, xr.Dataset)
+    return fit, fit[fit.chandler_amplitude.dims[0]].values
 
 
-def _in_mas(answer: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
-    return answer.x.values * scale, answer.y.values * scale
+def _plot_free_wobble(
+    ax: Axes, result: Result, colour: str, words: str
+) -> tuple[xr.Dataset, FloatArray]:
+    """Amplitude of the free wobble with its 95 % band; as `_fit`."""
+    fit, time = _fit(result)
+    size, error = fit.chandler_amplitude.values, fit.chandler_amplitude_error.values
+    drawing.band(ax, time, size, error, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
+    return fit, time
 
 
 def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:

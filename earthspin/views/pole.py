@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY
-from earthspin.views.drawing import PageFigure, axes
+from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Column, Table, date, table_along, words_of
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
+from earthspin.views.table import Column, Table, date, table_along
 
 
-def tables(tree: Result) -> list[Table]:
+def ends(tree: Result) -> Table:
     """Directions of the axes at both ends of the path."""
     answer = answer_of(tree)
-    angles = ["X:+.12f", "Y:+.12f", *(["psi:.6f", "eps:.6f"] if "psi" in answer else [])]
     ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
 
     def date_and_axis(row: xr.Dataset) -> str:
-        return f"{date(row.time, 's')} {words_of('axis')(row)}"
+        return f"{date(row.time, 's')} {row.axis.item().replace('_', ' ')}"
 
     method, given = (
         f"{float(answer[f'direction_error_{share}'].max()):.2g}" for share in ("method", "input")
@@ -34,8 +28,12 @@ def tables(tree: Result) -> list[Table]:
         f"error of the method is at most {method} uas; the uncertainty of H adds up to {given} uas "
         "over this span (95 %)."
     )
-    columns: list[Column | str] = [Column("", date_and_axis, "TDB, axis"), *angles]
-    return [table_along(ends, "place", "The axes in the GCRS", columns, note, first="")]
+    angles = ("psi:.6f", "eps:.6f") if "psi" in answer else ()
+    columns = Column("", date_and_axis, "TDB, axis"), "X:+.12f", "Y:+.12f", *angles
+    return table_along(ends, "place", "The axes in the GCRS", columns, note, first="")
+
+
+TABLES = [("", ends)]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
@@ -52,20 +50,16 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     from matplotlib.collections import LineCollection
 
     ax = axes(ax, 6.4, 6.4)
-    of = answer_of(result).sel(axis=axis)
-    days = (of.time.values - of.time.values[0]) / np.timedelta64(1, "D")
-    angles = np.stack([of.psi * np.sin(np.radians(of.eps / 3600)), of.eps], axis=1)
+    answer = answer_of(result).sel(axis=axis)
+    days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
+    angles = np.stack([answer.psi * np.sin(np.radians(answer.eps / 3600)), answer.eps], axis=1)
     turn = 2 * np.pi * days * DAY / MOON.cycle
     design = np.stack([np.ones_like(days), days, np.cos(turn), np.sin(turn)], axis=1)
     line = np.linalg.lstsq(design, angles, rcond=None)[0]
     x, y = (angles - design[:, :2] @ line[:2]).T
     points = np.stack([x, y], axis=1)
-    path = LineCollection(
-        list(np.stack([points[:-1], points[1:]], axis=1)),
-        array=days[:-1] / 365.25,
-        cmap="viridis",
-        lw=0.7,
-    )
+    steps = list(np.stack([points[:-1], points[1:]], axis=1))
+    path = LineCollection(steps, array=days[:-1] / 365.25, cmap="viridis", lw=0.7)
     ax.add_collection(path)
     ax.autoscale_view()
     words = "time from the start (years)"

@@ -2,35 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+import xarray as xr
+from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
-from earthspin.views import drawing, stars, table, torque
-from earthspin.views.drawing import PageFigure, axes, note
-from earthspin.views.reading import (
-    Result,
-    answer_of,
-    body_of,
-    changes_of,
-    needed,
-    of_sections,
-    perturbers_of,
-    section,
-)
-from earthspin.views.table import Column, Table, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-FloatArray = NDArray[np.float64]
+from earthspin.units import FloatArray
+from earthspin.views import drawing, reading, stars, table, torque
+from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.reading import Result, answer_of, changes_of, needed, section
+from earthspin.views.table import Column, Table, measured, table_along
 
 #: Numbers that an ensemble of answers shows first.
 CHIEF = ("precession_rate", "mean_torque")
@@ -45,16 +29,17 @@ PASSED = 2.0
 def lead(tree: Result) -> str:
     """The sentence at the head of the page."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
-    alone = table.measured(answer.isel(perturber=-1), "precession_period", "years")
-    pull = f"the pull of {perturbers_of(answer)} on the equatorial bulge"
-    once = f"The axis of {body_of(answer)} goes once round in"
+    alone = measured(answer.isel(perturber=-1), "precession_period", "years")
+    pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
+    once = f"The axis of {reading.body_of(answer)} goes once round in"
     if known is None:
         return f"{once} {alone} in this model: {pull}, and nothing else."
-    known_effects, iau = _period_with_known_effects(known), FULL_TURN / float(known.iau_rate)
+    period, error = _with_known_effects(known)
     return (
-        f"{once} {known_effects} years by all known effects together; IAU 2006 has {iau:,.3f}. "
+        f"{once} {table.with_error(period, error)} years by all known effects together; IAU 2006 "
+        f"has {FULL_TURN / float(known.iau_rate):,.3f}. "
         f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
-        f"{_left_out(answer, known):.2f} years."
+        f"{period - float(answer.precession_period[-1]):.2f} years."
     )
 
 
@@ -64,66 +49,48 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
     return FULL_TURN / rate, float(known.closure_error) * FULL_TURN / rate**2
 
 
-def _period_with_known_effects(known: xr.Dataset) -> str:
-    return table.with_error(*_with_known_effects(known))
-
-
-def _left_out(answer: xr.Dataset, known: xr.Dataset) -> float:
-    """Years that the published effects add to the period of the model."""
-    return _with_known_effects(known)[0] - float(answer.precession_period[-1])
-
-
 # --- tables --------------------------------------------------------------------------------------
-
-
-def tables(tree: Result) -> list[Table]:
-    """Rates, and a table for each section that is there."""
-    makers = {
-        "iau_2006": iau,
-        "seasons": sky_and_calendar,
-        "figure_models": models,
-        "free_wobble": free_wobble,
-        "standstills": standstills,
-    }
-    box = [periods(tree)] if section(tree, "iau_2006") and section(tree, "seasons") else []
-    return [*box, rates(tree), *of_sections(tree, makers)]
 
 
 def periods(tree: Result) -> Table:
     """The three periods of precession, and which one to quote."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
-    iau, iau_general = FULL_TURN / float(known.iau_rate), FULL_TURN / P_A_RATE.value
-    unexplained = _with_known_effects(known)[0] - iau
+    total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
+    period, error = _with_known_effects(known)
+    names = (
+        "Sun and Moon, fixed ecliptic",
+        "with all known effects",
+        "general precession, moving ecliptic",
+    )
+    years = (
+        measured(total, "precession_period"),
+        table.with_error(period, error),
+        measured(seasons, "general_precession_period"),
+    )
+    added = period - float(total.precession_period)
+    unexplained = f"unexplained: {iau - period:+.3f} yr"
+    missing = f"known effects: {added:+.2f} yr", unexplained, unexplained
+    uses = (
+        "the torque of Sun and Moon",
+        f"the equator; IAU 2006: {iau:.3f}",
+        f"equinox, seasons; IAU 2006: {FULL_TURN / P_A_RATE.value:.3f}",
+    )
     return Table(
         "Which period to quote",
         ("period", "years", "not included", "quote it for"),
-        [
-            (
-                "Sun and Moon, fixed ecliptic",
-                table.measured(answer.isel(perturber=-1), "precession_period"),
-                f"known effects: {_left_out(answer, known):+.2f} yr",
-                "the torque of Sun and Moon",
-            ),
-            (
-                "with all known effects",
-                _period_with_known_effects(known),
-                f"unexplained: {-unexplained:+.3f} yr",
-                f"the equator; IAU 2006: {iau:.3f}",
-            ),
-            (
-                "general precession, moving ecliptic",
-                table.measured(seasons, "general_precession_period"),
-                f"unexplained: {-unexplained:+.3f} yr",
-                f"equinox, seasons; IAU 2006: {iau_general:.3f}",
-            ),
-        ],
+        list(zip(names, years, missing, uses, strict=True)),
         "The textbooks' 25,800 years are the general precession in longitude. The unexplained "
-        f"part is {abs(float(known.closure / known.iau_rate)) * 1e6:.1f} millionths of the rate, "
+        f"part is {_millionths(known)} millionths of the rate, "
         f"{abs(float(known.closure / known.closure_error)):.1f} half-widths: the half-widths "
         "contain the uncertainties of H, of the masses and of the average, and the published "
         "sizes of the known effects have none.",
         words=(0, 2, 3),
     )
+
+
+def _millionths(known: xr.Dataset) -> str:
+    """What no known effect explains, in millionths of the rate."""
+    return f"{abs(float(known.closure / known.iau_rate)) * 1e6:.1f}"
 
 
 def rates(tree: Result) -> Table:
@@ -141,8 +108,7 @@ def rates(tree: Result) -> Table:
     columns = (
         "precession_rate",
         Column("", left_out, "left out, arcsec/yr"),
-        "precession_period",
-        "mean_torque",
+        *("precession_period", "mean_torque"),
         Column("rate_ratio", ".5f", f"rate / {first}"),
     )
     note = (
@@ -225,13 +191,11 @@ def free_wobble(tree: Result) -> Table:
     """Period of the rigid wobble, and the observed one if this body was observed."""
     wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
-    rigid = table.measured(wobble, "free_wobble_period")
-    rows = []
+    rigid, rows = measured(wobble, "free_wobble_period"), []
     if "observed_period" in wobble:
-        rigid = table.beside_observed(
-            wobble.free_wobble_period, wobble.free_wobble_period_error, None
-        )
-        rows.append(("observed", table.measured(wobble, "observed_period"), ""))
+        period, error = wobble.free_wobble_period, wobble.free_wobble_period_error
+        rigid = table.beside_observed(period, error, None)
+        rows.append(("observed", measured(wobble, "observed_period"), ""))
         source = wobble.observed_period.attrs["references"]
         notes.append(f"Source of the observed period: {source}.")
     sidereal = f"{float(wobble.free_wobble_period_sidereal):.4f}"
@@ -245,18 +209,18 @@ def free_wobble(tree: Result) -> Table:
 
 def iau(tree: Result) -> Table:
     """The computed rate compared with that of IAU 2006."""
-    of, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
+    known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
+    effects = () if left_out is None else table.along(left_out, "effect")
     rows = [
-        ("computed", table.measured(answer.isel(perturber=-1), "precession_rate")),
-        ("IAU 2006, psi_A", f"{float(of.iau_rate):.8f}"),
-        ("difference", table.measured(of, "difference_from_iau")),
+        ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
+        ("IAU 2006, psi_A", f"{float(known.iau_rate):.8f}"),
+        ("difference", measured(known, "difference_from_iau")),
+        *(
+            (f"  left out: {effect}", f"{float(row.neglected_effect):+.6f}")
+            for effect, row in effects
+        ),
+        ("difference after the effects left out", measured(known, "closure")),
     ]
-    if left_out is not None:
-        rows += [
-            (f"  left out: {effect}", f"{float(one.neglected_effect):+.6f}")
-            for effect, one in table.along(left_out, "effect")
-        ]
-    rows.append(("difference after the effects left out", table.measured(of, "closure")))
     return Table(
         "Comparison with IAU 2006",
         (f"rate at {table.date(answer.reference_epoch)}", "arcsec/yr"),
@@ -264,16 +228,14 @@ def iau(tree: Result) -> Table:
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
         "not the theory. Errors hold the uncertainty of the input numbers only. The "
-        "difference that remains is "
-        f"{abs(float(of.closure / of.iau_rate)) * 1e6:.1f} millionths of the rate.",
+        f"difference that remains is {_millionths(known)} millionths of the rate.",
     )
 
 
 def standstills(tree: Result) -> Table:
     """Dates and extreme declinations of lunar standstills."""
-    found = needed(tree, "standstills")
-    text = {"major": "28.58", "minor": "18.30"}
-    error = float(found.standstill_declination_error.max()) if found.standstill.size else 0.0
+    extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
+    error = float(extremes.standstill_declination_error.values.max(initial=0.0))
     columns = (
         Column("standstill", lambda row: table.date(row.standstill), "date (TDB)"),
         *("standstill_kind", "standstill_declination:+.4f"),
@@ -285,7 +247,18 @@ def standstills(tree: Result) -> Table:
         "between 5.0 and 5.3 degrees, so the largest declination reaches 28.7 and the smallest "
         f"extreme is near 18.1. Errors, from the kernel alone, are at most {error:.0e} deg."
     )
-    return table_along(found, "standstill", "Lunar standstills", columns, note, first="")
+    return table_along(extremes, "standstill", "Lunar standstills", columns, note, first="")
+
+
+TABLES = [
+    ("iau_2006 seasons", periods),
+    ("", rates),
+    ("iau_2006", iau),
+    ("seasons", sky_and_calendar),
+    ("figure_models", models),
+    ("free_wobble", free_wobble),
+    ("standstills", standstills),
+]
 
 
 # --- figures -------------------------------------------------------------------------------------
@@ -293,15 +266,14 @@ def standstills(tree: Result) -> Table:
 
 def chain(tree: Result, year: Result) -> drawing.Drawing:
     """The method in one figure: declination, torque, average, period."""
-    figure = PageFigure(
+    return PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
         "the component of the torque towards the equinox that follows (I.8.7); dashed: its mean. "
         "Bottom: the rate of precession from the torque averaged over longer and longer windows, "
         "and the period that follows.",
         partial(plot_chain, year=year),
-    )
-    return figure.drawn(tree)
+    ).drawn(tree)
 
 
 def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) -> Figure:
@@ -323,14 +295,14 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     torque.plot_torque(year, ax=middle)
     upper.tick_params(labelbottom=False)
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
-    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
-        lower.plot(curve.window_length, row.rate_by_window, color=colour, lw=1.1, label=window)
+    drawing.lines(lower, curve.window_length, curve.rate_by_window.transpose(..., "window"), lw=1.1)
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
     words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):,.0f} years"
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
-    lower.set_xlabel("length of the averaging window (yr)")
-    lower.set_ylabel("averaged rate\n(arcsec per year)")
+    lower.set(
+        xlabel="length of the averaging window (yr)", ylabel="averaged rate\n(arcsec per year)"
+    )
     drawing.legend_above(lower)
     return figure
 
@@ -347,16 +319,15 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
     ax = axes(ax)
-    for colour, (window, row) in zip(drawing.CYCLE, table.along(curve, "window"), strict=False):
-        off = abs(row.rate_by_window - total.precession_rate)
-        ax.semilogy(curve.window_cycles, np.maximum(off, 1e-8), color=colour, lw=1.2, label=window)
+    difference = abs(curve.rate_by_window - total.precession_rate).clip(1e-8)
+    drawing.lines(ax, curve.window_cycles, difference.transpose(..., "window"), lw=1.2)
+    ax.set_yscale("log")
     error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
     words = f"error claimed for averaging, {table.two_digits(error)} arcsec/yr"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
     ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
-    ax.set_ylabel("difference (arcsec per year)")
-    ax.set_ylim(3e-7, None)
+    ax.set(ylabel="difference (arcsec per year)", ylim=(3e-7, None))
     ax.legend(loc="upper right", ncols=2)
     return ax
 
@@ -365,32 +336,27 @@ def _caption_of_circle(tree: Result) -> str:
     """Words below the circle, with the stars that the pole passes within two degrees, and when."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
-    path = _circle(total)(years)
+    path = _circle(total, years)
     places = stars.on_the_chart(stars.star_vectors(), float(np.radians(total.obliquity)))
     passed = []
     for (name, *_), place in zip(stars.STARS, places, strict=True):
         away = np.linalg.norm(path - place, axis=1)
         if away.min() < PASSED:
             year = int(years[away.argmin()])
-            century = f"{year}" if year > 0 else f"{-year} BC"
-            passed.append((year, f"{name} about {century}"))
-    words = [words for _, words in sorted(passed)]
-    passes = f"It passes {', '.join(words[:-1])} and {words[-1]}." if len(words) > 1 else ""
+            passed.append((year, f"{name} about {year if year > 0 else f'{-year} BC'}"))
+    *others, last = [words for _, words in sorted(passed)] or [""]
+    passes = f"It passes {', '.join(others)} and {last}." if others else ""
     return (
         "Path of the celestial pole at the present rate and obliquity, centred on the pole of the "
         f"ecliptic; the sky as seen from inside, with stars at their present places. {passes}"
     )
 
 
-def _circle(total: xr.Dataset) -> Callable[[ArrayLike], FloatArray]:
-    """Places of the pole on the chart by years, at a rate and an obliquity that stay."""
+def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
+    """Places of the pole on the chart by years, at the present rate and obliquity."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
-
-    def pole(years: ArrayLike) -> FloatArray:
-        back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
-        return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
-
-    return pole
+    back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
+    return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
 
 
 def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -406,11 +372,10 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     total = answer_of(result).isel(perturber=-1)
-    pole, turn = _circle(total), float(total.precession_period)
+    turn = float(total.precession_period)
     years = [year for year in stars.YEARS if abs(year - 2000) <= 12_000]
-    marks = zip(years, pole(years).tolist(), strict=True)
-    dates = [stars.Label(stars.year_words(year), (x, y), drawing.RED) for year, (x, y) in marks]
-    path = pole(np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
+    dates = stars.year_labels(years, _circle(total, years))
+    path = _circle(total, np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
     ax = stars.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
     ax.set_title(f"once round in {turn:,.0f} years")
     return ax

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Hashable, Mapping
 from importlib import import_module
 from types import ModuleType
-from typing import TypeVar
 
 import xarray as xr
 
@@ -15,8 +14,6 @@ from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.
 Result = xr.Dataset | xr.DataTree
-
-T = TypeVar("T")
 
 
 def answer_of(result: Result) -> xr.Dataset:
@@ -56,18 +53,6 @@ def needed(result: Result, name: str) -> xr.Dataset:
         found = section(run_tree(result, [name]), name)
     assert found is not None
     return found
-
-
-def of_sections(tree: Result, makers: Mapping[str, Callable[[Result], T]]) -> list[T]:
-    """Views of the sections that are there.
-
-    Parameters
-    ----------
-    tree : Dataset or DataTree
-    makers : mapping of str to callable
-        The function that makes each view from the tree, by the section it needs.
-    """
-    return [make(tree) for name, make in makers.items() if section(tree, name) is not None]
 
 
 def body_of(answer: xr.Dataset) -> str:

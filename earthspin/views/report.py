@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from earthspin._version import __version__
 from earthspin.engine import drafts, store
@@ -15,18 +16,12 @@ from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import free_rotor, precession, top, torque
+from earthspin.views.drawing import Drawing
 from earthspin.views.of_question import drawings_for, page_of, solids_for
-from earthspin.views.page import page
+from earthspin.views.page import page, write_texts
 from earthspin.views.reading import answer_of, body_of, needed, section
+from earthspin.views.solids import Solid
 from earthspin.views.table import beside_observed, measured
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    import xarray as xr
-
-    from earthspin.views.drawing import Drawing
-    from earthspin.views.solids import Solid
 
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
@@ -76,11 +71,11 @@ def write_report(
             drawings = [circle, *_torques(tree, advance), *others]
         title = answer_of(tree).attrs["title"]
         links = [("Rotors and tops, to turn and to play", "rotors.html")] if figures else []
-        pages = {"index.html": page_of(tree, title=title, drawings=drawings, links=links)}
+        pages = {place / "index.html": page_of(tree, title=title, drawings=drawings, links=links)}
         if figures:
-            pages["rotors.html"] = gallery_page()
+            pages[place / "rotors.html"] = gallery_page()
         advance(1)
-    return tree, [*_write_pages(place, pages), *data]
+    return tree, [*write_texts(pages), *data]
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
@@ -175,7 +170,7 @@ def write_wobble_report(
             drawings=None if figures else (),
         )
         advance(1)
-    return [ladder, pole], [*_write_pages(place, {"wobble.html": text}), *data]
+    return [ladder, pole], [*write_texts({place / "wobble.html": text}), *data]
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
@@ -199,12 +194,3 @@ def _write_data(place: Path, data: Mapping[str, xr.DataTree]) -> list[Path]:
         for name, tree in data.items():
             store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))
     return [place / name for name in data]
-
-
-def _write_pages(place: Path, pages: Mapping[str, str]) -> list[Path]:
-    """Write the pages, all files or none of them."""
-    with ExitStack() as together:
-        for name, text in pages.items():
-            draft = together.enter_context(drafts.replacing(place / name))
-            draft.write_text(text, encoding="utf-8")
-    return [place / name for name in pages]

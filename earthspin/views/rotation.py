@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from earthspin.constants import DAY
 from earthspin.numerics.quaternion import rotate
-from earthspin.views import solids
-from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, PageFigure, axes, legend_above
-from earthspin.views.reading import Result, answer_of, body_of, needed, of_sections
+from earthspin.units import FloatArray
+from earthspin.views import drawing, solids
+from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, Axes, PageFigure, axes
+from earthspin.views.reading import Result, answer_of, body_of, needed
 from earthspin.views.solids import BLACK, Solid
-from earthspin.views.table import Column, Table, along, date, listed, quantities, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-    from earthspin.units import FloatArray
+from earthspin.views.table import Column, Table, date, listed, quantities, table_along
 
 #: An attitude is lost where its error is a quarter of a turn, deg.
 LOST = 90.0
@@ -33,8 +27,8 @@ def known_until(answer: xr.Dataset) -> np.datetime64 | None:
     return answer.time.values[lost[0]] if lost.size else None
 
 
-def tables(tree: Result) -> list[Table]:
-    """The rotation at both ends of the span, and Lyapunov's time."""
+def attitude(tree: Result) -> Table:
+    """The rotation at both ends of the span."""
     answer = answer_of(tree)
     columns = (
         Column("", lambda row: date(row.time, "s"), "TDB"),
@@ -50,33 +44,31 @@ def tables(tree: Result) -> list[Table]:
         "more, and what follows is one motion of many."
     )
     title, ends = f"The attitude of {body_of(answer)}", answer.isel(time=[0, -1])
-    attitude = table_along(ends, "time", title, columns, note, first="", words=(0, 1, 2))
-    return [attitude, *of_sections(tree, {"divergence": divergence})]
+    return table_along(ends, "time", title, columns, note, first="", words=(0, 1, 2))
 
 
 def divergence(tree: Result) -> Table:
-    """Growth of the distance of a neighbour."""
-    parting = needed(tree, "divergence")
-    rate, spread = (float(parting[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
+    """Growth of the distance of a neighbour, and Lyapunov's time."""
+    neighbour = needed(tree, "divergence")
+    rate, spread = (float(neighbour[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
     rows = [
-        *quantities(parting, "course"),
+        *quantities(neighbour, "course"),
         ("growth rate, 1/d", f"{rate:.3g} ± {spread:.2g}"),
     ]
-    if "lyapunov_time" in parting:
-        rows.append(("Lyapunov time, d", _lyapunov_time(parting)))
-    return Table(
-        "How neighbouring rotations part",
-        ("quantity", "value"),
-        rows,
-        "The half-width comes from the scatter of the rate between eight stretches of the span.",
-    )
+    if "lyapunov_time" in neighbour:
+        rows.append(("Lyapunov time, d", _lyapunov_time(neighbour)))
+    note = "The half-width comes from the scatter of the rate between eight stretches of the span."
+    return Table("How neighbouring rotations part", ("quantity", "value"), rows, note)
+
+
+TABLES = [("", attitude), ("divergence", divergence)]
 
 
 # --- figures -------------------------------------------------------------------------------------
 
 
-def _lyapunov_time(parting: xr.Dataset) -> str:
-    time, error = float(parting.lyapunov_time), float(parting.lyapunov_time_error)
+def _lyapunov_time(neighbour: xr.Dataset) -> str:
+    time, error = float(neighbour.lyapunov_time), float(neighbour.lyapunov_time_error)
     return f"{time:.3g} ± {error:.2g}"
 
 
@@ -87,7 +79,7 @@ def _days(answer: xr.Dataset) -> FloatArray:
 
 def _label(ax: Axes, words: str) -> Axes:
     ax.set(xlabel="time from the start (d)", ylabel=words)
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -103,9 +95,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 8, 3.4)
     answer = answer_of(result)
-    for colour, (component, of) in zip(CYCLE, along(answer, "component"), strict=False):
-        turns = np.degrees(of.omega.values) * DAY
-        ax.plot(_days(answer), turns, color=colour, lw=1.1, label=str(component))
+    drawing.lines(ax, _days(answer), np.degrees(answer.omega) * DAY, lw=1.1)
     return _label(ax, "angular velocity (deg/d)")
 
 
@@ -139,12 +129,12 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
-    parting = needed(result, "divergence")
-    days = _days(parting)
-    ax.plot(days, parting.growth, color=RED, lw=1.2, label="neighbour")
-    if "lyapunov_time" in parting:
-        words = f"e-fold in {_lyapunov_time(parting)} d"
-        ax.plot(days, days / float(parting.lyapunov_time), "k--", lw=0.9, label=words)
+    neighbour = needed(result, "divergence")
+    days = _days(neighbour)
+    ax.plot(days, neighbour.growth, color=RED, lw=1.2, label="neighbour")
+    if "lyapunov_time" in neighbour:
+        words = f"e-fold in {_lyapunov_time(neighbour)} d"
+        ax.plot(days, days / float(neighbour.lyapunov_time), "k--", lw=0.9, label=words)
     return _label(ax, "logarithm of the distance (1)")
 
 

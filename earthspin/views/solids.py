@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from earthspin.units import FloatArray
 
 GREY, BLACK = "#999999", "#1d1f21"
 
@@ -36,7 +36,8 @@ class Solid:
     times : sequence of float
         In `unit`; one entry for a still picture.
     attitude : sequence of quaternions
-        w, x, y, z, body to space, one a time; carries what has the frame "body".
+        w, x, y, z, body to space, one a time or one for all times; carries what has the frame
+        "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
     """
@@ -57,22 +58,16 @@ class Solid:
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
         content = {name: value for name, value in vars(self).items() if name not in _WORDS}
-        content |= {name: np.asarray(content[name], float) for name in ("times", "attitude")}
-        return json.dumps(_rounded(content), separators=(",", ":")).replace("<", "\\u003c")
+        times = np.asarray(self.times, float)
+        attitude = np.broadcast_to(np.asarray(self.attitude, float), (times.size, 4))
+        content |= {"times": times, "attitude": attitude}
+        exact = json.dumps(content, default=lambda points: points.tolist())
+        rounded = json.loads(exact, parse_float=lambda digits: float(f"{float(digits):.5g}"))
+        return json.dumps(rounded, separators=(",", ":")).replace("<", "\\u003c")
 
 
 #: Words about a solid, which stand on the page beside it.
 _WORDS = ("title", "caption")
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _rounded(inner) for key, inner in value.items()}
-    if isinstance(value, np.ndarray):
-        return _rounded(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [_rounded(inner) for inner in value]
-    return float(f"{value:.5g}") if isinstance(value, float) else value
 
 
 def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str = "space") -> Item:
@@ -81,12 +76,7 @@ def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str =
 
 
 def line(
-    points: FloatArray,
-    colour: str,
-    *,
-    width: float = 2.0,
-    frame: str = "space",
-    grows: bool = False,
+    points: FloatArray, colour: str, width: float, *, frame: str = "space", grows: bool = False
 ) -> Item:
     """A line through points, shape (n, 3); one that grows is drawn up to the time shown."""
     item = {"kind": "line", "points": points, "colour": colour, "width": width, "frame": frame}

@@ -8,7 +8,7 @@ from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Column, Table, listed, table_along
 
 
-def tables(tree: Result) -> list[Table]:
+def field(tree: Result) -> Table:
     """Field of a spheroid at each point."""
     columns = (
         Column("position", lambda row: listed(row.position.values)),
@@ -17,5 +17,7 @@ def tables(tree: Result) -> list[Table]:
         Column("torque", lambda row: f"{float(np.linalg.norm(row.torque)):.6e}"),
     )
     note = "The spheroid is homogeneous and has the mass, radius and flattening of the body."
-    title = "Field of the spheroid"
-    return [table_along(answer_of(tree), "point", title, columns, note, first="")]
+    return table_along(answer_of(tree), "point", "Field of the spheroid", columns, note, first="")
+
+
+TABLES = [("", field)]

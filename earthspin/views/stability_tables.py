@@ -22,9 +22,9 @@ def verdict_tables(result: xr.Dataset) -> list[Table]:
     """
     tables = []
     for part, rows in rows_by_part(result):
-        seconds = sum(row["run_time"] for row in rows)
-        lines = [tuple(row[name] for name in HEADERS) for row in rows]
-        tables.append(Table(part, HEADERS, lines, f"{len(rows)} cases, {seconds:.1f} s"))
+        note = f"{len(rows)} cases, {sum(row['run_time'] for row in rows):.1f} s"
+        cells = [tuple(row[name] for name in HEADERS) for row in rows]
+        tables.append(Table(part, HEADERS, cells, note))
     return tables
 
 
@@ -36,19 +36,13 @@ def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]
     result : Dataset
         As `stability` gives it.
     """
-    columns = {str(name): variable.values.tolist() for name, variable in result.variables.items()}
-    for part in dict.fromkeys(columns["case_part"]):
-        rows = []
-        for values in zip(*columns.values(), strict=True):
-            row: dict[str, Any] = dict(zip(columns, values, strict=True))
-            row["unit"] = "" if row["unit"] == "1" else row["unit"]
-            for name in ("measured", "bound"):
-                row[name] = "0" if row[name] == 0 else f"{abs(row[name]):.1e}"
-            if row["verdict"] == "refused":
-                row |= {"measured": "", "bound": "", "unit": ""}
-            if row["case_part"] == part:
-                rows.append(row)
-        yield part, rows
+    frame = result.to_dataframe().reset_index()
+    frame["unit"] = frame["unit"].replace("1", "")
+    for name in ("measured", "bound"):
+        frame[name] = ["0" if value == 0 else f"{abs(value):.1e}" for value in frame[name]]
+    frame.loc[frame["verdict"] == "refused", ["measured", "bound", "unit"]] = ""
+    for part, rows in frame.groupby("case_part", sort=False):
+        yield part, rows.to_dict("records")
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.views.drawing import GREY, RED, axes, figure_of, note
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-FloatArray = NDArray[np.float64]
+from earthspin.units import FloatArray
+from earthspin.views.drawing import GREY, RED, Axes, axes, figure_of, note
 
 #: Bright stars near the path of the pole: name, right ascension and declination (ICRF, J2000.0,
 #: degrees) and visual magnitude, rounded from the Hipparcos catalogue (ESA 1997, SP-1200). Proper
@@ -63,6 +59,12 @@ def year_words(year: int) -> str:
     return f"{1 - year} BC"
 
 
+def year_labels(years: Iterable[int], places: FloatArray) -> list[Label]:
+    """Labels of a path at some years."""
+    pairs = zip(years, places.tolist(), strict=True)
+    return [Label(year_words(year), (x, y), RED) for year, (x, y) in pairs]
+
+
 def star_vectors() -> FloatArray:
     """Directions of the stars, ICRF, shape (n, 3)."""
     ra, dec = np.radians([star[1:3] for star in STARS]).T
@@ -107,11 +109,8 @@ def plot_path(
     """
     ax = axes(ax, 6.4, 6.4)
     ax.grid(visible=False)
-    ax.set_aspect("equal")
-    ax.set_xlim(-REACH, REACH)
-    ax.set_ylim(-REACH, REACH)
-    ax.set_xlabel("towards longitude 180° (deg)")
-    ax.set_ylabel("towards longitude 90° (deg)")
+    ax.set(aspect="equal", xlim=(-REACH, REACH), ylim=(-REACH, REACH))
+    ax.set(xlabel="towards longitude 180° (deg)", ylabel="towards longitude 90° (deg)")
     ax.plot(*path.T, color=RED, lw=1.4)
     ax.plot(0, 0, marker="+", color="0.3", ms=9)
     stars = on_the_chart(star_vectors(), obliquity)
@@ -130,50 +129,36 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
     """Write labels one after another, each where it covers least of dots, path and text."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
-    line = _even(path * points)
-    dots = np.array([label.at for label in labels]) * points
-    boxes = [(*(dot - 2), *(dot + 2)) for dot in dots]
+    line, dots = _even(path * points), np.array([label.at for label in labels]) * points
+    boxes = [(dot - 2, dot + 2) for dot in dots]
     for label, dot in zip(labels, dots, strict=True):
         half = np.array([LETTER * len(label.text), LINE]) * TEXT / 2
         shifts = [np.array(side) * (half + GAP / np.hypot(*side)) for side in SIDES]
-        covered = [
-            _covered(dot + shift, half, boxes, line) + _beyond(dot + shift, half, points * REACH)
-            for shift in shifts
-        ]
-        shift = shifts[int(np.argmin(covered))]
-        boxes.append((*(dot + shift - half), *(dot + shift + half)))
-        place = float(shift[0]), float(shift[1])
-        note(
-            ax, label.text, label.at, place, ha="center", va="center", color=label.colour,
-            fontsize=TEXT, in_layout=False,
-        )  # fmt: skip
+        costs = [_cost(dot + shift, half, boxes, line, points * REACH) for shift in shifts]
+        shift = shifts[int(np.argmin(costs))]
+        boxes.append((dot + shift - half, dot + shift + half))
+        how = {"ha": "center", "va": "center", "fontsize": TEXT, "in_layout": False}
+        note(ax, label.text, label.at, tuple(shift.tolist()), color=label.colour, **how)
 
 
 def _even(path: FloatArray) -> FloatArray:
     """A path as points two apart, so that its length under a label can be counted."""
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
-    wanted = np.arange(0.0, along[-1], 2.0)
-    return np.stack([np.interp(wanted, along, of) for of in path.T], axis=-1)
+    even = np.arange(0.0, along[-1], 2.0)
+    return np.stack([np.interp(even, along, axis) for axis in path.T], axis=-1)
 
 
-def _beyond(middle: FloatArray, half: FloatArray, edge: float) -> float:
-    """How much a label would lie beyond the chart, points squared, counted ten times."""
-    out = np.clip(np.abs(middle) + half - edge, 0.0, None)
-    return float(10 * (out[0] * 2 * half[1] + out[1] * 2 * half[0]))
-
-
-def _covered(
+def _cost(
     middle: FloatArray,
     half: FloatArray,
-    boxes: list[tuple[float, float, float, float]],
+    boxes: list[tuple[FloatArray, FloatArray]],
     line: FloatArray,
+    edge: float,
 ) -> float:
-    """Area of boxes (points squared) and length of path that a label would cover."""
-    low, high = middle - half, middle + half
-    others = np.array(boxes)
-    wide, tall = (
-        np.minimum(high[k], others[:, k + 2]) - np.maximum(low[k], others[:, k]) for k in (0, 1)
-    )
-    on_line = np.all(np.abs(line - middle) < half + 1, axis=1)
-    area = np.sum(np.where((wide > 0) & (tall > 0), wide * tall, 0.0))
-    return float(area + CROSSED * np.count_nonzero(on_line))
+    """Area (points squared) of boxes and beyond the chart, and length of path, under a label."""
+    low, high = np.array(boxes).transpose(1, 0, 2)
+    shared = np.clip(np.minimum(middle + half, high) - np.maximum(middle - half, low), 0, None)
+    beyond = np.clip(np.abs(middle) + half - edge, 0, None)
+    crossed = np.all(np.abs(line - middle) < half + 1, axis=1)
+    area = shared.prod(axis=1).sum() + 10 * (beyond @ (2 * half[::-1]))
+    return float(area + CROSSED * np.count_nonzero(crossed))

@@ -81,15 +81,10 @@ class Column:
         if callable(self.shown):
             return self.shown(row)
         if row[self.name].dtype.kind in "UO":
-            return str(row[self.name].values)
+            return str(row[self.name].values).replace("_", " ")
         if not self.shown:
             return measured(row, self.name)
         return short_exponents(f"{float(row[self.name]):{self.shown}}")
-
-
-def words_of(name: str) -> Callable[[xr.Dataset], str]:
-    """Text of a column of names, with spaces between their words."""
-    return lambda row: str(row[name].values).replace("_", " ")
 
 
 def label(variable: xr.DataArray) -> str:
@@ -108,6 +103,7 @@ def table_along(
     *,
     first: str | None = None,
     words: Collection[int] = (0,),
+    more: Sequence[tuple[str, ...]] = (),
 ) -> Table:
     """Table with a row for each label of a dimension.
 
@@ -123,6 +119,8 @@ def table_along(
     first : str, optional
         Header of the column of labels; the name of the dimension by default; without a column if
         it is empty.
+    more : sequence of tuple of str
+        Further rows at the end.
     """
     first = dim if first is None else first
     shown = [_column(column) for column in columns]
@@ -130,12 +128,10 @@ def table_along(
         shown = [Column(dim, lambda row: str(row[dim].values), first), *shown]
     headers = tuple(column.header(data) for column in shown)
     rows = [tuple(column.text(row) for column in shown) for _, row in along(data, dim)]
-    return Table(title, headers, rows, note, words)
+    return Table(title, headers, [*rows, *more], note, words)
 
 
-def beside_published(
-    known: xr.Dataset | None, dim: str, value: str, published: str, source: str
-) -> tuple[list[Column], str]:
+def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[list[Column], str]:
     """Columns of published numbers, and of the difference from them in per cent.
 
     Parameters
@@ -144,8 +140,8 @@ def beside_published(
         Published numbers and their sources, by the labels of the rows.
     dim : str
         Dimension of the rows.
-    value, published, source : str
-        Names of the computed numbers, of the published ones and of their sources.
+    value : str
+        Name of the computed numbers.
 
     Returns
     -------
@@ -153,17 +149,16 @@ def beside_published(
     sources : str
         All of them; empty if nothing is published.
     """
-    rows = {} if known is None else dict(along(known, str(known[published].dims[0])))
+    published, sources = {}, ""
+    if known is not None:
+        numbers, source = known.data_vars.values()
+        published = dict(zip(numbers[numbers.dims[0]].values, numbers.values, strict=True))
+        sources = "; ".join(dict.fromkeys(source.values))
 
-    def texts(row: xr.Dataset) -> tuple[str, str]:
-        other = rows.get(str(row[dim].values))
-        return beside(row[value], None if other is None else other[published])
+    def text(place: int) -> Callable[[xr.Dataset], str]:
+        return lambda row: beside(row[value], published.get(row[dim].item()))[place]
 
-    columns = [
-        Column(published, lambda row: texts(row)[0], "published"),
-        Column(published, lambda row: texts(row)[1], "difference, %"),
-    ]
-    return columns, "; ".join(dict.fromkeys(str(row[source].values) for row in rows.values()))
+    return [Column("", text(0), "published"), Column("", text(1), "difference, %")], sources
 
 
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
@@ -189,15 +184,16 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
         Written after the numbers.
     """
     value, error = float(value), float(error)
-    behind = f" {unit}" if unit else ""
     if not math.isfinite(value):
         return "none (no motion)"
     if error <= 0 or not math.isfinite(error):
-        return f"{short_exponents(f'{value:.6g}')}{behind}"
-    if abs(value) < LARGE:
-        return f"{_in_brackets(value, error)}{behind}"
-    power = math.floor(math.log10(abs(value)))
-    return f"{_in_brackets(value / 10.0**power, error / 10.0**power)}e{power}{behind}"
+        text = short_exponents(f"{value:.6g}")
+    elif abs(value) < LARGE:
+        text = _in_brackets(value, error)
+    else:
+        power = math.floor(math.log10(abs(value)))
+        text = f"{_in_brackets(value / 10.0**power, error / 10.0**power)}e{power}"
+    return f"{text} {unit}".rstrip()
 
 
 def _in_brackets(value: float, error: float) -> str:

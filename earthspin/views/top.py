@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from earthspin.views import solids
-from earthspin.views.drawing import BLUE, RED, PageFigure, axes, empty
+from earthspin.views.drawing import BLUE, RED, Axes, Figure, PageFigure, axes, empty
 from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.table import Table, quantities
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-
-def tables(tree: Result) -> list[Table]:
+def motion(tree: Result) -> Table:
     """Pattern, period and mean rate of a heavy top."""
     answer, turning = answer_of(tree), section(tree, "turning")
     rows = quantities(answer, "pattern", "nutation_period:.10g", "mean_precession_rate:.10g")
     if turning is not None:
         upper, lower = np.degrees(turning.turning_angle.values)
         rows.insert(1, ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"))
-    return [Table("Heavy top", ("quantity", "value"), rows)]
+    return Table("Heavy top", ("quantity", "value"), rows)
+
+
+TABLES = [("", motion)]
 
 
 def _plot_potential_and_nutation(tree: Result) -> Figure:

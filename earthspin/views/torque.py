@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
-from earthspin.views.drawing import CYCLE, PageFigure, axes, few_dates, legend_above, stacked
+from earthspin.views import drawing
+from earthspin.views.drawing import CYCLE, Axes, Figure, PageFigure, axes, legend_above
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.table import Column, Table, along, date, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from earthspin.views.drawing import Drawing
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
 MANY_SWINGS = 200
 
 
-def tables(tree: Result) -> list[Table]:
+def extremes(tree: Result) -> Table:
     """Extremes by perturber."""
     answer = answer_of(tree)
     first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
@@ -43,10 +37,13 @@ def tables(tree: Result) -> list[Table]:
     )
     frame = answer.torque.attrs["frame"]
     note = f"{answer.time.size} times from {first} to {last} TDB, {frame}."
-    return [table_along(answer, "perturber", "Torque", columns, note, first="pulled by")]
+    return table_along(answer, "perturber", "Torque", columns, note, first="pulled by")
 
 
-def through(tree: Result, title: str, smooth_days: float) -> Drawing:
+TABLES = [("", extremes)]
+
+
+def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure of declination and torque through years, in which single swings are not seen."""
     plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
     return PageFigure(title, caption, plot).drawn(tree)
@@ -54,7 +51,7 @@ def through(tree: Result, title: str, smooth_days: float) -> Drawing:
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
     """Declination above, torque below."""
-    figure, (upper, lower) = stacked(2, 4.6)
+    figure, (upper, lower) = drawing.stacked(2, 4.6)
     plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
     return figure
@@ -70,11 +67,11 @@ def _caption(tree: Result, smooth_days: float | None = None) -> str:
             f"Bands lie between the extremes within {smooth_days:g} days, thick lines are means "
             "over the same time."
         )
-    if smooth_days and "moon" in answer_of(tree).perturber:
-        lines += (
-            " To see: the band of the Moon swells and shrinks with the inclination of its orbit to "
-            "the equator, and its mean with it."
-        )
+        if "moon" in answer_of(tree).perturber:
+            lines += (
+                " To see: the band of the Moon swells and shrinks with the inclination of its "
+                "orbit to the equator, and its mean with it."
+            )
     return (
         f"Above: declination, referred to the {answer_of(tree).torque.attrs['frame']}. Below: the "
         "component of the torque towards the equinox; it hardly ever changes sign, so it always "
@@ -99,8 +96,8 @@ def plot_declination(
     """
     answer = answer_of(result)
     ax = axes(ax)
-    for number, (label, of) in enumerate(along(answer, "perturber")):
-        _line_or_band(ax, of.declination, label, number, smooth_days)
+    for number, (label, row) in enumerate(along(answer, "perturber")):
+        _line_or_band(ax, row.declination, label, number, _colour(label, number), smooth_days)
     ax.set_ylabel("declination (deg)")
     legend_above(ax)
     return ax
@@ -122,22 +119,17 @@ def plot_torque(
     """
     answer = answer_of(result)
     ax = axes(ax)
-    for number, (label, of) in enumerate(along(answer, "perturber")):
-        torque, colour = of.torque.sel(component="x") * 1e-22, _colour(label, number)
-        _line_or_band(ax, torque, "", number, smooth_days, colour)
+    for number, (label, row) in enumerate(along(answer, "perturber")):
+        torque, colour = row.torque.sel(component="x") * 1e-22, _colour(label, number)
+        _line_or_band(ax, torque, "", number, colour, smooth_days)
         if smooth_days:
-            ax.plot(
-                answer.time,
-                torque.rolling(time=_samples(answer, smooth_days), center=True).mean(),
-                color=colour,
-                lw=1.4,
-                zorder=4 - 0.1 * number,
-                label=f"{label}, mean over {smooth_days:g} d",
-            )
+            mean = torque.rolling(time=_samples(answer, smooth_days), center=True).mean()
+            words, over = f"{label}, mean over {smooth_days:g} d", 4 - 0.1 * number
+            ax.plot(answer.time, mean, color=colour, lw=1.4, zorder=over, label=words)
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")
     ax.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
-    few_dates(ax)
+    drawing.few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:
         legend_above(ax)
@@ -149,20 +141,18 @@ def _line_or_band(
     series: xr.DataArray,
     label: str,
     number: int,
+    colour: str,
     smooth_days: float | None,
-    colour: str = "",
 ) -> None:
     """A line, or a band between its extremes where the line would swing more often than is seen."""
-    colour = colour or _colour(label, number)
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
     if not smooth_days or swings < MANY_SWINGS:
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
         return
     width = _samples(series, smooth_days)
     near, some = series.rolling(time=width, center=True), slice(None, None, max(1, width // 6))
-    low, high = near.min().values[some], near.max().values[some]
-    times = series.time.values[some]
-    ax.fill_between(times, low, high, color=colour, alpha=0.3, lw=0, label=label)
+    low, high = near.min()[some], near.max()[some]
+    ax.fill_between(series.time[some], low, high, color=colour, alpha=0.3, lw=0, label=label)
 
 
 def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:

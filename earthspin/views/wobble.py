@@ -2,37 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from earthspin.views import table
-from earthspin.views.drawing import BLUE, RED, PageFigure, axes, note, rungs
-from earthspin.views.reading import Result, answer_of, changes_of, needed, of_sections, section
+from earthspin.views.drawing import BLUE, RED, Axes, PageFigure, axes, note, rungs
+from earthspin.views.reading import Result, answer_of, changes_of, needed, section
 from earthspin.views.table import Column, Table, table_along
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
 
 #: Numbers that an ensemble of answers shows first.
 CHIEF = ("period_solar",)
 
 
-def tables(tree: Result) -> list[Table]:
-    """The ladder of models, and the sensitivity of its last rung to the inputs."""
-    return [ladder(tree), *of_sections(tree, {"sensitivity": sensitivity})]
-
-
 def ladder(tree: Result) -> Table:
     """Period of the free wobble by a series of models, the rungs of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
-    left_out = section(tree, "neglected")
 
     def period(row: xr.Dataset) -> str:
         if observed is None or row.rung != answer.rung[-1]:
             return table.measured(row, "period_solar")
+        left_out = section(tree, "neglected")
         return table.beside_observed(row.period_solar, row.period_solar_error, left_out)
 
     notes = [
@@ -46,48 +35,49 @@ def ladder(tree: Result) -> Table:
         )
     if answer.rung.attrs.get("left_out", "none") != "none":
         notes.append(f"Rungs left out: {answer.rung.attrs['left_out']}.")
-    columns = (
-        Column("period_solar", period, "days of 86400 s"),
-        "period_sidereal:.3f",
-        "factor:.6f",
-        Column("quality_factor", table.quality),
-    )
-    ladder = table_along(answer, "rung", "Free wobble, rung by rung", columns)
-    rows = list(ladder.rows)
+    more = []
     if observed is not None:
-        rows.append(("observed", table.measured(observed, "observed_period"), "", "", ""))
+        more.append(("observed", table.measured(observed, "observed_period"), "", "", ""))
         source = observed.observed_period.attrs.get("references", "")
-        notes.append(f"Source of the observed period: {source}.")
         notes.append(
+            f"Source of the observed period: {source}. "
             "The errors hold the uncertainty of the input numbers; that of the last rung, which "
             "stands beside the observed period, holds the sizes of what it leaves out, too, where "
             "they are known."
         )
-    return replace(ladder, rows=rows, note=" ".join(notes))
+    columns = (
+        Column("period_solar", period, "days of 86400 s"),
+        *("period_sidereal:.3f", "factor:.6f"),
+        Column("quality_factor", table.quality),
+    )
+    title = "Free wobble, rung by rung"
+    return table_along(answer, "rung", title, columns, " ".join(notes), more=more)
 
 
 def sensitivity(tree: Result) -> Table:
     """Sensitivity of the last rung to each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
-    shown = (
-        ""
-        if roots is None
-        else ", ".join(
-            f"{float(of.free_core_nutation):.1f} d ({shape} core)"
-            for shape, of in table.along(roots, "core_shape")
-        )
-    )
     columns = (
-        Column("input", table.words_of("input")),
+        "input",
         Column("", lambda row: table.with_error(row.input_value, row.input_half_width), "value"),
         Column("days_per_unit", ".4g", "days per unit of input"),
         Column("days_from_input", ".2g", "days from error of input"),
     )
-    note = shown and (
-        f"The other root of the equations is the free core nutation; its period in space: {shown}."
-    )
+    note = ""
+    if roots is not None:
+        periods = ", ".join(
+            f"{float(row.free_core_nutation):.1f} d ({shape} core)"
+            for shape, row in table.along(roots, "core_shape")
+        )
+        note = (
+            "The other root of the equations is the free core nutation; its period in space: "
+            f"{periods}."
+        )
     used = inputs.isel(input=np.flatnonzero(inputs.input_value))
     return table_along(used, "input", "Sensitivity of the last rung", columns, note, first="")
+
+
+TABLES = [("", ladder), ("sensitivity", sensitivity)]
 
 
 def _caption(tree: Result) -> str:
@@ -112,14 +102,14 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     answer, observed = answer_of(result), section(result, "observed")
     ax = axes(ax, 7.5, 4)
     if observed is not None:
-        seen, half = float(observed.observed_period), float(observed.observed_period_error)
-        ax.axhspan(seen - half, seen + half, color=RED, alpha=0.3, lw=0)
-        note(ax, f"observed, {seen:.1f} d", (-0.4, seen), (0, 5), color=RED, fontsize=9)
-    place, period = np.arange(answer.rung.size), answer.period_solar.values
-    ax.step(place, period, where="mid", color=BLUE, lw=1, alpha=0.5)
-    error = answer.period_solar_error.values
-    ax.errorbar(place, period, error, fmt="o", color=BLUE, ms=6, capsize=3, lw=1.2)
-    for at, value, factor in zip(place, period, answer.factor.values, strict=True):
+        period, error = float(observed.observed_period), float(observed.observed_period_error)
+        ax.axhspan(period - error, period + error, color=RED, alpha=0.3, lw=0)
+        note(ax, f"observed, {period:.1f} d", (-0.4, period), (0, 5), color=RED, fontsize=9)
+    place, periods = np.arange(answer.rung.size), answer.period_solar.values
+    ax.step(place, periods, where="mid", color=BLUE, lw=1, alpha=0.5)
+    errors = answer.period_solar_error.values
+    ax.errorbar(place, periods, errors, fmt="o", color=BLUE, ms=6, capsize=3, lw=1.2)
+    for at, value, factor in zip(place, periods, answer.factor.values, strict=True):
         below = at == place[-1] or factor < 1
         words = f"{value:.1f} d" + (f"\n× {factor:.4f}" if at else "")
         by, side = ((0, -12), "top") if below else ((0, 10), "bottom")

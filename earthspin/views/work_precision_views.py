@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from earthspin.engine import drafts, store
 from earthspin.rounded import duration, plain, shown_unit
-from earthspin.views.table import Table
+from earthspin.units import FloatArray
+from earthspin.views.drawing import CYCLE, Axes, Drawing, axes, figure_of, style
+from earthspin.views.page import page, write_texts
+from earthspin.views.table import Table, along
+from earthspin.views.terminal import WIDTH, Terminal
 
-FloatArray = NDArray[np.float64]
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-#: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008), and markers.
-_COLOURS = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F3C8D", "#666666",
-)  # fmt: skip
+#: Colours of methods, and markers.
+_COLOURS = (*CYCLE, "#7F3C8D", "#666666")
 #: Below this ratio of errors the axis shows more than powers of ten.
 FEW_DECADES = 100
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
@@ -40,30 +34,24 @@ def accuracy_table(result: xr.Dataset) -> Table:
     """
     unit = _unit(result)
     rows = []
-    for place, name in enumerate(result["method"].values):
-        row = result.isel(method=place)
-        for rung in range(int(row.settings)):
-            rows.append(_row(str(name) if rung == 0 else "", row.isel(rung=rung)))
-    return Table(
-        result.attrs["quantity"],
-        ("method", "setting", f"error{',' if unit else ''}{unit}", "run time", "±", "calls", ""),
-        rows,
-        _note(result),
-        words=(0, 1, 6),
-    )
-
-
-def _row(name: str, point: xr.Dataset) -> tuple[str, ...]:
-    flags = {"front": point.pareto, "at the reference's floor": point.at_floor}
-    return (
-        f"{name}{'' if bool(point.ours) or not name else ' (other)'}",
-        str(point.setting.values),
-        plain(float(point.error)),
-        duration(float(point.run_time)),
-        duration(float(point.run_time_spread)),
-        f"{int(point.evaluations):,}",
-        ", ".join(words for words, flag in flags.items() if bool(flag)),
-    )
+    for name, method in along(result, "method"):
+        whose = "" if method.ours else " (other)"
+        for number in range(int(method.settings)):
+            point = method.isel(rung=number)
+            flags = {"front": point.pareto, "at the reference's floor": point.at_floor}
+            row = (
+                "" if number else f"{name}{whose}",
+                str(point.setting.values),
+                plain(float(point.error)),
+                duration(float(point.run_time)),
+                duration(float(point.run_time_spread)),
+                f"{int(point.evaluations):,}",
+                ", ".join(words for words, flag in flags.items() if flag),
+            )
+            rows.append(row)
+    error = f"error,{unit}" if unit else "error"
+    headers = ("method", "setting", error, "run time", "±", "calls", "")
+    return Table(result.attrs["quantity"], headers, rows, _note(result), words=(0, 1, 6))
 
 
 def _note(result: xr.Dataset) -> str:
@@ -77,12 +65,9 @@ def _note(result: xr.Dataset) -> str:
     ]
     if result.attrs["skipped"]:
         words.append(f"Left out: {result.attrs['skipped']}.")
-    for place in np.flatnonzero(~result.holds.values):
-        row = result.isel(method=int(place))
-        words.append(
-            f"FAILS: {row['method'].item()}, error {plain(float(row.error[-1]))}, bound "
-            f"{plain(float(row.bound))}{unit}."
-        )
+    for name, method in along(result.isel(method=~result.holds.values), "method"):
+        error, bound = plain(float(method.error[-1])), plain(float(method.bound))
+        words.append(f"FAILS: {name}, error {error}, bound {bound}{unit}.")
     return " ".join(words)
 
 
@@ -97,12 +82,9 @@ def _unit(result: xr.Dataset) -> str:
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
     """Print table and sentence of each quantity to the terminal."""
-    from earthspin.views.terminal import WIDTH, Terminal
-
     console = Terminal(WIDTH + 10)
     for result in results:
-        table = accuracy_table(result)
-        console.print_table(table)
+        console.print_table(accuracy_table(result))
         console.print(f"\n{result.attrs['sentence']}\n", markup=False)
 
 
@@ -125,15 +107,12 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     """
     from matplotlib.ticker import LogLocator
 
-    from earthspin.views.drawing import axes
-
     ax = axes(ax, 7.5, 4.4)
     unit = _unit(result)
     for number, name in enumerate(result["method"].values):
         row = result.isel(method=number, rung=slice(0, int(result.settings[number])))
         colour, ours = _COLOURS[number % len(_COLOURS)], bool(row.ours)
-        time, error = row.run_time.values, row.error.values
-        spread = row.run_time_spread.values
+        time, error, spread = row.run_time.values, row.error.values, row.run_time_spread.values
         ax.errorbar(
             time, error, xerr=[np.minimum(spread, 0.9 * time).tolist(), spread.tolist()],
             fmt=_MARKERS[number % len(_MARKERS)], ms=5.5, mfc=colour if ours else "white",
@@ -143,11 +122,9 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
             *_front(time, error), where="post", color=colour, lw=0.8, alpha=0.9,
             ls="-" if ours else ":", zorder=2,
         )  # fmt: skip
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    _draw_fronts(result, ax)
-    ax.set_xlabel("run time (s)")
+    ax.set(xscale="log", yscale="log", xlabel="run time (s)")
     ax.set_ylabel(f"error ({unit.strip()})" if unit else "relative error")
+    _draw_fronts(result, ax)
     if float(result.error.max() / result.error.min()) < FEW_DECADES:
         ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.yaxis.set_major_formatter("{x:g}")
@@ -184,8 +161,6 @@ def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
 
 def svg_of(result: xr.Dataset) -> str:
     """Figure of a quantity as the text of an SVG."""
-    from earthspin.views.drawing import Drawing, figure_of, style
-
     with style():
         ax = plot_accuracy(result)
         ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
@@ -217,11 +192,10 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
     place = drafts.check_writable(folder)
     data = [store_accuracy(result, place) for result in results]
     drawn = [svg_of(result) for result in results]
-    page, pictures = place / "accuracy.html", [path.with_suffix(".svg") for path in data]
-    with ExitStack() as together:
-        texts = (accuracy_page(results, drawn), *drawn)
-        for path, text in zip((page, *pictures), texts, strict=True):
-            together.enter_context(drafts.replacing(path)).write_text(text, encoding="utf-8")
+    texts = {place / "accuracy.html": accuracy_page(results, drawn)}
+    for path, svg in zip(data, drawn, strict=True):
+        texts[path.with_suffix(".svg")] = svg
+    page, *pictures = write_texts(texts)
     return [page, *(path for pair in zip(data, pictures, strict=True) for path in pair)]
 
 
@@ -247,8 +221,6 @@ def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
     str
         HTML, self-contained.
     """
-    from earthspin.views.page import page
-
     tables = [
         replace(accuracy_table(result), figure=svg, cost=result.attrs["sentence"])
         for result, svg in zip(results, drawn, strict=True)

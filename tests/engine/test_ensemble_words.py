@@ -324,11 +324,12 @@ def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
     three = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND, COPY]}}))
     with pytest.raises(SceneError, match="1 inputs take at least 4 members"):
         three.earthspin.sensitivity()
-    from earthspin.views.ensemble import lead, tables
+    from earthspin.views.ensemble import lead
+    from earthspin.views.of_question import tables_for
 
-    assert len(tables(three)) == 1
+    assert len(tables_for(three)) == 1
     two = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND]}, "tides": {"grid": [0, 1]}}))
-    assert len(tables(two)) == 2
+    assert len(tables_for(two)) == 2
     assert "comes from" in lead(two)
 
 

@@ -139,10 +139,11 @@ def test_a_view_reads_declared_labels_and_leaves_the_answer_as_it_is(
 
 
 @pytest.mark.parametrize("word", QUESTIONS)
-def test_figures_and_solids_need_sections_of_their_question(word: str) -> None:
+def test_views_need_sections_of_their_question(word: str) -> None:
     sections = QUESTIONS[word].graph.sections
     views = import_module(f"earthspin.views.{QUESTIONS[word].views}")
     figures = getattr(views, "FIGURES", ())
     needed = {name for figure in figures for name in (figure.section, *figure.uses)}
-    needed |= {name for name, _ in getattr(views, "SOLIDS", ())}
+    for names, _ in (*views.TABLES, *getattr(views, "SOLIDS", ())):
+        needed |= set(names.split())
     assert needed - {""} <= set(sections)
