@@ -60,7 +60,6 @@ def test_impossible_bodies_name_the_field(change: dict, field: str) -> None:
     with pytest.raises(BodyError) as error:
         EARTH.replace(**change)
     assert error.value.field == field
-    assert "\n" not in str(error.value)
 
 
 def test_the_thin_disc_is_the_limit() -> None:

@@ -5,13 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.cli import main
 from earthspin.constants import MAS
 from earthspin.views import polar_motion, wobble
-from earthspin.views.of_question import drawings_for, tables_for
+from earthspin.views.of_question import tables_for
 
 SPAN = ("1962-01-01", "2026-09-29")
 
@@ -106,19 +105,6 @@ def test_amplitude_figure_takes_either_layout(pole: xr.DataTree) -> None:
         ax = polar_motion.plot_amplitude(result)
         assert np.array_equal(ax.lines[0].get_ydata(), fit.chandler_amplitude)
         assert len(polar_motion.plot_phase(result).lines) == 2
-
-
-def test_drawings(ladder: xr.DataTree, pole: xr.DataTree) -> None:
-    drawings = drawings_for(ladder) + drawings_for(pole)
-    assert len(drawings) == 4
-    for drawing in drawings:
-        assert drawing.svg.startswith("<svg")
-        assert drawing.caption.endswith(".")
-
-
-def test_figures_draw_on_given_axes(ladder: xr.DataTree) -> None:
-    mine = Figure().add_subplot()
-    assert wobble.plot_ladder(ladder, ax=mine) is mine
 
 
 def test_report(tmp_path: Path) -> None:
