@@ -201,12 +201,6 @@ def test_a_body_can_be_read_at_a_glance() -> None:
     assert "<b>" not in EARTH.replace(name="<b>")._repr_html_()
 
 
-def test_a_question_is_a_table_in_a_notebook() -> None:
-    card = Scene(compute="torque", perturbers=["moon"])._repr_html_()
-    assert "<th>perturbers</th><td>moon</td><td>given</td><td>bodies that pull on it; on " in card
-    assert "<th>equator</th><td>mean</td><td>default</td>" in card
-
-
 _TURNS = {"radius", "j2", "dynamical_flattening", "spin_period", "pole"}
 
 

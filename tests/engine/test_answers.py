@@ -79,16 +79,6 @@ def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
     assert float(some.distance_error.iloc[0]) == float(at.distance_error)
 
 
-def test_errors_stand_beside_their_values(precession_result: xr.Dataset) -> None:
-    frame = precession_result.earthspin.to_frame()
-    assert list(frame.columns)[:6] == [
-        *("perturber", "precession_rate", "precession_rate_error"),
-        *("precession_rate_error_method", "precession_rate_error_input", "precession_period"),
-    ]
-    assert len(frame) == 3
-    assert np.array_equal(frame.mean_torque, precession_result.mean_torque)
-
-
 def test_a_frame_has_a_row_for_each_label(answer: xr.Dataset) -> None:
     spread = {"component", "quaternion", "axis"}
     rows = np.prod([size for dim, size in answer.sizes.items() if dim not in spread])

@@ -19,10 +19,6 @@ def test_shipped_scenes_load(name: str) -> None:
     assert scene.title == shipped_scenes()[name]
 
 
-def test_the_shipped_names() -> None:
-    assert {"precession", "torque", "sun-only", "wobble"} <= set(shipped_scenes())
-
-
 def read(table: dict[str, Any]) -> Question:
     """A scene as a file has it."""
     keys = dict(table)
@@ -93,18 +89,6 @@ def test_changes_reach_into_tables() -> None:
     assert [p.name for p in scene.perturbers] == ["sun"]
     with pytest.raises(SceneError, match="not a table"):
         load_scene("torque", {"step.size": 1})
-
-
-def test_a_body_with_units() -> None:
-    scene = read(
-        {
-            "compute": "wobble",
-            "body": {"from": "mars", "spin_period": "20 h", "radius": "3000 km"},
-        }
-    )
-    assert scene.body.name == "mars"
-    assert scene.body.spin_period == 72000.0
-    assert scene.body.radius == 3e6
 
 
 def test_a_scene_in_python_takes_bodies_and_words() -> None:

@@ -196,19 +196,6 @@ def test_coincident_shells() -> None:
     assert float(body.gm) == pytest.approx(G.value * 1e3 / 3, rel=1e-12, abs=0)
 
 
-@pytest.mark.parametrize(
-    "masses",
-    [
-        np.ma.array([1e12, 1e12], mask=[False, True]),
-        np.array([1e12, 1e12j]),
-        np.array([1e12, None], dtype=object),
-        ["much", "more"],
-    ],
-)
-def test_masses_pass_the_border(masses: Any) -> None:
-    refused(lambda: Body.from_masses(masses, [[-500, 0, 0], [500, 0, 0]]), "masses")
-
-
 @pytest.mark.parametrize("word", ["nutation", "compliances"])
 def test_questions_about_one_body_refuse_several(word: str) -> None:
     refused(asked(word, body=several("24 h", "25 h")), "array")

@@ -137,12 +137,3 @@ def test_the_report_is_stored_before_it_is_drawn(
     with pytest.raises(ValueError, match="no picture"):
         write_report(tmp_path, figures=False)
     assert earthspin.open(tmp_path / "precession.nc")["standstills"].sizes["standstill"] > 0
-
-
-def test_report_gives_the_tree_and_its_files(tmp_path: Path) -> None:
-    tree, written = write_report(tmp_path, figures=False)
-    assert [path.name for path in written] == ["index.html", "precession.nc"]
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["index.html", "precession.nc"]
-    again = earthspin.open(tmp_path / "precession.nc")
-    assert again["standstills"].identical(tree["standstills"])
-    assert scene_page(again).count("<h2>") == len(tables_for(tree)) + 1 + 1
