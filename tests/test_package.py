@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import earthspin
+from tests.processes import ROOT, printed
 
-ROOT = Path(__file__).parents[1]
 PACKAGE = Path(earthspin.__file__).parent
 MODULES = sorted(
     ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
@@ -102,7 +102,7 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
         "PackageLoader('earthspin.views').get_source("
         "__import__('jinja2').Environment(), 'page.html.j2')\n"
     )
-    subprocess.run([sys.executable, "-c", program], check=True, cwd=tmp_path)
+    printed(program, cwd=tmp_path)
 
 
 # --- the architecture ----------------------------------------------------------------------------

@@ -5,8 +5,6 @@ from __future__ import annotations
 import errno
 import itertools
 import os
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -24,8 +22,7 @@ import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
 from earthspin.engine import drafts, loop, unfinished
 from tests.engine.work import Squares, bytes_of
-
-ROOT = Path(__file__).parents[2]
+from tests.processes import printed
 
 
 @pytest.fixture
@@ -356,10 +353,7 @@ for _ in range(times):
 def killed(tmp_path: Path, times: int) -> None:
     """Kill a run again and again; what comes out must be what an undisturbed run gives."""
     path = tmp_path / "killed.zarr"
-    out = subprocess.run(
-        [sys.executable, "-c", KILLED, str(path), str(times), "20"],
-        check=True, capture_output=True, text=True, cwd=ROOT,
-    ).stdout  # fmt: skip
+    out = printed(KILLED, str(path), str(times), "20")
     rows = [tuple(map(int, line.split())) for line in out.splitlines()]
     assert len(rows) == times
     assert sum(was for was, _ in rows) >= times / 2  # most were killed on their way

@@ -18,6 +18,7 @@ from earthspin import OutputError
 from earthspin.engine import drafts, store
 from earthspin.engine.labels import IN_FILES
 from tests import shipped
+from tests.processes import printed
 
 OLD_AND_NEW = np.array(["1550-01-01T00:00:00.000001", "2650-01-01"], "M8[us]")
 
@@ -193,10 +194,7 @@ print(peak("210 min"), peak("21 min"))
 @pytest.mark.slow
 def test_a_million_epochs_need_no_more_memory_than_a_hundred_thousand(tmp_path: Path) -> None:
     path = tmp_path / "series.zarr"
-    out = subprocess.run(
-        [sys.executable, "-c", PEAK, str(path)], check=True, capture_output=True, text=True
-    ).stdout
-    short, long = map(float, out.split())
+    short, long = map(float, printed(PEAK, str(path)).split())
     # A million epochs are 120 MB; they may not stay. Measured: some 50 MB of growth.
     assert long - short < 80, (short, long)
     series = store.open(path)
