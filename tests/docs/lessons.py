@@ -19,7 +19,7 @@ NUMBER = r"([-+]?\d[\d,.]*(?:e[-+]?\d+)?)"
 
 
 def built(path: Path, monkeypatch: pytest.MonkeyPatch | None = None) -> ModuleType:
-    """Import a module of the documentation; a patch makes its name known for as long as it lasts."""
+    """Import a module of the documentation; a patch makes its name known while it lasts."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
