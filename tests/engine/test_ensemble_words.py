@@ -33,7 +33,9 @@ def write_orbit(path: str, eccentricity: float) -> None:
     """A table in the manner of La2010: in the ecliptic, its perihelion going round."""
     t = np.arange(-60.0, 61.0)
     sines = {"k": np.cos(t / 15), "h": np.sin(t / 15), "q": 0 * t, "p": 0 * t}
-    rows = pd.DataFrame({"t": t, **{name: eccentricity * of for name, of in sines.items()}})
+    rows = pd.DataFrame(
+        {"t": t, **{name: eccentricity * variable for name, variable in sines.items()}}
+    )
     rows.to_csv(path, sep=" ", index=False)
 
 
@@ -121,8 +123,8 @@ def test_files_and_stores_keep_the_words(orbits: Path) -> None:
     stored = earthspin.ensemble(mixed(9), path="r.zarr", block=2)
     assert stored.load().identical(answer)
     assert earthspin.verify("r.zarr")
-    given = earthspin.ensemble(mixed(1).replace(members=None), answer)
-    assert earthspin.run(given).identical(given)
+    again = earthspin.ensemble(mixed(1).replace(members=None), answer)
+    assert earthspin.run(again).identical(again)
 
 
 @pytest.mark.slow
@@ -143,8 +145,8 @@ def test_what_differs_between_orbits_is_told_with_its_name(orbits: Path) -> None
     assert many.obliquity.attrs["orbit_of"] == "earth"
     for name in (ROUND, COPY):
         assert f"{name}: Newton's method" not in many.pole_error.attrs["method"]
-    one = earthspin.run(long_term({"orbit": {"grid": [ROUND]}}))
-    assert one.attrs["orbit_sha256"] == sums[0]
+    alone = earthspin.run(long_term({"orbit": {"grid": [ROUND]}}))
+    assert alone.attrs["orbit_sha256"] == sums[0]
 
 
 # --- what a store was made of --------------------------------------------------------------------
@@ -157,8 +159,8 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
     before = bytes_of(complete)
     begun.mkdir()
     work = Ensemble(mixed(9), block=2)
-    told = dict(work.asked) | {"size": "9 along member by 2"}
-    (begun / "asked.json").write_text(json.dumps(told))
+    record = dict(work.asked) | {"size": "9 along member by 2"}
+    (begun / "asked.json").write_text(json.dumps(record))
     write_orbit(ROUND, 0.02)
     with pytest.raises(OutputError, match="a store of something else stands there"):
         earthspin.ensemble(mixed(9), path=complete, block=2)
@@ -173,8 +175,8 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
 def test_stores_know_their_kernel(word: str) -> None:
     """Whatever differs among the members: numbers of a body change what is read from it."""
     path = open_ephemeris("de421").path
-    found = Ensemble(asked(word)).asked
-    assert found["ephemeris_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+    record = Ensemble(asked(word)).asked
+    assert record["ephemeris_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def test_a_kernel_that_changed_is_noticed(orbits: Path) -> None:
@@ -201,8 +203,8 @@ def test_a_kernel_that_changed_is_noticed(orbits: Path) -> None:
 
 def test_answers_know_the_tables_that_they_were_read_from(orbits: Path) -> None:
     text = earthspin.run(long_term(orbit=ROUND))
-    told = hashlib.sha256(Path(ROUND).read_bytes()).hexdigest()
-    assert text.attrs["orbit_sha256"] == told
+    digest = hashlib.sha256(Path(ROUND).read_bytes()).hexdigest()
+    assert text.attrs["orbit_sha256"] == digest
     table = earthspin.read_orbit(COPY)
     from_table = earthspin.run(long_term(orbit=table))
     assert from_table.attrs["orbit_sha256"] == table.sha256
@@ -236,8 +238,8 @@ def test_words_of_other_questions(word: str, key: str, words: list[str]) -> None
     question = asked(word).replace(members=None)
     many = earthspin.ensemble(question, {key: {"grid": words}})
     assert many[key].values.tolist() == words
-    for place, one in enumerate(words):
-        assert_is_alone(many, place, earthspin.run(question.replace(**{key: one})))
+    for place, choice in enumerate(words):
+        assert_is_alone(many, place, earthspin.run(question.replace(**{key: choice})))
 
 
 def test_every_key_with_a_name_may_be_chosen() -> None:
@@ -296,16 +298,16 @@ def test_parts_that_no_number_touches_run_once_for_all_of_the_same_words(
 def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
     """The variance between the means of classes over the whole."""
     many = earthspin.run(mixed(40))
-    told = many.earthspin.sensitivity()
-    assert told.input.values.tolist() == ["tides", "orbit"]
+    shares = many.earthspin.sensitivity()
+    assert shares.input.values.tolist() == ["tides", "orbit"]
     y, orbit = many.obliquity.isel(epoch=0).values, many.orbit.values
     between = sum((orbit == o).mean() * (y[orbit == o].mean() - y.mean()) ** 2 for o in {*orbit})
-    share = float(told.obliquity_share.isel(epoch=0).sel(input="orbit"))
+    share = float(shares.obliquity_share.isel(epoch=0).sel(input="orbit"))
     # tides are drawn, and lean a little on the orbits: they have 1e-9 of the variance (measured)
     assert share == pytest.approx(between / y.var(), rel=0, abs=1e-6)
-    assert np.isnan(told.obliquity_slope.sel(input="orbit")).all()
-    assert np.isfinite(told.obliquity_slope.sel(input="tides")).all()
-    assert told.obliquity_slope.attrs["no_slope"] == "of words there is none"
+    assert np.isnan(shares.obliquity_slope.sel(input="orbit")).all()
+    assert np.isfinite(shares.obliquity_slope.sel(input="tides")).all()
+    assert shares.obliquity_slope.attrs["no_slope"] == "of words there is none"
     middle = many.earthspin.quantiles([0.5])
     np.testing.assert_allclose(
         middle.obliquity[0], many.obliquity.median("member"), rtol=1e-15, atol=0
@@ -369,8 +371,8 @@ def test_a_table_that_is_no_text_is_refused(orbits: Path) -> None:
 def test_files_of_members_with_words(orbits: Path) -> None:
     Path("m.csv").write_text(f"member, orbit, tides\n0, {OWN}, 1\n1, {ROUND}, 0.9\n")
     by_table = earthspin.ensemble(long_term(), "m.csv")
-    given = xr.Dataset({"orbit": ("member", [OWN, ROUND]), "tides": ("member", [1.0, 0.9])})
-    given.to_netcdf("m.nc")
+    members = xr.Dataset({"orbit": ("member", [OWN, ROUND]), "tides": ("member", [1.0, 0.9])})
+    members.to_netcdf("m.nc")
     assert differ(by_table, earthspin.ensemble(long_term(), "m.nc")) == []
     assert by_table.orbit.values.tolist() == [OWN, ROUND]
     Path("gap.csv").write_text(f"orbit,tides\n{OWN},1\n,0.9\n")

@@ -56,10 +56,10 @@ def ended(path: Path, at: int = 3) -> Path:
 
 
 def test_a_store_holds_what_was_made(undisturbed: Path) -> None:
-    found = earthspin.open(undisturbed)
-    assert np.array_equal(found.square.sel(column="plus"), np.arange(20) ** 2.0)
-    assert found.day[19] == np.datetime64("2000-01-20")
-    assert found.identical(loop.hold(Squares()))
+    answer = earthspin.open(undisturbed)
+    assert np.array_equal(answer.square.sel(column="plus"), np.arange(20) ** 2.0)
+    assert answer.day[19] == np.datetime64("2000-01-20")
+    assert answer.identical(loop.hold(Squares()))
     assert earthspin.verify(undisturbed) == undisturbed
     assert [p.name for p in undisturbed.parent.iterdir()] == ["undisturbed.zarr"]
 

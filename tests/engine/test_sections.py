@@ -37,18 +37,18 @@ def test_a_tree_holds_the_answer_its_sections_and_its_plan(word: str) -> None:
 
 def needed_for(graph: Graph, names: tuple[str, ...], left_out: dict[str, str]) -> set[str]:
     """Parts that some parts stand on, themselves included, but for those that are left out."""
-    found: set[str] = set()
+    reached: set[str] = set()
 
     def walk(name: str) -> None:
-        if name in found or name not in graph.parts or graph.parts[name].title in left_out:
+        if name in reached or name not in graph.parts or graph.parts[name].title in left_out:
             return
-        found.add(name)
+        reached.add(name)
         for other in (*graph.parts[name].needs, *graph.parts[name].uses):
             walk(other)
 
     for name in names:
         walk(name)
-    return found
+    return reached
 
 
 EACH = [(word, section) for word, names in NAMES.items() for section in sorted(names)]
