@@ -59,8 +59,6 @@ mutants: $(VENV)/.test
 
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/chebyshev.py
-	$(BIN)/python tests/benchmarks/torque_series.py
-	$(BIN)/python tests/benchmarks/report_process.py
 	$(BIN)/python tests/benchmarks/pole.py
 	$(BIN)/python tests/benchmarks/many_bodies.py
 	$(BIN)/python tests/benchmarks/side_by_side.py

@@ -84,7 +84,6 @@ def test_what_is_no_date(value: object) -> None:
     with pytest.raises(SceneError) as error:
         dates.microseconds(value, SPAN)
     assert error.value.key == "span"
-    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -139,7 +138,6 @@ def test_what_is_no_list_of_times(times: object) -> None:
     with pytest.raises(SceneError) as error:
         dates.days(times, TIMES)
     assert error.value.key == "times"
-    assert "\n" not in str(error.value)
 
 
 # --- one rule for time zones -----------------------------------------------------------------
@@ -205,18 +203,16 @@ def test_a_series_asked_for_in_utc_is_that_of_its_tdb() -> None:
     ids=str,
 )
 def test_where_there_is_no_utc_a_zone_is_refused(value: object) -> None:
-    with pytest.raises(SceneError, match="utc, is not known there") as error:
+    with pytest.raises(SceneError, match="utc, is not known there"):
         dates.microseconds(value, SPAN)
-    assert "\n" not in str(error.value)
     with pytest.raises(SceneError, match="utc, is not known there"):
         dates.days([value], TIMES)
 
 
 def test_where_there_is_no_utc_an_index_is_refused() -> None:
     for start in ("1950-01-01", "2200-01-01"):
-        with pytest.raises(SceneError, match="utc, is not known there") as error:
+        with pytest.raises(SceneError, match="utc, is not known there"):
             dates.days(pd.date_range(start, periods=2, tz="UTC"), TIMES)
-        assert "\n" not in str(error.value)
 
 
 # --- exactness -------------------------------------------------------------------------------

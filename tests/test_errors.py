@@ -13,6 +13,7 @@ EXAMPLES = [
     errors.SceneError(
         "step", "0 h", "a step is greater than zero", source="x.toml", remedy="try 1 h"
     ),
+    errors.SceneError("a\nb", "0\nh", "two\nlines", source="c\nd.toml", remedy="e\nf"),
     errors.BodyError("earth", "gm", -1.0, "a mass is zero or more"),
     errors.UnitsError("step", "6", "s", "6 h"),
     errors.KernelError("x.bsp", "the file is empty", "fetch it again"),
@@ -44,7 +45,7 @@ def test_no_class_is_without_an_example() -> None:
 
 
 def test_a_coverage_error_names_what_the_kernel_covers() -> None:
-    error = EXAMPLES[4]
+    error = EXAMPLES[5]
     assert isinstance(error, errors.CoverageError)
     assert error.coverage == ("1899-07-29", "2053-10-09")
     assert "1899-07-29 to 2053-10-09" in str(error)

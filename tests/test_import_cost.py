@@ -1,12 +1,11 @@
 """Only what a scene needs is loaded, shown in fresh processes."""
 
 import json
-import subprocess
-import sys
 
 import pytest
 
 from earthspin.scenes import load_scene, shipped_scenes
+from tests.processes import printed
 
 #: What costs a second or more to load, and what stands on it.
 HEAVY = {
@@ -18,13 +17,7 @@ HEAVY = {
 def modules_after(program: str) -> set[str]:
     """Top-level modules that a fresh process has imported after a program."""
     listing = "\nimport sys; print(' '.join(sorted({m.split('.')[0] for m in sys.modules})))"
-    out = subprocess.run(
-        [sys.executable, "-W", "error", "-c", program + listing],
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
-    return set(out.splitlines()[-1].split())
+    return set(printed(program + listing).splitlines()[-1].split())
 
 
 def test_importing_costs_nothing() -> None:
@@ -99,13 +92,7 @@ for program in json.load(sys.stdin):
 
 def watched_after(programs: list[str]) -> list[set[str]]:
     """Watched modules that a process has imported after each of some programs, run alone."""
-    out = subprocess.run(
-        [sys.executable, "-W", "error", "-c", CHILDREN],
-        input=json.dumps(programs),
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
+    out = printed(CHILDREN, input=json.dumps(programs))
     return [set(line.split()) & WATCHED for line in out.splitlines()]
 
 

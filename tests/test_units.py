@@ -26,14 +26,6 @@ def test_durations(value: object) -> None:
     assert SECONDS.read(value, STEP) == 21600.0
 
 
-@pytest.mark.parametrize("value", ["6", "6 kg", "6 houres", "", "h", 6 * u.m, True])
-def test_what_is_no_duration(value: object) -> None:
-    with pytest.raises(UnitsError) as error:
-        SECONDS.read(value, STEP)
-    assert "step" in str(error.value)
-    assert "\n" not in str(error.value)
-
-
 def test_arcsec_per_century_is_not_arcsec_per_cycle() -> None:
     rate = units.quantity(
         5040.4 * u.arcsec / (100 * u.yr), "arcsec/yr", Where("rate"), "50 arcsec/yr"
@@ -96,7 +88,6 @@ def test_what_is_no_number_of_seconds(value: object) -> None:
     with pytest.raises(EarthspinError) as error:
         units.quantity(value, "s", Where("times"), "1 s")
     assert "times" in str(error.value)
-    assert "\n" not in str(error.value)
 
 
 def test_a_masked_array_that_hides_nothing_is_an_array() -> None:
@@ -180,9 +171,8 @@ def test_arrays_have_the_shape_that_is_wanted(
     ],
 )
 def test_sizes_that_do_not_fit(shape: tuple[int | None, ...], given: object) -> None:
-    with pytest.raises(SceneError, match="shape") as error:
+    with pytest.raises(SceneError, match="shape"):
         Numbers("m", "1 m", shape).read(given, STEP)
-    assert "\n" not in str(error.value)
 
 
 def test_an_array_does_not_change_with_what_was_given() -> None:

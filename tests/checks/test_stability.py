@@ -22,25 +22,6 @@ from earthspin.engine import store
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.views.stability_tables import tally, tally_line, verdict_tables
 
-#: Bounds that do not come from what was measured.
-BOUND_OTHERWISE = {
-    "series of 1/R to degree 300 where it hardly converges": "what the series claims itself",
-    "averages at steps that resonate with the month and the node": "sums in any order",
-    "a response whose core resonates next to the annual term": "where the search may stop",
-    "every leap second since 1972": "by how much TDB swings",
-}
-
-
-def rows_of_the_page() -> list[tuple[str, float, float]]:
-    """Name, measured and bound of the cases that hold, as the page has them."""
-    found = []
-    for line in PAGE.read_text(encoding="utf-8").splitlines():
-        cells = line.removeprefix("| ").removesuffix(" |").split(" | ")
-        if line.startswith("| ") and cells[-1] == "holds":
-            measured, bound = (float(cell.split()[0]) for cell in cells[3:5])
-            found.append((cells[0], measured, bound))
-    return found
-
 
 @pytest.fixture(scope="module")
 def quick() -> xr.Dataset:
@@ -107,13 +88,6 @@ def test_what_is_measured_is_within_the_bound(quick: xr.Dataset) -> None:
     assert np.all(refused.measured == 0)
     assert np.all(refused.bound == 0)
     assert all("\n" not in line and line for line in refused.reason.values)
-
-
-@pytest.mark.parametrize("row", rows_of_the_page(), ids=lambda row: row[0])
-def test_bounds_are_near_what_was_measured(row: tuple[str, float, float]) -> None:
-    """As on the page, where they stand side by side; at rounding a bound may be farther off."""
-    name, measured, bound = row
-    assert bound <= max(10.5 * measured, 1e-14) or name in BOUND_OTHERWISE, (measured, bound)
 
 
 # --- the verdicts --------------------------------------------------------------------------
@@ -292,13 +266,6 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert err == ""
     assert "through the leap second" in out
     assert out.splitlines()[-1].startswith("2 cases, 2 of which must hold: 2 hold, 0 are refused")
-
-
-def test_a_mistake_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["stability", "--only", "zzz"]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert len(err.splitlines()) == 1
 
 
 @pytest.mark.parametrize(

@@ -18,12 +18,14 @@ RUNNER = DOCS / "_ext" / "lessons.py"
 NUMBER = r"([-+]?\d[\d,.]*(?:e[-+]?\d+)?)"
 
 
-def extension() -> ModuleType:
-    """The module of the docs that reads lessons."""
-    spec = importlib.util.spec_from_file_location("lessons", RUNNER)
+def built(path: Path, monkeypatch: pytest.MonkeyPatch | None = None) -> ModuleType:
+    """Import a module of the documentation; a patch makes its name known while it lasts."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
+    if monkeypatch is not None:
+        monkeypatch.setitem(sys.modules, path.stem, module)
     spec.loader.exec_module(module)
     return module
 

@@ -8,7 +8,7 @@ import tomllib
 
 import pytest
 
-from tests.docs.lessons import DOCS, NUMBER, extension, hold, results_of
+from tests.docs.lessons import DOCS, NUMBER, RUNNER, built, hold, results_of
 
 INDEX = (DOCS / "course" / "index.md").read_text(encoding="utf-8")
 NAMES = re.search(r"```\{toctree\}\n:maxdepth: 1\n\n(.*?)\n```", INDEX, re.S)[1].split()  # type: ignore[index]
@@ -85,7 +85,7 @@ PRINTED = {
 }
 
 
-READER = extension()
+READER = built(RUNNER)
 
 
 @pytest.fixture(scope="module")

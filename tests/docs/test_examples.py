@@ -1,8 +1,6 @@
 """The examples of the pages are built and run as they stand there."""
 
-import importlib.util
 import re
-import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -11,24 +9,14 @@ import pytest
 
 import earthspin
 from earthspin import cli, scenes
+from tests.docs.lessons import DOCS, built
 
-EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
-
-
-def built(name: str, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """An example, imported from where it stands."""
-    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    monkeypatch.setitem(sys.modules, name, module)
-    spec.loader.exec_module(module)
-    return module
+EXAMPLES = DOCS / "examples"
 
 
 @pytest.fixture
 def example(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    module = built("surface_gravity", monkeypatch)
+    module = built(EXAMPLES / "surface_gravity.py", monkeypatch)
     question = module.SurfaceGravity
     monkeypatch.setitem(scenes.QUESTIONS, question.word, question)
     return module
@@ -69,7 +57,7 @@ def test_it_is_a_scene_like_any_other(
 
 def test_the_method_in_plain_skyfield(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rates from plain Skyfield: another length of the taper, so 1e-7 apart."""
-    module = built("method_in_skyfield", monkeypatch)
+    module = built(EXAMPLES / "method_in_skyfield.py", monkeypatch)
     answer = module.with_earthspin()
     for name, rate in module.plain_skyfield().items():
         ours = answer.sel(perturber=name)
@@ -78,7 +66,7 @@ def test_the_method_in_plain_skyfield(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_comet_and_vectors_of_skyfield(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = built("skyfield_bodies", monkeypatch)
+    module = built(EXAMPLES / "skyfield_bodies.py", monkeypatch)
     found = module.series()
     assert found.perturber.values.tolist() == ["sun", "moon", "comet"]
     t = module.ts.utc(2026, 1, 1)
@@ -90,7 +78,7 @@ def test_a_comet_and_vectors_of_skyfield(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_a_source_of_positions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Angular momentum that a straight passage gives, against its integral in closed form."""
-    found = built("passage", monkeypatch).passing_moon().sel(perturber="moon")
+    found = built(EXAMPLES / "passage.py", monkeypatch).passing_moon().sel(perturber="moon")
     nearest, speed, half = 2e8, 2e4, 43200.0  # m, m/s, s
     assert np.isclose(found.distance.min(), nearest, rtol=1e-12, atol=0)
     # 3 GM (C - A) sin 45 cos 45 b2 r^-5 along y; what lies along the path cancels out

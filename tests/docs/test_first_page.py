@@ -1,9 +1,9 @@
 """The first page: its lines run, print what stands there, and draw a figure."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
+
+from tests.processes import printed
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "index.md").read_text(encoding="utf-8")
@@ -11,13 +11,9 @@ PAGE = (DOCS / "index.md").read_text(encoding="utf-8")
 
 def test_the_eight_lines_print_what_stands_below_them(tmp_path: Path) -> None:
     (program,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
-    (printed,) = re.findall(r"```text\n(.*?)```", PAGE, flags=re.DOTALL)
+    (shown,) = re.findall(r"```text\n(.*?)```", PAGE, flags=re.DOTALL)
     assert len([line for line in program.splitlines() if line.strip()]) == 8
-    out = subprocess.run(
-        [sys.executable, "-X", "utf8", "-c", program],
-        check=True, capture_output=True, encoding="utf-8", cwd=tmp_path,
-    ).stdout  # fmt: skip
-    assert out == printed
+    assert printed(program, cwd=tmp_path) == shown
     assert (tmp_path / "torque.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -19,12 +19,6 @@ def name(page: Path) -> str:
     return f"{page.parent.name}/{page.stem}"
 
 
-def test_there_are_four_tutorials_and_a_dozen_tasks() -> None:
-    folders = [page.parent.name for page in STORIES]
-    assert folders.count("tutorials") == 4
-    assert folders.count("howto") >= 12
-
-
 @pytest.mark.parametrize("page", STORIES, ids=name)
 def test_code_fits_and_can_be_copied(page: Path) -> None:
     """No magic and no command of a shell among the Python, and nothing imported out of sight."""

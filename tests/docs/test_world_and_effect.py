@@ -1,8 +1,6 @@
 """The example of an effect in docs/architecture.md, built and run as it stands, and a world."""
 
-import importlib.util
 from collections.abc import Iterator
-from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -11,23 +9,13 @@ import pytest
 import earthspin
 from earthspin import bodies
 from earthspin.motion import effects
-
-EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
-
-
-def built(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from tests.docs.lessons import DOCS, built
 
 
 @pytest.fixture
 def tidal_tilt() -> Iterator[ModuleType]:
     before = dict(effects.EFFECTS)
-    yield built("tidal_tilt")
+    yield built(DOCS / "examples" / "tidal_tilt.py")
     effects.EFFECTS.clear()
     effects.EFFECTS.update(before)
 

@@ -1,8 +1,6 @@
 """`ds.earthspin`: what an answer knows of itself."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +12,7 @@ import earthspin
 from earthspin import EARTH, SceneError
 from earthspin.questions.precession import Precession
 from earthspin.questions.wobble import Wobble
+from tests.processes import printed
 
 
 def test_the_scene_is_the_question(precession_result: xr.Dataset) -> None:
@@ -45,7 +44,7 @@ def test_the_plan_is_a_table_with_its_seconds() -> None:
 def test_an_answer_of_another_process_has_a_plan_without_seconds(tmp_path: Path) -> None:
     path = tmp_path / "answer.nc"
     program = f"import earthspin; earthspin.write(earthspin.run('torque'), {str(path)!r})"
-    subprocess.run([sys.executable, "-c", program], check=True)
+    printed(program)
     program = (
         "import earthspin\n"
         f"answer = earthspin.open({str(path)!r})\n"
@@ -53,9 +52,7 @@ def test_an_answer_of_another_process_has_a_plan_without_seconds(tmp_path: Path)
         "print(type(answer.earthspin.scene).__name__)\n"
         "print(len(answer.earthspin.to_frame()))"
     )
-    out = subprocess.run(
-        [sys.executable, "-W", "error", "-c", program], check=True, capture_output=True, text=True
-    ).stdout
+    out = printed(program)
     assert "runs, in this order" in out
     assert " ms]" not in out
     assert out.splitlines()[-2:] == ["Torque", "2930"]

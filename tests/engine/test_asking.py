@@ -2,167 +2,77 @@
 
 import inspect
 from pathlib import Path
-from typing import Any
 
 import pytest
 import tomli_w
 
 import earthspin
-from earthspin import EarthspinError, SceneError, load_scene
+from earthspin import SceneError, load_scene
 from earthspin.engine.question import Question, describe_keys, keys_of
 from earthspin.scenes import QUESTIONS
+from tests import shipped
 
-#: A value of each key that some question takes, as a scene file holds it.
-VALUES: dict[str, Any] = {
-    "body": "earth",
-    "perturbers": ["sun"],
-    "source": "skyfield",
-    "ephemeris": "de421",
-    "span": ["2000-01-01", "2000-02-01"],
-    "step": "1 d",
-    "times": ["2000-01-01"],
-    "accuracy": 1e-3,
-    "equator": "mean",
-    "effects": ["j3"],
-    "response": "fitted",
-    "anelastic_exponent": 0.2,
-    "interior": "prem",
-    "period": "1 d",
-    "start_attitude": [1.0, 0.0, 0.0, 0.0],
-    "start_omega": [0.0, 0.0, 1e-4],
-    "torque": {"live": "friction"},
-    "orbit": "own",
-    "tides": 1.0,
-    "ellipticity": 1.0,
-    "obliquity_shift": "1 deg",
-    "longitude_shift": "1 deg",
-    "j2_rate": "0 1/s",
-}
-#: Every key at the head of a scene that some question has.
-HEADS = {n for q in QUESTIONS.values() for n, one in keys_of(q).items() if not one.setting}
-TABLES = {q.table for q in QUESTIONS.values() if q.table}
-#: A scene of each question that runs as it is, if anything does.
-FULL: dict[str, dict[str, Any]] = {
-    "free-rotor": {
-        "rotor": {
-            "moments": ["1 kg m2", "2 kg m2", "2.5 kg m2"],
-            "omega": ["0.1 rad/s", "1 rad/s", "0.1 rad/s"],
-        }
-    },
-    "top": {
-        "top": {
-            **{"transverse_moment": "1 kg m2", "axial_moment": "1.2 kg m2"},
-            **{"weight_moment": "1.5 N m", "theta": "40 deg", "spin": "3 rad/s"},
-        }
-    },
-    "spheroid": {"spheroid": {"position": [["7e6 m", "0 m", "0 m"]]}},
-    "cassini-states": {
-        "body": {"from": "mars"},
-        "orbit": {"period": "687 d", "i": "3 deg", "node_period": "-70 kyr"},
-    },
-}
-FOREIGN = [
-    (word, name) for word, q in QUESTIONS.items() for name in sorted(HEADS - set(keys_of(q)))
-]
-SETTINGS = [
-    (word, name)
-    for word, q in QUESTIONS.items()
-    for name in sorted(
-        {n for other in QUESTIONS.values() for n, one in keys_of(other).items() if one.setting}
-        - set(keys_of(q))
-    )
-]
+KEYS = [key for question in QUESTIONS.values() for key in keys_of(question).values()]
+#: Every key at the head of a scene, every setting and every table that some question has.
+HEADS = {key.name for key in KEYS if not key.setting}
+SETTINGS = {key.name for key in KEYS if key.setting}
+TABLES = sorted({question.table for question in QUESTIONS.values() if question.table})
+
+each_question = pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
 
 
-def test_every_head_has_a_value() -> None:
-    assert HEADS - {"title", "members", "uncertainty", "n"} == set(VALUES)  # these have all
-    assert len(FOREIGN) > 30
-
-
-@pytest.mark.parametrize("word", QUESTIONS)
-def test_the_scenes_of_this_test_are_whole(word: str) -> None:
-    scene = QUESTIONS[word].from_table(FULL.get(word, {}))
-    assert earthspin.plan(scene).parts
-
-
-def refused(error: pytest.ExceptionInfo[EarthspinError], word: str, name: str) -> None:
-    assert isinstance(error.value, SceneError)
-    assert f"compute = '{word}' has no such key" in str(error.value)
-    assert name in error.value.key
-    assert "\n" not in str(error.value)
-
-
-@pytest.mark.parametrize(("word", "name"), FOREIGN)
-def test_a_key_of_another_question_is_refused(word: str, name: str, tmp_path: Path) -> None:
+@each_question
+def test_a_key_of_another_question_is_refused_however_it_is_given(
+    question: type[Question], tmp_path: Path
+) -> None:
     """In a file, with changes, in a class, in a call."""
-    value, full = VALUES[name], {"compute": word} | FULL.get(word, {})
+    keys = shipped.table(question.word)
+    full = {"compute": question.word} | keys
+    name = min(HEADS - set(keys_of(question)))
+    settings = keys.get(question.table or "", {}) | {name: 1}
     path, wrong = tmp_path / "scene.toml", tmp_path / "wrong.toml"
     path.write_text(tomli_w.dumps(full))
-    wrong.write_text(tomli_w.dumps({name: value} | full))
-    with pytest.raises(EarthspinError) as error:
-        load_scene(wrong)
-    refused(error, word, name)
-    assert str(error.value).startswith(f"{wrong}: {name} = ")
-    with pytest.raises(EarthspinError) as error:
-        load_scene(path, {name: value})
-    refused(error, word, name)
-    with pytest.raises(EarthspinError) as error:
-        earthspin.Scene(**{name: value}, **full)
-    refused(error, word, name)
-    with pytest.raises(EarthspinError) as error:
-        load_scene(path).replace(**{name: value})
-    refused(error, word, name)
-    given = full.get(QUESTIONS[word].table or "-", {}) | {name: value}
-    with pytest.raises(EarthspinError) as error:
-        QUESTIONS[word](**given)
-    refused(error, word, name)
-    with pytest.raises(TypeError, match=f"{QUESTIONS[word].call}.*'{name}'"):
-        getattr(earthspin, QUESTIONS[word].call)(**given)
+    wrong.write_text(tomli_w.dumps({name: 1} | full))
+    for ask in (
+        lambda: load_scene(wrong),
+        lambda: load_scene(path, {name: 1}),
+        lambda: earthspin.Scene(**{name: 1}, **full),
+        lambda: load_scene(path).replace(**{name: 1}),
+        lambda: question(**settings),
+    ):
+        words = f"{name} = 1: compute = '{question.word}' has no such key"
+        with pytest.raises(SceneError, match=words) as error:
+            ask()
+        assert name in error.value.key
+    with pytest.raises(TypeError, match=f"{question.call}.*'{name}'"):
+        getattr(earthspin, question.call)(**settings)
 
 
-@pytest.mark.parametrize("word", QUESTIONS)
-@pytest.mark.parametrize("table", sorted(TABLES))
-def test_a_table_of_another_question_is_refused(word: str, table: str) -> None:
-    question = QUESTIONS[word]
-    if table == question.table:
-        with pytest.raises(SceneError, match=f"it is a table: \\[{table}\\]"):
-            question.from_table({table: 3})
-        with pytest.raises(SceneError, match="allowed: ") as error:
-            question.from_table({table: {"colour": "blue"}})
-        assert error.value.key == f"{table}.colour"
-    else:
-        with pytest.raises(SceneError, match="has no such key"):
-            question.from_table({table: {}} | FULL.get(word, {}))
-
-
-@pytest.mark.parametrize(("word", "name"), SETTINGS)
-def test_a_setting_of_another_question_is_refused(word: str, name: str) -> None:
-    question = QUESTIONS[word]
-    full = FULL.get(word, {})
-    with pytest.raises(SceneError, match="has no such key"):
-        question.from_table(full | {name: 1})
-    if question.table:
-        with pytest.raises(SceneError, match="allowed: ") as error:
-            question.from_table({question.table: full.get(question.table, {}) | {name: 1}})
-        assert error.value.key == f"{question.table}.{name}"
-
-
-@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
-def test_a_setting_stands_in_its_table_and_nothing_else(question: type[Question]) -> None:
-    full = FULL.get(question.word, {})
-    for name, one in keys_of(question).items():
-        if one.setting:
-            with pytest.raises(SceneError, match="it belongs in the table"):
+@each_question
+def test_keys_of_other_questions_are_refused(question: type[Question]) -> None:
+    """At the head of a scene, and in its table."""
+    full = shipped.table(question.word)
+    for name in sorted(HEADS | SETTINGS):
+        key = keys_of(question).get(name)
+        if key is None or key.setting:
+            words = "has no such key" if key is None else "it belongs in the table"
+            with pytest.raises(SceneError, match=words):
                 question.from_table(full | {name: 1})
-        elif question.table:
-            table = full.get(question.table, {}) | {name: 1}
-            with pytest.raises(SceneError, match="allowed: "):
-                question.from_table({question.table: table})
+        if question.table and (key is None or not key.setting):
+            with pytest.raises(SceneError, match="allowed: ") as error:
+                question.from_table({question.table: full.get(question.table, {}) | {name: 1}})
+            assert error.value.key == f"{question.table}.{name}"
+
+
+@each_question
+def test_a_table_of_another_question_is_refused(question: type[Question]) -> None:
+    for table in TABLES:
+        words = f"it is a table: \\[{table}\\]" if table == question.table else "has no such key"
+        with pytest.raises(SceneError, match=words):
+            question.from_table(shipped.table(question.word) | {table: 3})
 
 
 # --- what a call says of itself ----------------------------------------------------------------
-
-CALLS = {q.call: q for q in QUESTIONS.values()}
 
 
 def arguments(question: type[Question]) -> set[str]:
@@ -171,9 +81,9 @@ def arguments(question: type[Question]) -> set[str]:
     return names - {"span"} | {"start", "stop"} if "start" in question.positional else names
 
 
-@pytest.mark.parametrize("call", CALLS)
-def test_the_signature_names_every_key(call: str) -> None:
-    question, function = CALLS[call], getattr(earthspin, call)
+@each_question
+def test_the_signature_names_every_key(question: type[Question]) -> None:
+    function = getattr(earthspin, question.call)
     parameters = inspect.signature(function).parameters
     assert set(parameters) == arguments(question)
     assert tuple(parameters)[: len(question.positional)] == question.positional
@@ -182,34 +92,34 @@ def test_the_signature_names_every_key(call: str) -> None:
         assert parameter.kind is (
             parameter.POSITIONAL_OR_KEYWORD if free else parameter.KEYWORD_ONLY
         )
-        one = keys_of(question).get(name)
-        required = one is not None and one.required
+        key = keys_of(question).get(name)
+        required = key is not None and key.required
         assert (parameter.default is parameter.empty) == required
-    assert function.__name__ == call
+    assert function.__name__ == question.call
 
 
-@pytest.mark.parametrize("call", CALLS)
-def test_the_docstring_describes_every_key(call: str) -> None:
-    question, doc = CALLS[call], inspect.getdoc(getattr(earthspin, call)) or ""
+@each_question
+def test_the_docstring_describes_every_key(question: type[Question]) -> None:
+    doc = inspect.getdoc(getattr(earthspin, question.call)) or ""
     head, rest = doc.split("Parameters\n----------\n")
     assert head.strip()
     listed, _ = rest.split("\nReturns\n-------\n")
     for name in arguments(question):
         assert f"\n{name} : " in f"\n{listed}", name
     words = " ".join(listed.split())
-    for name, one in keys_of(question).items():
-        if name in inspect.signature(getattr(earthspin, call)).parameters:
-            assert one.doc[1:] in words, name
+    for name, key in keys_of(question).items():
+        if name in inspect.signature(getattr(earthspin, question.call)).parameters:
+            assert key.doc[1:] in words, name
     for heading in ("Raises", "Examples"):
         assert f"\n{heading}\n" in doc
 
 
-@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+@each_question
 def test_the_list_of_keys_is_whole(question: type[Question]) -> None:
     text = describe_keys(question)
     head, _, table = text.partition(f"[{question.table}]") if question.table else (text, "", "")
-    for name, one in keys_of(question).items():
-        assert f"\n{name}: " in f"\n{table if one.setting else head}", name
+    for name, key in keys_of(question).items():
+        assert f"\n{name}: " in f"\n{table if key.setting else head}", name
     assert all(len(line) <= 100 for line in text.splitlines() if line.startswith(" "))
 
 

@@ -18,32 +18,26 @@ from earthspin.engine.inputs import inputs_of
 from earthspin.engine.members import Distribution, Members, draw, standard_normal
 from earthspin.errors import Where
 from earthspin.scenes import QUESTIONS, Scene, load_scene
-from tests.engine.work import bytes_of
+from tests import shipped
+from tests.engine.work import assert_is_alone, bytes_of
+from tests.refusals import refused
 
-#: One question of each kind that is quick to answer, and an input that it may differ in.
+DAYS = {"span": ["2000-01-01", "2000-01-03"], "step": "6 h"}
+EXPONENT = {"anelastic_exponent": {"uniform": [0.04, 0.19]}}
+H = {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}}
+RADIUS = {"body.radius": {"uniform": ["6378.1 km", "6378.2 km"]}}
+#: Keys that make a question quick, and an input that its members differ in, where the first number
+#: of its shipped scene does not do.
 ASKED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "precession": ({}, {"body.j2": {"normal": [EARTH.j2, 1e-10]}}),
-    "torque": (
-        {"span": ["2000-01-01", "2000-01-03"], "step": "6 h"},
-        {"body.radius": {"uniform": ["6378.1 km", "6378.2 km"]}},
-    ),
-    "pole": (
-        {"span": ["2000-01-01", "2000-01-11"], "step": "5 d"},
-        {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}},
-    ),
-    "long-term": (
-        {"span": ["-20 kyr", "0 kyr"], "step": "10 kyr"},
-        {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}},
-    ),
+    "torque": (DAYS, RADIUS),
+    "pole": ({"span": ["2000-01-01", "2000-01-11"], "step": "5 d"}, H),
+    "long-term": ({"span": ["-20 kyr", "0 kyr"], "step": "10 kyr"}, H),
     "cassini-states": ({}, {"body.j2": {"normal": [2.033e-4, 1e-8]}}),
-    "love-numbers": ({}, {"anelastic_exponent": {"uniform": [0.04, 0.19]}}),
-    "compliances": ({}, {"body.radius": {"uniform": ["6378.1 km", "6378.2 km"]}}),
-    "rotation": (
-        {"span": ["2000-01-01", "2000-01-02"], "step": "6 h"},
-        {"body.triaxiality": {"normal": [EARTH.triaxiality, 1e-9]}},
-    ),
+    "love-numbers": ({}, EXPONENT),
+    "rotation": (DAYS, {"body.triaxiality": {"normal": [EARTH.triaxiality, 1e-9]}}),
     "polar-motion": ({}, {"body.gm": {"normal": [EARTH.gm, 8e5]}}),
-    "wobble": ({}, {"anelastic_exponent": {"uniform": [0.04, 0.19]}}),
+    "wobble": ({}, EXPONENT),
     "free-rotor": (
         {"moments": [1, 2, 2.8], "omega": [0.01, 1, 0], "times": [0, 10]},
         {"moments.2": {"grid": [2.5, 2.8]}, "omega.0": {"choice": [0.01, 0.02]}},
@@ -59,27 +53,28 @@ ASKED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"position": ["7000 km", "0 km", "0 km"]},
         {"body.flattening": {"normal": [EARTH.flattening, 1e-9]}},
     ),
+    "iau": ({}, H),
+    "nutation": ({}, H),
 }  # fmt: skip
-
-#: Those that follow the pole over centuries, some seconds a member.
-SLOWLY: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "iau": ({}, {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}}),
-    "nutation": ({}, {"body.dynamical_flattening": {"normal": [EARTH.dynamical_flattening, 1e-9]}}),
-}
+#: Questions that follow the pole over centuries, some seconds a member.
+SLOW = ("iau", "nutation")
+QUICK = tuple(word for word in QUESTIONS if word not in SLOW)
 
 
 def asked(word: str, n: int = 4, **settings: Any) -> Any:
     """A question with members."""
-    keys, inputs = (ASKED | SLOWLY)[word]
+    scene = load_scene(shipped.SCENES[word])
+    keys, inputs = ASKED.get(word, ({}, RADIUS))
+    if word not in ASKED and not hasattr(scene, "body"):
+        name, number = next((n, x) for n, x in scene.keys().items() if isinstance(x, float))
+        inputs = {name: {"uniform": [0.99 * number, number]}}
     members = {"n": n, **inputs, **settings}
-    if word == "cassini-states":  # its body has no default
-        return load_scene(word, {"members": members})
-    return QUESTIONS[word](members=members, **keys)
+    return QUESTIONS[word](members=members, **keys) if keys else scene.replace(members=members)
 
 
 def label_of(many: xr.Dataset) -> str:
     """Name of the coordinate that holds the one input of an ensemble."""
-    (label,) = (str(name) for name, of in many.coords.items() if "input" in of.attrs)
+    (label,) = (str(name) for name, variable in many.coords.items() if "input" in variable.attrs)
     return label
 
 
@@ -92,7 +87,7 @@ def differ(one: xr.Dataset, other: xr.Dataset) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    "word", [*ASKED, *(pytest.param(word, marks=pytest.mark.slow) for word in SLOWLY)]
+    "word", [*QUICK, *(pytest.param(word, marks=pytest.mark.slow) for word in SLOW)]
 )
 def test_a_member_is_the_same_alone(word: str) -> None:
     all_of_them = earthspin.run(asked(word))
@@ -101,10 +96,6 @@ def test_a_member_is_the_same_alone(word: str) -> None:
     assert differ(alone, all_of_them.isel(member=[2])) == []
     again = earthspin.ensemble(asked(word).replace(members=None), all_of_them.isel(member=[2, 3]))
     assert differ(again.isel(member=[0]).drop_vars("member"), alone.drop_vars("member")) == []
-
-
-def test_every_question_has_its_example() -> None:
-    assert {*ASKED, *SLOWLY} == set(QUESTIONS)
 
 
 def test_a_question_without_bodies_has_no_published_numbers() -> None:
@@ -122,15 +113,17 @@ def test_side_by_side_is_one_by_one(word: str, field: str) -> None:
     question = asked(word).replace(members=None)
     many = earthspin.ensemble(question, xr.Dataset({f"body.{field}": ("member", values)}))
     for number in (0, 4):
-        one = earthspin.run(question.replace(body=EARTH.replace(**{field: float(values[number])})))
-        for name, of in one.data_vars.items():
-            found = many[name]
-            found = found.isel(member=number) if "member" in found.dims else found
-            if word == "wobble" and of.dtype.kind == "f":
+        alone = earthspin.run(
+            question.replace(body=EARTH.replace(**{field: float(values[number])}))
+        )
+        for name, variable in alone.data_vars.items():
+            drawn = many[name]
+            drawn = drawn.isel(member=number) if "member" in drawn.dims else drawn
+            if word == "wobble" and variable.dtype.kind == "f":
                 # numpy divides complex arrays otherwise than complex numbers (measured: 7e-16)
-                np.testing.assert_allclose(found, of, rtol=2e-15, atol=0)
+                np.testing.assert_allclose(drawn, variable, rtol=2e-15, atol=0)
             else:
-                assert np.array_equal(found.values, of.values), name
+                assert np.array_equal(drawn.values, variable.values), name
 
 
 @pytest.mark.parametrize(
@@ -154,17 +147,15 @@ def test_numbers_of_a_question_are_side_by_side(
 ) -> None:
     """And the same bits as the question has by itself."""
     values = np.linspace(low, high, 5)
-    given = asked(word).replace(members=xr.Dataset({name: ("member", values)}))
-    assert Ensemble(given).width > 1
-    many = earthspin.run(given)
+    question = asked(word).replace(members=xr.Dataset({name: ("member", values)}))
+    assert Ensemble(question).width > 1
+    many = earthspin.run(question)
     for number, value in enumerate(values.tolist()):
         key, _, field = name.partition(".")
         changed = EARTH.replace(**{field: value}) if field else value
-        one = earthspin.run(given.replace(members=None, **{key: changed}))
-        for variable in one.data_vars:
-            found = many[variable]
-            found = found.isel(member=number) if "member" in found.dims else found
-            assert np.array_equal(found.values, one[variable].values), variable
+        assert_is_alone(
+            many, number, earthspin.run(question.replace(members=None, **{key: changed}))
+        )
     assert np.array_equal(many.coords[label_of(many)].values, values)
 
 
@@ -176,9 +167,8 @@ def test_members_that_cannot_stand_side_by_side_are_made_one_by_one() -> None:
         xr.Dataset({"ellipticity": ("member", values)}),
     )
     for number, value in enumerate(values):
-        one = earthspin.long_term("-1 Myr", "0 kyr", "100 kyr", ellipticity=value)
-        for name in one.data_vars:
-            assert np.array_equal(many[name].isel(member=number), one[name]), name
+        alone = earthspin.long_term("-1 Myr", "0 kyr", "100 kyr", ellipticity=value)
+        assert_is_alone(many, number, alone)
 
 
 @pytest.mark.parametrize("omega", [[0.01, 1, 0], [[0.01, 1, 0], [1, 0.2, 0.3]]])
@@ -189,45 +179,41 @@ def test_rotors_are_side_by_side(moments: Any, omega: Any) -> None:
     """One of three moments and one of the angular velocities, with one start and with two."""
     values = {"moments.0": np.array([1.0, 1.1, 1.2]), "omega.1": np.array([1.0, 1e-3, 0.0])}
     question = QUESTIONS["free-rotor"](moments=moments, omega=omega, times=[0, 7, 90])
-    given = xr.Dataset({name: ("member", of) for name, of in values.items()})
-    assert Ensemble(question.replace(members=given)).width > 1
-    many = earthspin.ensemble(question, given)
+    inputs = xr.Dataset({name: ("member", variable) for name, variable in values.items()})
+    assert Ensemble(question.replace(members=inputs)).width > 1
+    many = earthspin.ensemble(question, inputs)
     for number in range(3):
         start = np.array(omega, dtype=float)
         start.flat[1] = values["omega.1"][number]
         first = float(values["moments.0"][number])
         own = {**moments, "A": first} if isinstance(moments, dict) else [first, *moments[1:]]
-        one = earthspin.free_rotor(own, start, [0, 7, 90])
-        for name in one.data_vars:
-            found = many[name]
-            found = found.isel(member=number) if "member" in found.dims else found
-            assert np.array_equal(found.values, one[name].values), name
+        assert_is_alone(many, number, earthspin.free_rotor(own, start, [0, 7, 90]))
 
 
 def test_a_top_that_cannot_be_is_named() -> None:
     """More than twice the transverse moment about the axis: no body has it."""
-    given = xr.Dataset({"axial_moment": ("member", [1.2, 1.9, 2.5, 1.0])})
+    inputs = xr.Dataset({"axial_moment": ("member", [1.2, 1.9, 2.5, 1.0])})
     with pytest.raises(SceneError, match=r"of 4 these cannot be.*axial_moment") as caught:
-        earthspin.run(asked("top").replace(members=given))
+        earthspin.run(asked("top").replace(members=inputs))
     assert "members = '2'" in str(caught.value)
 
 
 def test_masses_of_what_pulls_are_side_by_side() -> None:
     values = MOON.gm * (1 + 1e-6 * np.arange(3.0))
-    given = xr.Dataset({"moon.gm": ("member", values)})
-    many = earthspin.ensemble("precession", given)
-    assert Ensemble(asked("precession").replace(members=given)).width > 1
+    inputs = xr.Dataset({"moon.gm": ("member", values)})
+    many = earthspin.ensemble("precession", inputs)
+    assert Ensemble(asked("precession").replace(members=inputs)).width > 1
     for number in range(3):
         moon = MOON.replace(gm=float(values[number]))
-        one = earthspin.precession(perturbers=[SUN, moon])
-        for name in one.data_vars:
-            if one[name].dtype.kind != "f":
+        alone = earthspin.precession(perturbers=[SUN, moon])
+        for name in alone.data_vars:
+            if alone[name].dtype.kind != "f":
                 continue
-            found = many[name].isel(member=number) if "member" in many[name].dims else many[name]
+            drawn = many[name].isel(member=number) if "member" in many[name].dims else many[name]
             # The mean of a sum is not the sum of means to the last bit (measured 2e-15); errors are
             # differences of such means, and rounding there is larger (measured: 1.5e-9).
             rtol = 1e-8 if "error" in str(name) else 1e-14
-            np.testing.assert_allclose(found.values, one[name].values, rtol=rtol, atol=0)
+            np.testing.assert_allclose(drawn.values, alone[name].values, rtol=rtol, atol=0)
 
 
 @pytest.mark.parametrize("n", [1, ROW, ROW + 1, 199])
@@ -281,15 +267,15 @@ def test_random_numbers_are_those_of_philox() -> None:
     ],
 )
 def test_draws_follow_their_distribution(distribution: dict[str, Any], expected: Any) -> None:
-    found = draws(4000, {"body.dynamical_flattening": distribution})["body.dynamical_flattening"]
-    assert stats.kstest(found, expected.cdf).pvalue > 0.01  # the seed is fixed
+    drawn = draws(4000, {"body.dynamical_flattening": distribution})["body.dynamical_flattening"]
+    assert stats.kstest(drawn, expected.cdf).pvalue > 0.01  # the seed is fixed
 
 
 def test_choices_and_grids() -> None:
     inputs = {"body.j2": {"choice": [0.001, 0.0011]}, "body.radius": {"grid": ["6000 km", "1 Mm"]}}
-    found = draws(4000, inputs)
-    assert abs(np.mean(found["body.j2"] == 0.001) - 0.5) < 0.03
-    assert np.array_equal(found["body.radius"][:4], [6e6, 1e6, 6e6, 1e6])
+    drawn = draws(4000, inputs)
+    assert abs(np.mean(drawn["body.j2"] == 0.001) - 0.5) < 0.03
+    assert np.array_equal(drawn["body.radius"][:4], [6e6, 1e6, 6e6, 1e6])
     two = {"body.j2": {"grid": [0.001, 0.0011]}, "body.radius": {"grid": ["6000 km", "7000 km"]}}
     every = Ensemble(Scene(compute="wobble", members=two)).values
     assert len({*zip(every["body.j2"], every["body.radius"], strict=True)}) == 4
@@ -301,9 +287,9 @@ def test_correlations() -> None:
         "body.dynamical_flattening": {"normal": [0.0033, 1e-6]},
     }
     pair = [["body.j2", "body.dynamical_flattening", -0.8]]
-    found = draws(4000, inputs, correlations=pair)
-    assert np.corrcoef(*found.values())[0, 1] == pytest.approx(-0.8, abs=0.02)
-    assert np.array_equal(draws(4000, inputs)["body.j2"], found["body.j2"])
+    drawn = draws(4000, inputs, correlations=pair)
+    assert np.corrcoef(*drawn.values())[0, 1] == pytest.approx(-0.8, abs=0.02)
+    assert np.array_equal(draws(4000, inputs)["body.j2"], drawn["body.j2"])
 
 
 def test_correlated_numbers_of_a_member_are_the_same_alone() -> None:
@@ -327,8 +313,8 @@ def test_published_uncertainties_are_the_bodies_own() -> None:
         "body.gm", "body.radius", "body.j2", "body.dynamical_flattening", "body.flattening",
         "sun.gm", "moon.gm",
     ]  # fmt: skip
-    for name, one in work.inputs.items():
-        body = EARTH if one.key == "body" else {"sun": SUN, "moon": MOON}[name.split(".")[0]]
+    for name, item in work.inputs.items():
+        body = EARTH if item.key == "body" else {"sun": SUN, "moon": MOON}[name.split(".")[0]]
         field = name.split(".")[1]
         u = abs(getattr(body, field)) * body.relative_uncertainty[field]
         drawn = work.values[name]
@@ -353,10 +339,10 @@ def test_quantiles_and_linear_errors_agree() -> None:
     answer = earthspin.precession(uncertainty="sample", n=4000)
     sampled, linear = answer.precession_rate_error_sampled, answer.precession_rate_error_input
     np.testing.assert_allclose(sampled, linear, rtol=0.04, atol=0)  # 4000 members: 2 % of one sigma
-    told = sampled.attrs["difference_from_linear"]
-    assert told.endswith("arcsec/yr at most from precession_rate_error_input")
+    words = sampled.attrs["difference_from_linear"]
+    assert words.endswith("arcsec/yr at most from precession_rate_error_input")
     apart = float(abs(sampled - linear).max())
-    assert float(told.split()[0]) == pytest.approx(apart, rel=5e-3, abs=0)  # three digits
+    assert float(words.split()[0]) == pytest.approx(apart, rel=5e-3, abs=0)  # three digits
     assert sampled.attrs["members"] == 4000
     assert earthspin.run(answer).identical(answer)
     plain = earthspin.precession()
@@ -376,8 +362,8 @@ def test_sections_stand_beside_a_sample() -> None:
 
 def test_the_share_of_h_in_the_rate_is_that_of_the_linear_errors() -> None:
     answer = earthspin.ensemble("precession", 2000)
-    told = answer.earthspin.sensitivity()
-    total = told.precession_rate_share.sel(perturber="total")
+    shares = answer.earthspin.sensitivity()
+    total = shares.precession_rate_share.sel(perturber="total")
     # the rate is proportional to H, and to the masses by their shares
     rate = earthspin.precession().precession_rate
     by_h = EARTH.relative_uncertainty["dynamical_flattening"]
@@ -388,10 +374,10 @@ def test_the_share_of_h_in_the_rate_is_that_of_the_linear_errors() -> None:
     assert float(total.sel(input="body.dynamical_flattening")) == pytest.approx(
         expected, rel=0, abs=3e-4
     )
-    slope = told.precession_rate_slope.sel(perturber="total", input="body.dynamical_flattening")
+    slope = shares.precession_rate_slope.sel(perturber="total", input="body.dynamical_flattening")
     whole = float(rate.sel(perturber="total"))
     assert float(slope) == pytest.approx(whole / EARTH.dynamical_flattening, rel=1e-6, abs=0)
-    assert float(told.precession_rate_unexplained.max()) < 1e-9
+    assert float(shares.precession_rate_unexplained.max()) < 1e-9
 
 
 def test_what_is_no_ensemble_is_refused() -> None:
@@ -425,56 +411,50 @@ def test_impossible_members_are_refused_or_dropped() -> None:
 
 
 def test_a_member_that_fails_is_named() -> None:
-    given = xr.Dataset({"body.spin_period": ("member", [86164.0, 27.3217 * 86400])})
+    members = xr.Dataset({"body.spin_period": ("member", [86164.0, 27.3217 * 86400])})
     with pytest.raises(EarthspinError, match="member"):
-        earthspin.ensemble("precession", given)
+        earthspin.ensemble("precession", members)
 
 
 NAN = xr.Dataset({"body.j2": ("member", [1e-3, np.nan])})
 
 
-@pytest.mark.parametrize(
-    ("members", "words"),
-    [
-        (0, "between 1 and"),
-        (-3, "between 1 and"),
-        (2.5, "how many, a table of distributions"),
-        (True, "how many, a table of distributions"),
-        ("nowhere.csv", "there is no such file"),
-        (NAN, "member 1"),
-        (NAN.isel(member=[]), "it holds no member"),
-        (xr.Dataset(), "it holds no member"),
-        (NAN.fillna(1e-3).rename(member="row"), "its first dimension is 'member'"),
-        (NAN.fillna(1e-3).rename({"body.j2": "body.j3x"}), "did you mean 'body.j3'"),
-        (NAN.fillna(1e-3).astype(str), "give finite numbers"),
-        ({"n": 3}, "no body of this question has a published uncertainty; say what differs"),
-        ({"n": 3, "body.j": {"normal": [1, 2]}}, "did you mean 'body.j"),
-        ({"n": 3, "body.name": {"choice": [1, 2]}}, "allowed"),
-        ({"n": 3, "body.j2": 5}, "a table like normal"),
-        ({"n": 3, "body.j2": {"gauss": [1, 2]}}, "give one of normal, uniform, choice, grid"),
-        ({"n": 3, "body.j2": {"normal": [1]}}, "a mean and one standard deviation"),
-        ({"n": 3, "body.j2": {"normal": [1e-3, -1]}}, "zero or more"),
-        ({"n": 3, "body.j2": {"uniform": [2, 1]}}, "the lowest value comes first"),
-        ({"n": 3, "body.radius": {"uniform": ["1 s", "2 s"]}}, "is not a value in units of m"),
-        ({"n": 3, "body.j2": {"choice": []}}, "one value or more"),
-        ({"body.j2": {"normal": [1e-3, 1e-5]}}, "say how many members are drawn"),
-        ({"n": 3, "body.j2": {"grid": [1e-3, 2e-3]}}, "give a multiple of that"),
-        ({"n": 3, "uncertainty": "sampled"}, "did you mean 'sample'"),
-        ({"n": 3, "impossible": "ignore"}, "allowed: drop, refuse"),
-        ({"n": 3, "uncertainty": "sample", "only": [3]}, "there are 3 members, from 0"),
-        ({"n": 3, "uncertainty": "sample", "seed": -1}, "between 0 and"),
-        ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
-        ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: body"),
-        (
-            {"n": 3, "uncertainty": "sample", "correlations": [["body.j2", "body.gm", 1.5]]},
-            "between -1 and 1",
-        ),
-    ],
+test_bad_members_are_refused = refused(
+    (0, "between 1 and"),
+    (-3, "between 1 and"),
+    (2.5, "how many, a table of distributions"),
+    (True, "how many, a table of distributions"),
+    ("nowhere.csv", "there is no such file"),
+    (NAN, "member 1"),
+    (NAN.isel(member=[]), "it holds no member"),
+    (xr.Dataset(), "it holds no member"),
+    (NAN.fillna(1e-3).rename(member="row"), "its first dimension is 'member'"),
+    (NAN.fillna(1e-3).rename({"body.j2": "body.j3x"}), "did you mean 'body.j3'"),
+    (NAN.fillna(1e-3).astype(str), "give finite numbers"),
+    ({"n": 3}, "no body of this question has a published uncertainty; say what differs"),
+    ({"n": 3, "body.j": {"normal": [1, 2]}}, "did you mean 'body.j"),
+    ({"n": 3, "body.name": {"choice": [1, 2]}}, "allowed"),
+    ({"n": 3, "body.j2": 5}, "a table like normal"),
+    ({"n": 3, "body.j2": {"gauss": [1, 2]}}, "give one of normal, uniform, choice, grid"),
+    ({"n": 3, "body.j2": {"normal": [1]}}, "a mean and one standard deviation"),
+    ({"n": 3, "body.j2": {"normal": [1e-3, -1]}}, "zero or more"),
+    ({"n": 3, "body.j2": {"uniform": [2, 1]}}, "the lowest value comes first"),
+    ({"n": 3, "body.radius": {"uniform": ["1 s", "2 s"]}}, "is not a value in units of m"),
+    ({"n": 3, "body.j2": {"choice": []}}, "one value or more"),
+    ({"body.j2": {"normal": [1e-3, 1e-5]}}, "say how many members are drawn"),
+    ({"n": 3, "body.j2": {"grid": [1e-3, 2e-3]}}, "give a multiple of that"),
+    ({"n": 3, "uncertainty": "sampled"}, "did you mean 'sample'"),
+    ({"n": 3, "impossible": "ignore"}, "allowed: drop, refuse"),
+    ({"n": 3, "uncertainty": "sample", "only": [3]}, "there are 3 members, from 0"),
+    ({"n": 3, "uncertainty": "sample", "seed": -1}, "between 0 and"),
+    ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
+    ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: body"),
+    (
+        {"n": 3, "uncertainty": "sample", "correlations": [["body.j2", "body.gm", 1.5]]},
+        "between -1 and 1",
+    ),
+    call=lambda members: earthspin.ensemble("wobble", members),
 )
-def test_bad_members_are_refused_in_one_line(members: object, words: str) -> None:
-    with pytest.raises(EarthspinError, match=words) as error:
-        earthspin.ensemble("wobble", members)
-    assert "\n" not in str(error.value)
 
 
 def test_correlations_that_no_numbers_have() -> None:
@@ -485,9 +465,9 @@ def test_correlations_that_no_numbers_have() -> None:
 
 
 def test_members_that_change_the_labels_are_refused() -> None:
-    given = {"n": 2, "step": {"grid": ["6 h", "12 h"]}}
+    inputs = {"n": 2, "step": {"grid": ["6 h", "12 h"]}}
     with pytest.raises(EarthspinError, match="has other labels along 'time'"):
-        earthspin.ensemble(asked("torque").replace(members=None), given)
+        earthspin.ensemble(asked("torque").replace(members=None), inputs)
 
 
 def test_a_sample_beside_members_is_refused() -> None:
@@ -500,10 +480,10 @@ def test_a_sample_beside_members_is_refused() -> None:
 def test_files_of_members(tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_text("member, body.j2, moon.gm\n0, 0.00108, 4.9e12\n1, 0.0011, 5e12")
     by_table = earthspin.ensemble("precession", tmp_path / "m.csv")
-    given = xr.Dataset(
+    members = xr.Dataset(
         {"body.j2": ("member", [0.00108, 0.0011]), "moon.gm": ("member", [4.9e12, 5e12])}
     )
-    given.to_netcdf(tmp_path / "m.nc")
+    members.to_netcdf(tmp_path / "m.nc")
     assert differ(by_table, earthspin.ensemble("precession", tmp_path / "m.nc")) == []
     (tmp_path / "bad.csv").write_bytes(b"\x00\xff")
     (tmp_path / "m.txt").write_text("")
@@ -517,6 +497,6 @@ def test_inputs_have_their_units_and_names() -> None:
     assert answer.moments_2.attrs["input"] == "moments.2"
     assert answer.moments_2.attrs["units"] == "kg m2"
     question = asked("precession").replace(members=None)
-    found = inputs_of(question, ["moon.gm", "body.mass"], question.where("members"))
-    assert found["moon.gm"].unit == "m3/s2"
-    assert found["body.mass"].unit == "kg"
+    inputs = inputs_of(question, ["moon.gm", "body.mass"], question.where("members"))
+    assert inputs["moon.gm"].unit == "m3/s2"
+    assert inputs["body.mass"].unit == "kg"

@@ -5,8 +5,6 @@ from __future__ import annotations
 import errno
 import itertools
 import os
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -24,8 +22,7 @@ import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
 from earthspin.engine import drafts, loop, unfinished
 from tests.engine.work import Squares, bytes_of
-
-ROOT = Path(__file__).parents[2]
+from tests.processes import printed
 
 
 @pytest.fixture
@@ -59,10 +56,10 @@ def ended(path: Path, at: int = 3) -> Path:
 
 
 def test_a_store_holds_what_was_made(undisturbed: Path) -> None:
-    found = earthspin.open(undisturbed)
-    assert np.array_equal(found.square.sel(column="plus"), np.arange(20) ** 2.0)
-    assert found.day[19] == np.datetime64("2000-01-20")
-    assert found.identical(loop.hold(Squares()))
+    answer = earthspin.open(undisturbed)
+    assert np.array_equal(answer.square.sel(column="plus"), np.arange(20) ** 2.0)
+    assert answer.day[19] == np.datetime64("2000-01-20")
+    assert answer.identical(loop.hold(Squares()))
     assert earthspin.verify(undisturbed) == undisturbed
     assert [p.name for p in undisturbed.parent.iterdir()] == ["undisturbed.zarr"]
 
@@ -74,7 +71,7 @@ def test_a_store_holds_no_date_and_no_path(undisturbed: Path, tmp_path: Path) ->
     assert bytes_of(again) == bytes_of(undisturbed)
 
 
-@pytest.mark.parametrize("at", range(1, 7))
+@pytest.mark.parametrize("at", [1, 3, 6])
 def test_it_goes_on_where_it_was_ended(tmp_path: Path, undisturbed: Path, at: int) -> None:
     path = tmp_path / "r.zarr"
     assert ended(path, at).is_dir()
@@ -230,9 +227,12 @@ def flip(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "chunk", ["square/0.0", "square/2.0", "member/0", "member/1", "day/0", "day/2"]
+    ("chunk", "damage"),
+    [
+        *(("square/0.0", damage) for damage in (flip, Path.unlink, lambda p: p.write_bytes(b""))),
+        *((chunk, flip) for chunk in ("square/2.0", "member/1", "day/2")),
+    ],
 )
-@pytest.mark.parametrize("damage", [flip, Path.unlink, lambda p: p.write_bytes(b"")])
 def test_a_damaged_block_is_made_again(
     tmp_path: Path, undisturbed: Path, chunk: str, damage: Callable[[Path], object]
 ) -> None:
@@ -262,20 +262,17 @@ def test_a_damaged_block_where_none_is_missing(
 @pytest.mark.parametrize(
     "line",
     [
-        b"garbage\n",
-        b"\0" * 300 + b"\n", b"\0" * 300, b"\r\xff\r\n", b"[1]\n", b"[1, 2]\n", b"7\n",
-        b"0" * 64 + b"  square/1.0\n", b"0" * 64 + b"  square/99.0\n", b"0" * 64 + b"  \n",
-        b"0" * 64 + b"  square/1\n", b"0" * 63 + b"  square/1.0\n", b"0" * 100_000 + b"\n",
+        b"garbage\n", b"\0" * 300, b"\r\xff\r\n", b"[1, 2]\n", b"0" * 64 + b"  \n",
+        b"0" * 64 + b"  square/1.0\n", b"0" * 64 + b"  square/99.0\n", b"0" * 100_000 + b"\n",
     ],
 )  # fmt: skip
-@pytest.mark.parametrize("place", ["first", "last"])
 def test_a_damaged_line_of_the_ledger_counts_for_nothing(
-    tmp_path: Path, undisturbed: Path, line: bytes, place: str
+    tmp_path: Path, undisturbed: Path, line: bytes
 ) -> None:
+    """At the beginning, and at the end."""
     path = tmp_path / "r.zarr"
     ledger = ended(path) / unfinished.LEDGER
-    content = ledger.read_bytes()
-    ledger.write_bytes(line + content if place == "first" else content + line)
+    ledger.write_bytes(line + ledger.read_bytes() + line)
     loop.write(Squares(), path)
     assert bytes_of(path) == bytes_of(undisturbed)
     assert earthspin.verify(path) == path
@@ -356,10 +353,7 @@ for _ in range(times):
 def killed(tmp_path: Path, times: int) -> None:
     """Kill a run again and again; what comes out must be what an undisturbed run gives."""
     path = tmp_path / "killed.zarr"
-    out = subprocess.run(
-        [sys.executable, "-c", KILLED, str(path), str(times), "20"],
-        check=True, capture_output=True, text=True, cwd=ROOT,
-    ).stdout  # fmt: skip
+    out = printed(KILLED, str(path), str(times), "20")
     rows = [tuple(map(int, line.split())) for line in out.splitlines()]
     assert len(rows) == times
     assert sum(was for was, _ in rows) >= times / 2  # most were killed on their way

@@ -101,7 +101,13 @@ def test_every_way_to_give_an_answer_runs_it(tmp_path: Path) -> None:
             xr.testing.assert_identical(earthspin.run(again), answer)
 
 
-@pytest.mark.parametrize("scene", shipped_scenes())
+@pytest.mark.parametrize(
+    "scene",
+    [
+        pytest.param(scene, marks=pytest.mark.slow if scene in ("nutation", "rotation") else ())
+        for scene in shipped_scenes()
+    ],
+)
 def test_shipped_scenes_are_run_again(scene: str, tmp_path: Path) -> None:
     # the budget of one effect takes a fifth of that of all
     few = earthspin.run(load_scene("iau", {"effects": ["geodesic"]})) if scene == "iau" else None
@@ -166,17 +172,15 @@ def test_a_dataset_of_another_origin_is_refused(tmp_path: Path) -> None:
     other = xr.Dataset({"x": ("time", [1.0])}, attrs={"scene": 7})
     other.to_netcdf(tmp_path / "other.nc")
     for given_ in (other, xr.Dataset(), tmp_path / "other.nc"):
-        with pytest.raises(SceneError, match="does not carry the scene") as error:
+        with pytest.raises(SceneError, match="does not carry the scene"):
             earthspin.run(given_)
-        assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("text", ["compute = ", 'compute = "wobbly"', "", "x = 1"])
 def test_a_scene_that_was_spoilt_is_refused(text: str) -> None:
     spoilt = earthspin.run("wobble").assign_attrs(scene=text)
-    with pytest.raises(SceneError) as error:
+    with pytest.raises(SceneError):
         earthspin.run(spoilt)
-    assert "\n" not in str(error.value)
 
 
 # --- to a table and back -------------------------------------------------------------------------
@@ -266,22 +270,21 @@ def test_bodies_are_written_exactly(body: earthspin.Body, title: str) -> None:
 
 
 @given(
-    body=bodies(),
     first=COUNTS,
     length=st.integers(0, 10**15),
     step=st.floats(1e-6, 1e11),
     accuracy=st.none() | POSITIVE,
 )
 def test_series_are_written_exactly(
-    body: earthspin.Body, first: int, length: int, step: float, accuracy: float | None
+    first: int, length: int, step: float, accuracy: float | None
 ) -> None:
     span = [np.datetime64("2000-01-01T12", "us") + np.timedelta64(n, "us") for n in (first, first)]
     span[1] += np.timedelta64(length, "us")
     asked = None if accuracy is None else f"{accuracy!r} mas"
-    keys = {"body": body, "perturbers": ["sun", "jupiter"], "span": span, "step": step}
+    keys = {"perturbers": ["sun", "jupiter"], "span": span, "step": step}
     assert_same_bits(Torque(**keys, accuracy=asked))
     assert_same_bits(Pole(**keys, accuracy=asked, effects=["j3", "planets"]))
-    assert_same_bits(Precession(body=body, perturbers="sun", span=span, accuracy=accuracy))
+    assert_same_bits(Precession(perturbers="sun", span=span, accuracy=accuracy))
 
 
 @given(counts=st.lists(COUNTS, min_size=1, max_size=60))

@@ -8,10 +8,10 @@ and so may other versions of numpy.
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 
 import pytest
+
+from tests.processes import printed
 
 #: Prints a digest of every number of each shipped scene with all sections, and of what solvers
 #: give that go step by step; arrays begin elsewhere with another first argument.
@@ -65,13 +65,7 @@ SURROUNDINGS = {
 def digests(surroundings: str) -> dict[str, str]:
     """Digest of each answer, by name."""
     which = list(SURROUNDINGS).index(surroundings)
-    said = subprocess.run(
-        [sys.executable, "-W", "error", "-c", PROGRAM, str(which)],
-        env=os.environ | SURROUNDINGS[surroundings],
-        capture_output=True,
-        check=True,
-        text=True,
-    ).stdout
+    said = printed(PROGRAM, str(which), env=os.environ | SURROUNDINGS[surroundings])
     return dict(line.rsplit(" ", 1) for line in said.splitlines())
 
 

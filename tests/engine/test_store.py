@@ -18,6 +18,7 @@ from earthspin import OutputError
 from earthspin.engine import drafts, store
 from earthspin.engine.labels import IN_FILES
 from tests import shipped
+from tests.processes import printed
 
 OLD_AND_NEW = np.array(["1550-01-01T00:00:00.000001", "2650-01-01"], "M8[us]")
 
@@ -38,7 +39,7 @@ def test_epochs_of_1550_and_2650_come_back(tmp_path: Path, kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
-@pytest.mark.parametrize("scene", ["precession", "torque", "wobble"])
+@pytest.mark.parametrize("scene", ["torque", "spheroid"])
 def test_results_come_back(tmp_path: Path, scene: str, kind: str) -> None:
     result = shipped.answer(scene)
     back = store.open(store.write(result, tmp_path / f"r.{kind}"))
@@ -47,7 +48,7 @@ def test_results_come_back(tmp_path: Path, scene: str, kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
-@pytest.mark.parametrize("scene", ["precession", "poinsot", "iau", "polar-motion", "top-loop"])
+@pytest.mark.parametrize("scene", ["precession", "poinsot", "polar-motion"])
 def test_answers_with_sections_come_back(tmp_path: Path, scene: str, kind: str) -> None:
     tree = shipped.tree(scene)
     back = store.open(store.write(tree, tmp_path / f"r.{kind}"))
@@ -193,10 +194,7 @@ print(peak("210 min"), peak("21 min"))
 @pytest.mark.slow
 def test_a_million_epochs_need_no_more_memory_than_a_hundred_thousand(tmp_path: Path) -> None:
     path = tmp_path / "series.zarr"
-    out = subprocess.run(
-        [sys.executable, "-c", PEAK, str(path)], check=True, capture_output=True, text=True
-    ).stdout
-    short, long = map(float, out.split())
+    short, long = map(float, printed(PEAK, str(path)).split())
     # A million epochs are 120 MB; they may not stay. Measured: some 50 MB of growth.
     assert long - short < 80, (short, long)
     series = store.open(path)
@@ -250,9 +248,8 @@ def test_attributes_that_no_file_holds_are_refused(
     answer.attrs["note"] = value
     variable.x.attrs["note"] = value
     for refused in (answer, variable):
-        with pytest.raises(OutputError, match="note") as error:
+        with pytest.raises(OutputError, match="note"):
             store.write(refused, path)
-        assert "\n" not in str(error.value)
     xr.testing.assert_identical(store.open(path), small())
 
 

@@ -60,3 +60,11 @@ def bytes_of(store: Path) -> dict[str, str]:
     """A word for the content of each file of a store."""
     files = (path for path in sorted(store.rglob("*")) if path.is_file())
     return {str(p.relative_to(store)): sha256(p.read_bytes()).hexdigest() for p in files}
+
+
+def assert_is_alone(many: xr.Dataset, place: int, alone: xr.Dataset) -> None:
+    """Hold a member to the answer to its own question, bit by bit."""
+    for name, variable in alone.data_vars.items():
+        member = many[name]
+        member = member.isel(member=place) if "member" in member.dims else member
+        assert np.array_equal(member.values, variable.values), name

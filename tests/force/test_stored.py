@@ -171,9 +171,8 @@ def test_files_of_the_version_before_are_read_and_verify_says_what_it_cannot_che
     back = store.open(path)
     assert isinstance(back, xr.Dataset)
     assert same(back.load(), answer)
-    with pytest.raises(OutputError, match="earlier version") as error:
+    with pytest.raises(OutputError, match="earlier version"):
         earthspin.verify(path)
-    assert "\n" not in str(error.value)
     if kind == "nc":
         checksums.append_line(path)
         assert earthspin.verify(path) == path

@@ -21,6 +21,7 @@ import earthspin
 from earthspin.engine.asking import arguments_of
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from tests import shipped
 
 Random = random.Random
 
@@ -228,17 +229,11 @@ def call(rng: Random) -> tuple[Callable[..., Any], tuple[Any, ...], dict[str, An
 
 def _required(question: type[Question]) -> dict[str, Any]:
     """What a sound call gives, so that one wrong argument is met by itself."""
-    sound = {
-        "torque": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
-        "pole": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
-        "rotation": {"start": "2000-01-01", "stop": "2000-01-02", "step": "6 h"},
-        "free-rotor": {"moments": [1, 2, 3], "omega": [1, 0, 1], "duration": 3, "points": 3},
-        "top": {"transverse_moment": 1, "axial_moment": 0.5, "weight_moment": 1, "theta": 0.5,
-                "spin": 5, "duration": 3},
-        "spheroid": {"position": "7000 km"},
-    }  # fmt: skip
-    table = sound.get(question.word, {})
-    return {name: value for name, value in table.items() if name in arguments_of(question)}
+    keys = shipped.table(question.word)
+    keys |= keys.pop(question.table, {}) if question.table else {}
+    if "span" in keys:
+        keys["start"], keys["stop"] = keys["span"]
+    return {name: value for name, value in keys.items() if name in arguments_of(question)}
 
 
 _TIMES = pd.date_range("2000-01-01", periods=200)

@@ -78,9 +78,8 @@ def test_love_numbers_need_a_solid_surface_and_one_core() -> None:
     with pytest.raises(UndefinedError, match=r"'prem-ocean' ends in a liquid; .* solid surface"):
         yielding(PREM_WITH_OCEAN)
     firm, wet = (lambda top: (top, 5e3, 1e11)), (lambda top: (top, 5e3, 0.0))
-    with pytest.raises(UndefinedError, match="has 2 liquids with solids between") as caught:
+    with pytest.raises(UndefinedError, match="has 2 liquids with solids between"):
         yielding(sphere(wet(1e6), firm(2e6), wet(3e6), firm(4e6)))
-    assert "\n" not in str(caught.value)
 
 
 def test_a_sphere_solid_throughout() -> None:

@@ -71,9 +71,8 @@ def test_a_number_of_what_pulls_is_one(word: str, field: str) -> None:
         return  # the mean torque is linear in it: tests/engine/test_ensemble.py
     value = getattr(SUN, field)
     sun = SUN.replace(**{field: many(7e8 if value is None else float(value))})
-    with pytest.raises(EarthspinError, match=rf"perturbers\.sun\.{field}") as caught:
+    with pytest.raises(EarthspinError, match=rf"perturbers\.sun\.{field}"):
         scene(word).replace(perturbers=(sun, MOON))
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("field", ["pole", "orbit_pole"])
@@ -87,9 +86,8 @@ def test_a_number_of_what_pulls_is_one(word: str, field: str) -> None:
     ],
 )
 def test_a_pole_is_one_direction(field: str, given: object) -> None:
-    with pytest.raises(EarthspinError, match=f"{field} = 'an array'.*one direction") as caught:
+    with pytest.raises(EarthspinError, match=f"{field} = 'an array'.*one direction"):
         EARTH.replace(**{field: given})
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -102,9 +100,8 @@ def test_a_pole_is_one_direction(field: str, given: object) -> None:
     ],
 )
 def test_moments_of_a_free_rotor_are_three_numbers(moments: object) -> None:
-    with pytest.raises(EarthspinError, match="moments") as caught:
+    with pytest.raises(EarthspinError, match="moments"):
         earthspin.free_rotor(moments, [0.01, 1, 0], [0, 10])  # type: ignore[arg-type]
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -112,9 +109,8 @@ def test_moments_of_a_free_rotor_are_three_numbers(moments: object) -> None:
 )
 def test_the_numbers_of_a_top_are_one_each(key: str) -> None:
     numbers = {"transverse_moment": 1, "axial_moment": 1.2, "weight_moment": 1.5, "theta": 0.7}
-    with pytest.raises(EarthspinError, match=f"{key} = .*give one number") as caught:
+    with pytest.raises(EarthspinError, match=f"{key} = .*give one number"):
         earthspin.heavy_top([0, 1], **{**numbers, "spin": 3, key: many(0.7)})  # type: ignore[arg-type]
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("word", SCENES)

@@ -84,9 +84,8 @@ def test_errors_and_promises_are_those_of_the_whole_series() -> None:
 
 def test_a_promise_that_the_last_stretch_would_break_is_refused_before_the_first() -> None:
     scene = load_scene("pole", {"span": ["2000-01-02", "2050-01-01"], "accuracy": "0.01 mas"})
-    with pytest.raises(AccuracyError) as caught:
+    with pytest.raises(AccuracyError):
         next(_stretches(scene, [Block(0, 1)]))
-    assert "\n" not in str(caught.value)
 
 
 def test_what_does_not_fit_into_memory_is_told_how_to_be_written() -> None:

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import earthspin
-from earthspin.views import precession, torque
+from earthspin.views import torque
 from earthspin.views.stars import STARS, on_the_chart, star_vectors
 
 
@@ -20,12 +20,6 @@ def year() -> xr.Dataset:
 def test_pyplot_is_not_needed(year: xr.Dataset) -> None:
     torque.plot_torque(year)
     assert "matplotlib.pyplot" not in sys.modules
-
-
-def test_axes_are_labelled_with_units(year: xr.Dataset, precession_tree: xr.DataTree) -> None:
-    assert torque.plot_declination(year).get_ylabel() == "declination (deg)"
-    assert "N m" in torque.plot_torque(year).get_ylabel()
-    assert "arcsec per year" in precession.plot_convergence(precession_tree).get_ylabel()
 
 
 def test_given_axes_are_used(year: xr.Dataset) -> None:

@@ -31,19 +31,11 @@ def test_table_of_the_path(pole: xr.Dataset) -> None:
 
 
 def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
-    titles = [table.title for table in tables_for(iau)]
-    assert titles == [
-        "Rates at J2000.0, effect by effect",
-        "Computed pole minus that of IAU 2006/2000A",
-        "The largest nutations",
-        "Free core nutation in IAU 2000A",
-        "Angles of precession",
-        "H and C from the rate of precession",
-    ]
-    budget = tables_for(iau)[0]
+    tables = tables_for(iau)
+    assert len(tables) == 6
+    budget = tables[0]
     assert float(budget.rows[-1][1]) == pytest.approx(float(iau.closure) * 1e5, abs=1e-3)
-    assert "consistency" in budget.note
-    assert len(tables_for(iau)[2].rows) == 30
+    assert len(tables[2].rows) == 30
 
 
 def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:

@@ -32,24 +32,6 @@ def test_digits(value: float, error: float, text: str) -> None:
     assert with_error(value, error) == text
 
 
-def test_tables_of_each_question(precession_tree: xr.DataTree) -> None:
-    titles = [table.title for table in tables_for(precession_tree)]
-    assert titles == [
-        "Which period to quote",
-        "Precession",
-        "Comparison with IAU 2006",
-        "Equinox and calendar",
-        "Three models of the figure",
-        "Free wobble",
-        "Lunar standstills",
-    ]
-    assert [t.title for t in tables_for(earthspin.run_tree("wobble"))] == [
-        "Free wobble, rung by rung",
-        "Sensitivity of the last rung",
-    ]
-    assert [t.title for t in tables_for(earthspin.run("torque"))] == ["Torque"]
-
-
 def test_rows_match_headers_and_what_ran_is_named(precession_tree: xr.DataTree) -> None:
     (ran,) = what_ran(precession_tree)
     for table in [*tables_for(precession_tree), ran]:

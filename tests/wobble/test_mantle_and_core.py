@@ -94,6 +94,5 @@ def test_without_loss_the_roots_are_real() -> None:
 
 
 def test_a_body_that_yields_by_more_than_one_of_its_bulges_is_refused() -> None:
-    with pytest.raises(UndefinedError, match="turn over") as caught:
+    with pytest.raises(UndefinedError, match="turn over"):
         solve(Mantle(3e-3, 2.5e-3, 1e-3), Core(0.1, 2.5e-3))
-    assert "\n" not in str(caught.value)

@@ -1,6 +1,7 @@
 """The free wobble in polar motion: simulations with a known truth, then the observed pole."""
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -266,53 +267,41 @@ def test_text_statements(tree: xr.DataTree) -> None:
     assert float(amplitude.sel(middle="2018").mean()) < 25
 
 
-def spoilt(pole: xr.Dataset, what: str) -> xr.Dataset:
-    ds = pole[["x", "y"]].copy(deep=True)
-    if what == "gap":
-        return ds.isel(time=np.r_[0:9000, 9100:20000])
-    if what == "copy":
-        return ds.isel(time=np.r_[0:9000, 8999:20000])
-    if what == "unsorted":
-        return ds.isel(time=np.r_[9000:20000, 0:9000])
-    if what == "nan":
-        ds.x.values[500] = np.nan
-    if what == "unit":
-        ds.x.attrs["units"] = "rad"
-    if what == "no unit":
-        ds.y.attrs = {}
-    if what == "mas as arcsec":
-        ds.x.values[:] *= 1e3
-    if what == "radians as arcsec":
-        ds.x.values[:] *= ARCSEC
-        ds.y.values[:] *= ARCSEC
-    if what == "short":
-        return ds.isel(time=slice(0, 1800))
-    if what == "no y":
-        return ds[["x"]]
-    return ds
+def units(pole: xr.Dataset, **words: str) -> xr.Dataset:
+    """Give components other units, or none."""
+    return pole.assign({name: pole[name].assign_attrs(units=word) for name, word in words.items()})
 
 
 @pytest.mark.parametrize(
-    ("what", "message"),
+    ("spoil", "message"),
     [
-        ("gap", "not evenly spaced"),
-        ("copy", "drop_duplicates"),
-        ("unsorted", "sortby"),
-        ("nan", "no numbers"),
-        ("unit", "'arcsec' or 'mas'"),
-        ("no unit", "'arcsec' or 'mas'"),
-        ("mas as arcsec", "is the unit right"),
-        ("short", "4.9 years is too short .* it takes 13 years"),
-        ("no y", "'y' along 'time'"),
-        ("radians as arcsec", "is the unit right"),
+        (lambda pole: pole.isel(time=np.r_[0:9000, 9100:20000]), "not evenly spaced"),
+        (lambda pole: pole.isel(time=np.r_[0:9000, 8999:20000]), "drop_duplicates"),
+        (lambda pole: pole.isel(time=np.r_[9000:20000, 0:9000]), "sortby"),
+        (
+            lambda pole: units(pole.where(pole.time != pole.time[500]), x="mas", y="mas"),
+            "no numbers",
+        ),
+        (lambda pole: units(pole, x="rad"), "'arcsec' or 'mas'"),
+        (lambda pole: units(pole * 1e3, x="arcsec", y="arcsec"), "is the unit right"),
+        (lambda pole: units(pole * ARCSEC, x="arcsec", y="arcsec"), "is the unit right"),
+        (lambda pole: pole * 1.0, "'arcsec' or 'mas'"),
+        (
+            lambda pole: pole.isel(time=slice(0, 1800)),
+            "4.9 years is too short .* it takes 13 years",
+        ),
+        (lambda pole: pole[["x"]], "'y' along 'time'"),
     ],
 )
-def test_bad_input_is_refused(pole: xr.Dataset, what: str, message: str) -> None:
+def test_bad_input_is_refused(
+    pole: xr.Dataset, spoil: Callable[[xr.Dataset], xr.Dataset], message: str
+) -> None:
+    with xr.set_options(keep_attrs=False):
+        spoilt = spoil(pole[["x", "y"]])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises((SceneError, UndefinedError), match=message) as caught:
-            earthspin.fit_chandler(spoilt(pole, what))
-    assert "\n" not in str(caught.value)
+        with pytest.raises((SceneError, UndefinedError), match=message):
+            earthspin.fit_chandler(spoilt)
 
 
 def test_unknown_methods_and_windows(pole: xr.Dataset) -> None:

@@ -33,9 +33,8 @@ NOTHING = {
 @pytest.mark.parametrize("what", NOTHING)
 def test_no_wobble_is_refused(what: str, method: str) -> None:
     p, reason = NOTHING[what]
-    with pytest.raises(UndefinedError, match=f"no free wobble.*{reason}") as caught:
+    with pytest.raises(UndefinedError, match=f"no free wobble.*{reason}"):
         observed.fit(DAYS, p, method)
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("method", ["likelihood", "least-squares"])
