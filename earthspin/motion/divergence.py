@@ -16,7 +16,7 @@ from scipy.stats import t as students_t
 
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above, Solver
-from earthspin.motion.rotation import State
+from earthspin.motion.solution import State
 from earthspin.numerics import turns
 
 FloatArray = NDArray[np.float64]

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import COMPUTED, DAY, NORMAL_95, Constant
-from earthspin.interior import rotation
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.diurnal_ocean import diurnal_response
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
+from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, transfer
+from earthspin.interior.modes import parts_of as interior_parts
 from earthspin.interior.published import CORE_NUTATION, K_CMB, K_ICB
-from earthspin.interior.rotation import MODES, Parts, all_fluid, free_modes, transfer
 
 Array = NDArray[Any]
 
@@ -218,7 +218,7 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
         (C - A)/A of the whole, the observed one by default.
     """
     whole = setting.e if e is None else e
-    return rotation.parts_of(setting.layers, setting.spin_rate, love.answers, whole)
+    return interior_parts(setting.layers, setting.spin_rate, love.answers, whole)
 
 
 def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:

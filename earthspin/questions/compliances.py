@@ -11,8 +11,8 @@ from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
+from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.published import PREM_PUBLISHED
-from earthspin.interior.rotation import free_modes, mode_period, numbers_of, parts_of
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, not_prem, require_layers
 

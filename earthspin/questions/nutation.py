@@ -26,8 +26,8 @@ from earthspin.engine.variables import (
     number,
     words,
 )
+from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.interior.rotation import mode_period
 from earthspin.nutation import ladder
 from earthspin.parts.path import (
     Comparison,

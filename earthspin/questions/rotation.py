@@ -25,7 +25,7 @@ from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Above
-from earthspin.motion.rotation import (
+from earthspin.motion.solution import (
     KINDS,
     Motion,
     RotationSeries,

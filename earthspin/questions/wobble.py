@@ -30,9 +30,9 @@ from earthspin.engine.variables import (
 )
 from earthspin.interior.equilibrium import equilibrium
 from earthspin.interior.love import elastic
+from earthspin.interior.modes import chandler_by_core
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean import global_ocean
-from earthspin.interior.rotation import chandler_by_core
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.parts import layered
 from earthspin.parts.observed_wobble import observed_wobble

@@ -9,7 +9,7 @@ spin, in all three axes:
 
 m is the wobble of the mantle, n of the core relative to it, J a quarter turn, T and E the
 moments and their differences, K what the body's products of inertia answer to a wobble,
-X = A_f/A + xi the core's share. It is the system of `earthspin.interior.rotation` with the inner
+X = A_f/A + xi the core's share. It is the system of `earthspin.interior.modes` with the inner
 core counted with the fluid, and with three axes. Without three axes and ocean the roots are those
 of [s - e + (1+s) kappa][1 + s b + e_f] = (1+s) X s a.
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from earthspin.motion.equations import OwnTorque, Rigid
 from earthspin.motion.march import Above
-from earthspin.motion.rotation import Motion, State, start_of
+from earthspin.motion.solution import Motion, State, start_of
 
 FloatArray = NDArray[np.float64]
 

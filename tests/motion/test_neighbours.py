@@ -17,7 +17,7 @@ from earthspin.motion.neighbours import (
     rigid_bodies,
     upright,
 )
-from earthspin.motion.rotation import Motion, shares_of, start_of
+from earthspin.motion.solution import Motion, shares_of, start_of
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.kepler import AS_SKY, Ellipse, angle
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces

@@ -113,7 +113,7 @@ def test_an_ocean_of_a_day_lags_and_falls_short() -> None:
 def test_the_response_of_a_sphere_across_the_resonance(rungs: dict[str, ladder.Rung]) -> None:
     """k of O1, P1, K1 and psi1 beside Wahr 1981 (not verified), on an ellipse that turns."""
     from earthspin.interior.love import elastic
-    from earthspin.interior.rotation import system
+    from earthspin.interior.modes import system
 
     waves = {"O1": (13.94304, 0.298), "P1": (14.95893, 0.287), "K1": (15.04107, 0.256),
              "psi1": (15.08214, 0.466)}  # fmt: skip

@@ -12,7 +12,7 @@ from earthspin.checks.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above
-from earthspin.motion.rotation import Motion, start_of
+from earthspin.motion.solution import Motion, start_of
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.sky.poles import FixedPole

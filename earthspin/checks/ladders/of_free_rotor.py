@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from earthspin.checks.ladders.rotation import by_hand, ladder_of_rotation, periods
+from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation, periods
 from earthspin.checks.solvers.stepping import integrate, quaternion_rate
 from earthspin.checks.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method

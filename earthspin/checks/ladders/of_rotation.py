@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from earthspin.checks.ladders.rotation import by_hand, ladder_of_rotation
+from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation
 from earthspin.checks.sky import eccentric_anomaly
 from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.checks.solvers.stepping import integrate, quaternion_rate
@@ -15,7 +15,7 @@ from earthspin.checks.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Above
-from earthspin.motion.rotation import Motion, start_of
+from earthspin.motion.solution import Motion, start_of
 from earthspin.numerics.quaternion import conjugate, rotate
 
 #: A homogeneous ellipsoid of Hyperion's axes (360 x 266 x 205 km), (C - (A + B)/2)/C and (B - A)/C,

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from earthspin.checks.ladders.rotation import by_hand, ladder_of_rotation, periods
+from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation, periods
 from earthspin.checks.solvers.heavy_top import integrate_heavy_top, state_of_angles
 from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import load

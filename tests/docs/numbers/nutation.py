@@ -23,9 +23,9 @@ from data_tools.core_resonance import (
 from earthspin import EARTH
 from earthspin.interior.diurnal_ocean import WAVES, wave_response
 from earthspin.interior.equilibrium import Figure, figure
+from earthspin.interior.modes import mode_period, system, transfer
 from earthspin.interior.prem import PREM
 from earthspin.interior.published import CORE_NUTATION_QUALITY
-from earthspin.interior.rotation import mode_period, system, transfer
 from earthspin.nutation import ladder
 from earthspin.nutation.ladder import quality as quality_of
 from tests import shipped

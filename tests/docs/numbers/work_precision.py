@@ -24,7 +24,7 @@ from earthspin.checks.ladders import (
 from earthspin.checks.ladders.of_precession import TORUS
 from earthspin.checks.work_precision import SHORTEST_SAMPLE
 from earthspin.constants import JULIAN_YEAR, MAS
-from earthspin.interior.rotation import transfer
+from earthspin.interior.modes import transfer
 from earthspin.sky import iau
 from tests.docs.numbers.nutation import retrograde_node, rungs
 from tests.docs.numbers.sentence import ROOT, Column, Part, Sentence, Told

@@ -11,8 +11,7 @@ from scipy.integrate import solve_ivp
 from earthspin import EARTH
 from earthspin.interior.equilibrium import figure
 from earthspin.interior.love import elastic
-from earthspin.interior.prem import PREM
-from earthspin.interior.rotation import (
+from earthspin.interior.modes import (
     Parts,
     all_fluid,
     free_modes,
@@ -20,6 +19,7 @@ from earthspin.interior.rotation import (
     transfer,
     wobble_response,
 )
+from earthspin.interior.prem import PREM
 from tests.conftest import load_pins
 
 PINS = load_pins("nutation")

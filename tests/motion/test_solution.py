@@ -11,7 +11,7 @@ from scipy.special import ellipj, ellipk
 from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull
-from earthspin.motion.rotation import Motion
+from earthspin.motion.solution import Motion
 from earthspin.numerics import turns
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.top.motion import heavy_top_motion
