@@ -87,14 +87,5 @@ def keep_absolute_values(app, what, name, obj, options, lines):
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
-def described_elsewhere(app, what, name, obj, skip, options):
-    """Leave out of a module's page what has a page of its own in the reference."""
-    own = Path(app.srcdir) / "reference" / "generated" / f"earthspin.{name}.rst"
-    if what == "module" and own.exists() and getattr(earthspin, name, None) is obj:
-        return True
-    return None
-
-
 def setup(app):
     app.connect("autodoc-process-docstring", keep_absolute_values, priority=900)
-    app.connect("autodoc-skip-member", described_elsewhere)
