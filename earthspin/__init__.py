@@ -1,7 +1,7 @@
-"""How an oblate, spinning body answers to what pulls on it.
+"""Precession, nutation and Chandler wobble of the Earth and other bodies, with errors.
 
-Public names are handed on when they are first used, so that importing the package costs
-nothing and a question loads only what it needs.
+A module is imported when one of its public names is first used, so that importing the package
+costs nothing and a question loads only what it needs.
 """
 
 from __future__ import annotations

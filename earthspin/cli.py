@@ -13,6 +13,7 @@ from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+import earthspin
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, MissingExtraError, SceneError, printable
 from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
@@ -22,21 +23,21 @@ if TYPE_CHECKING:
 
     Command = Callable[[Namespace], int | None]
 
-#: Pages to play with.
+#: Interactive pages.
 PAGES = ("precession", "rotor", "top", "wobble")
 
-#: What the command says that is given alone; a line has at most 80 characters.
+#: Printed by the command without arguments; a line has at most 80 characters.
 WELCOME = """\
-earthspin: how an oblate, spinning body answers to what pulls on it.
+earthspin: precession, nutation and wobble of spinning bodies, with errors.
 
-Three to begin with:
+Start with:
   earthspin report --open     the precession of the Earth, with a page to read
-  earthspin play top --open   a heavy top, to play with
-  earthspin run torque        the pull of Sun and Moon through a year
+  earthspin play top --open   a heavy top with sliders
+  earthspin run torque        torques of Sun and Moon in a year
 
-And then:
-  earthspin scenes            what else is there to run
-  earthspin keys QUESTION     what can be changed, as in: keys precession
+More:
+  earthspin scenes            list of the shipped scenes
+  earthspin keys QUESTION     inputs of a question, such as: keys precession
   earthspin --help            all commands
 """
 
@@ -96,8 +97,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> ArgumentParser:
-    words = "How an oblate, spinning body answers to what pulls on it."
-    parser = _Parser(prog="earthspin", description=words)
+    parser = _Parser(prog="earthspin", description=(earthspin.__doc__ or "").split("\n")[0])
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
     parser.set_defaults(command=_welcome)
     commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
