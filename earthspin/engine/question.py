@@ -450,7 +450,10 @@ def define_parts(
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK, *without}:
-                raise TypeError(f"{question.__name__}: {part.name} asks for '{parameter}'")
+                raise TypeError(
+                    f"{question.__name__}: {part.name} asks for '{parameter}', which is neither a "
+                    "key nor a part; add it, or name it in without= if the part can do without it"
+                )
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
