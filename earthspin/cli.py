@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import earthspin
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError, MissingExtraError, SceneError, printable
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
 from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
@@ -138,8 +138,9 @@ def _parser() -> ArgumentParser:
     add("--open", **opens)
 
     add = of_scene("run", _run, "run a scene").add_argument
-    words = "folder for a page and the data, or a .nc or .zarr file"
+    words = "folder for a page and the data, or a .nc, .zarr or .csv file"
     add("--out", metavar="DIR|FILE", help=words)
+    add("--plan", **flag, help="print the parts that ran, and their run times")
     add("--json", **flag, help="print the result as JSON")
     words = sections("none on the screen, all with --out")
     add("--sections", metavar="NAMES|all", help=words)
@@ -236,8 +237,12 @@ def _run(options: Namespace) -> None:
     data = page = None
     if options.out is not None:
         data, name = Path(options.out), Path(options.scene).stem
+        if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
+            raise OutputError(data, "unknown suffix", "give a folder, or a .nc, .zarr or .csv file")
+        if data.suffix == ".csv" and sections is not None:
+            raise SceneError("--sections", options.sections, "a .csv file has the answer alone")
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
-        if data.suffix not in (".nc", ".zarr"):
+        if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"
         drafts.check_writable(Path(options.out) if page else data.parent)
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
@@ -245,9 +250,13 @@ def _run(options: Namespace) -> None:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             _print_written(write_series(question, long))
             return
-        sections = "all" if sections is None else sections
+        if sections is None and data.suffix != ".csv":
+            sections = "all"
     tree = run_tree(question, sections or ())
-    if data is not None:
+    if data is not None and data.suffix == ".csv":
+        with drafts.replacing(data) as draft:
+            tree.to_dataset().earthspin.to_frame().to_csv(draft, index=False)
+    elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
         from earthspin.views import of_question
@@ -260,7 +269,7 @@ def _run(options: Namespace) -> None:
 
             write_json(tree, sys.stdout)
         else:
-            of_question.print_tables(tree)
+            of_question.print_tables(tree, with_plan=options.plan)
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")
