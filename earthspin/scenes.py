@@ -418,8 +418,8 @@ def chosen(question: Question) -> list[str]:
 
 def _scene_of(answer: Any) -> str:
     """Text of the scene that an answer carries."""
-    text = answer.attrs.get(planning.SCENE)
-    if not isinstance(text, str):
+    text = planning.scene_of(answer)
+    if not text:
         raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
     return text
 

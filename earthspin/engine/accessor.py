@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 import earthspin
-from earthspin.engine.plan import SCENE, Plan, plan_parts, seconds_of
+from earthspin.engine.plan import Plan, plan_parts, scene_of, seconds_of
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 #: Ends of the names of errors, which stand beside their values.
 _ERROR = "_error"
+_NO_VECTOR = "the answer has no vector along the axes of the GCRS"
 
 
 @xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
@@ -62,7 +63,7 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """What ran for it, and what was left out and why."""
-        seconds = seconds_of(self._dataset.attrs.get(SCENE, ""))
+        seconds = seconds_of(scene_of(self._dataset))
         return replace(plan_parts(self.scene), seconds=dict(seconds))
 
     def to_frame(self) -> pd.DataFrame:
@@ -130,10 +131,15 @@ class Answer:
         elif name in data.data_vars and "component" in data[name].dims:
             x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
         else:
-            vectors = [str(n) for n, array in data.data_vars.items() if "component" in array.dims]
-            raise SceneError("to_skycoord", name, f"name a vector: {', '.join(vectors) or 'none'}")
+            vectors = [
+                str(n)
+                for n, array in data.data_vars.items()
+                if "component" in array.dims and array.attrs.get("frame") == "GCRS"
+            ]
+            allowed = f"name a vector: {', '.join(vectors)}" if vectors else _NO_VECTOR
+            raise SceneError("to_skycoord", name, allowed)
         if x.attrs.get("frame") != "GCRS":
-            raise SceneError("to_skycoord", name, "it does not stand along the axes of the GCRS")
+            raise SceneError("to_skycoord", name, _NO_VECTOR)
         coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )
@@ -216,8 +222,10 @@ class Answer:
         >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
         >>> year.earthspin.plot()[0].savefig("torque.png")
         """
-        whole = self.scene
         views = import_module("earthspin.views.of_question")  # which stands above the engine
+        if figures := views.figures_of_fit(self._dataset):
+            return figures
+        whole = self.scene
         try:
             return views.figures_of(self._dataset)
         except (AttributeError, KeyError, ValueError):

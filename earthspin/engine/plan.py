@@ -18,6 +18,19 @@ ALL = "all"
 IMPORTS = "imports"
 #: Attribute of an answer that holds its question, complete, as the text of a scene file.
 SCENE = "scene"
+
+
+def scene_of(answer: Any) -> str:
+    """Text of the scene of an answer, empty if it carries none.
+
+    A netCDF file has it as a variable, so that ``ncdump -h`` stays readable.
+    """
+    text = answer.attrs.get(SCENE, "")
+    if not text and SCENE in getattr(answer, "data_vars", ()):
+        text = answer[SCENE].values.tolist()
+    return text if isinstance(text, str) else ""
+
+
 #: How many of the last runs are remembered with their run times.
 REMEMBERED = 64
 

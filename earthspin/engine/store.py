@@ -23,6 +23,7 @@ import numpy as np
 from earthspin.engine import checksums
 from earthspin.engine.drafts import as_path, check_identity, identity, put_back, replacing
 from earthspin.engine.labels import IN_FILES
+from earthspin.engine.plan import SCENE, scene_of
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
@@ -97,6 +98,8 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         If the file cannot be written, with the reason of the system.
     """
     groups = _groups(result)
+    if scene := groups["/"].attrs.pop(SCENE, ""):
+        groups["/"][SCENE] = ((), scene, {"long_name": "the complete question, a scene in TOML"})
     root = groups["/"].assign_attrs({checksums.CONTENT: checksums.of_content(groups)})
     with _NETCDF:
         try:
@@ -257,6 +260,9 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
                 variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
     root = nodes["/"]
     root.attrs = {name: value for name, value in root.attrs.items() if name not in _OWN}
+    if SCENE in root.data_vars:
+        root.attrs[SCENE] = scene_of(root)
+        nodes["/"] = root = root.drop_vars(SCENE)
     if "history" in root.attrs:  # the date belongs to the file
         root.attrs["history"] = _STAMP.sub("", root.attrs["history"])
     return root if len(nodes) == 1 else xr.DataTree.from_dict(nodes)
@@ -389,9 +395,10 @@ def encoding_of(
 ) -> dict[str, dict[str, Any]]:
     """Return the encoding of each variable.
 
-    A coordinate variable of netCDF is a number to the CF conventions; words along a dimension stand
-    as rows of characters, which xarray reads as the labels that they were. A chunk that is missing
-    from Zarr reads as no number.
+    A coordinate variable of netCDF is a number to the CF conventions; words along a dimension are
+    rows of characters, which xarray reads as the labels that they were. The scene is characters
+    too: netCDF ends the process where a file with a text of any length is opened a second time. A
+    chunk that is missing from Zarr reads as no number.
 
     Parameters
     ----------
@@ -409,7 +416,7 @@ def encoding_of(
             entry["_FillValue"] = np.nan
         elif not zarr and (kind == "f" or coordinate):
             entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
-        if not zarr and coordinate and kind in "UO":
+        if not zarr and kind in "UO" and (coordinate or name == SCENE):
             entry["dtype"] = "S1"
         if chunked in variable.dims:
             entry["chunks"] = variable.shape

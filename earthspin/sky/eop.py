@@ -103,10 +103,8 @@ class PoleSeries:
         """
         inside = (self.mjd >= first) & (self.mjd <= last)
         if np.count_nonzero(inside) < 2:
-            problem = (
-                f"it covers MJD {self.mjd[0]:.2f} to {self.mjd[-1]:.2f}, not {first:.2f} to "
-                f"{last:.2f}"
-            )
+            start, end, *asked = (day_of(mjd) for mjd in (*self.mjd[[0, -1]], first, last))
+            problem = f"it covers {start} to {end}; {asked[0]} to {asked[1]} was asked for"
             raise SeriesError(self.name, problem, "choose a span inside it")
         return replace(
             self, **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)}
@@ -359,3 +357,8 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
         values = np.column_stack([np.interp(even, mjd, column) for column in values.T])
     x, y, x_error, y_error = values.T
     return PoleSeries(even, x, y, x_error, y_error, kind, "; ".join(repairs))
+
+
+def day_of(mjd: float) -> str:
+    """Date of a modified Julian date, like ``"1962-01-01"``."""
+    return str(np.datetime64("1858-11-17") + np.timedelta64(int(mjd // 1), "D"))

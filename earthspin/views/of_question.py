@@ -13,7 +13,7 @@ from earthspin.engine.plan import NOT_ASKED
 from earthspin.engine.spread import is_ensemble
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
-from earthspin.views.drawing import Drawing, Figure, PageFigure
+from earthspin.views.drawing import Drawing, Figure, PageFigure, style
 from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
 from earthspin.views.solids import Solid
 from earthspin.views.table import BRACKETS, Column, Table, along, quantities
@@ -100,6 +100,16 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
             shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
             nodes[name] = node.sel(shared)
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
+
+
+def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
+    """Draw what `fit_chandler` gives, which has no scene; nothing for any other dataset."""
+    if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
+        return []
+    from earthspin.views.polar_motion import plot_amplitude_and_phase
+
+    with style():
+        return [plot_amplitude_and_phase(fit)]
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:

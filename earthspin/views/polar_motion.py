@@ -108,7 +108,14 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 # --- figures -------------------------------------------------------------------------------------
 
 
-def _plot_amplitude_and_phase(tree: Result) -> Figure:
+def plot_amplitude_and_phase(tree: Result) -> Figure:
+    """Amplitude of the free and the annual wobble, and phase of the free one, in time.
+
+    Parameters
+    ----------
+    tree : Dataset or DataTree
+        As of `plot_amplitude`.
+    """
     figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
     plot_amplitude(tree, ax=upper)
     plot_phase(tree, ax=lower)
@@ -281,7 +288,7 @@ FIGURES = [
     PageFigure(
         "Amplitude and phase in time",
         _caption_of_amplitude,
-        _plot_amplitude_and_phase,
+        plot_amplitude_and_phase,
         section="chandler",
     ),
     PageFigure(

@@ -387,12 +387,18 @@ def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
+def _precesses(tree: Result) -> bool:
+    """Whether the axis moves: that of a sphere does not."""
+    return bool(np.isfinite(answer_of(tree).precession_period[-1]))
+
+
 FIGURES = [
     PageFigure(
         "The circle of the pole among the stars",
         _caption_of_circle,
         _plot_circle_on_page,
         section="seasons",
+        applies=_precesses,
         square=True,
         phone=drawing.NARROW,
     ),
