@@ -34,6 +34,7 @@ _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
     "earthspin.parts.insolation": ("daily_insolation",),
+    "earthspin.parts.pole_stars": ("pole_stars",),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",

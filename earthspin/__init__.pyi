@@ -34,6 +34,7 @@ from earthspin.bodies import Body as Body
 from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
 from earthspin.parts.insolation import daily_insolation as daily_insolation
+from earthspin.parts.pole_stars import pole_stars as pole_stars
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
@@ -385,6 +386,7 @@ __all__ = [
     "polar_motion",
     "polar_motion_from",
     "pole",
+    "pole_stars",
     "precession",
     "read",
     "read_excitation",

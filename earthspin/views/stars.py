@@ -7,31 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from earthspin.sky.stars import STARS as STARS
+from earthspin.sky.stars import directions
 from earthspin.units import FloatArray
 from earthspin.views.drawing import GREY, RED, Axes, axes, figure_of, note
 
-#: Bright stars near the path of the pole: name, right ascension and declination (ICRF, J2000.0,
-#: degrees) and visual magnitude, rounded from the Hipparcos catalogue (ESA 1997, SP-1200). Proper
-#: motion is left out: in half a turn it moves the fastest of them, Vega and Alderamin, by a degree.
-STARS: tuple[tuple[str, float, float, float], ...] = (
-    ("Polaris", 37.95, 89.26, 2.0),
-    ("Kochab", 222.68, 74.16, 2.1),
-    ("Pherkad", 230.18, 71.83, 3.0),
-    ("Thuban", 211.10, 64.38, 3.7),
-    ("Edasich", 231.23, 58.97, 3.3),
-    ("Eltanin", 269.15, 51.49, 2.2),
-    ("Errai", 354.84, 77.63, 3.2),
-    ("Alfirk", 322.16, 70.56, 3.2),
-    ("Alderamin", 319.64, 62.59, 2.5),
-    ("Deneb", 310.36, 45.28, 1.3),
-    ("Delta Cygni", 296.24, 45.13, 2.9),
-    ("Vega", 279.23, 38.78, 0.0),
-    ("Tau Herculis", 244.94, 46.31, 3.9),
-    ("Alkaid", 206.89, 49.31, 1.9),
-    ("Mizar", 200.98, 54.93, 2.2),
-    ("Alioth", 193.51, 55.96, 1.8),
-    ("Dubhe", 165.93, 61.75, 1.8),
-)
 #: Years at which a path is marked, counted astronomically: 2000 BC is the year -1999.
 YEARS = (*range(-11999, 1, 2000), 1, *range(2000, 14001, 2000))
 #: How far the chart reaches from its middle, degrees.
@@ -66,9 +46,8 @@ def year_labels(years: Iterable[int], places: FloatArray) -> list[Label]:
 
 
 def star_vectors() -> FloatArray:
-    """Directions of the stars, ICRF, shape (n, 3)."""
-    ra, dec = np.radians([star[1:3] for star in STARS]).T
-    return np.stack([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)], axis=-1)
+    """Directions of the stars at J2000.0, ICRF, shape (n, 3)."""
+    return directions(np.zeros(1))[:, 0]
 
 
 def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
@@ -115,9 +94,9 @@ def plot_path(
     ax.plot(0, 0, marker="+", color="0.3", ms=9)
     stars = on_the_chart(star_vectors(), obliquity)
     names = [Label("pole of the ecliptic", (0.0, 0.0), "0.3")]
-    for (name, _, _, magnitude), (x, y) in zip(STARS, stars.tolist(), strict=True):
-        ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * magnitude))
-        names.append(Label(name, (x, y), GREY))
+    for star, (x, y) in zip(STARS, stars.tolist(), strict=True):
+        ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * star.magnitude))
+        names.append(Label(star.name, (x, y), GREY))
     for _, (x, y), colour in dates:
         ax.plot(x, y, "o", color=colour, ms=4)
     figure_of(ax).draw_without_rendering()  # only now do the axes lie where they will
