@@ -11,7 +11,7 @@ NAME = "brick_to_saturn"
 PRINTED = [
     (rf"by hand {NUMBER}, library {NUMBER} kg m2", 1e-12),
     (rf"by hand {NUMBER}°, library {NUMBER}°", 1e-12),
-    (rf"growth by hand {NUMBER}, found {NUMBER} 1/s", 3e-5),
+    (rf"growth by hand {NUMBER}, library {NUMBER} 1/s", 3e-5),
     (rf"of the grid {NUMBER}, of the mesh {NUMBER}", 1e-11),
     (rf"summed {NUMBER} N m, by the moments {NUMBER} N m", 2e-3),
     (rf"flattening 1/{NUMBER}, of the Earth 1/{NUMBER}", 6e-3),
@@ -23,11 +23,11 @@ PRINTED = [
 #: What is printed once, and what it is to be.
 ONCE = [
     # upside down after half a turn about the long axis
-    (rf"later it turns the other way: {NUMBER}", -1.0, 1e-5),
+    (rf"later the spin is reversed: {NUMBER}", -1.0, 1e-5),
     # Iess et al. 2019, Science 364, eaat2965, as `earthspin.bodies.giants` cites it
     (rf"J2 of the planet alone {NUMBER}", 16290.57e-6, 5e-5),
     # q of Titan from its published GM, distance and Saturn's: 8978.14, 1221865, 37940585, 60330
-    (rf"Titan +{NUMBER} of that", 2.979, 2e-4),
+    (rf"Titan +adds {NUMBER} of it", 2.979, 2e-4),
 ]
 
 

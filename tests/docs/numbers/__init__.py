@@ -30,6 +30,6 @@ PAGES = (
     "rotation",
     "ensembles",
     "course",
-    "howto",
+    "examples",
     "gallery",
 )

@@ -7,7 +7,6 @@ import numpy as np
 import earthspin
 from data_tools import lunar_rotation
 from data_tools.coverage.rotation import moon
-from earthspin.bodies.limits import SLOW, STRONGEST
 from earthspin.constants import ARCSEC, DAY
 from tests.docs.numbers.sentence import Sentence, Told
 from tests.questions.test_rotation import libration, moonlet
@@ -62,16 +61,6 @@ MEASURED = [
         PAGE,
         "the independent integration is {}″ away after {} days",
         moon_with_all_effects,
-    ),
-    Sentence(
-        "docs/howto/own_body.md",
-        "may turn by at most {} radian per radian of the orbit",
-        lambda: SLOW,
-    ),
-    Sentence(
-        "docs/howto/own_body.md",
-        "(a tension above {} GPa)",
-        lambda: STRONGEST / 1e9,
     ),
     Sentence(
         PAGE,

@@ -22,7 +22,6 @@ from tests.docs.numbers.sentence import ROOT, Part, Sentence, Told
 
 FILES = "docs/files.md"
 STABILITY, TESTING = "docs/stability.md", "docs/testing.md"
-QUICK = "docs/quickstart.md"
 
 
 # --- stability -------------------------------------------------------------------------------
@@ -79,12 +78,6 @@ def malformed() -> float:
     from tests.fuzz.test_fuzz import COUNTS
 
     return sum(COUNTS.values())
-
-
-def epochs_of_the_example() -> float:
-    """Minutes from 1900 to 2050, millions."""
-    span = np.datetime64("2050-01-01") - np.datetime64("1900-01-01")
-    return float(span / np.timedelta64(1, "m") / 1e6)
 
 
 def reach_of_the_orbit() -> float:
@@ -161,7 +154,6 @@ MEASURED = [
         "`approx(a, rel=1e-15)` one of ${}$.",
         tolerances_not_named,
     ),
-    Sentence(QUICK, '"torque.zarr")  # {} million epochs', epochs_of_the_example),
     Sentence(
         STABILITY,
         "\n{} cases, {} of which must hold: {} hold, {} are refused as they should be, {} fail;",
@@ -169,7 +161,6 @@ MEASURED = [
         slow=True,
     ),
 ]
-ERROR = "what an error is, by definition"
 TOLD: list[Told | Part] = [
     Told("docs/gallery/precession/plot_chain.py", "and read off {} years", "rounded; a suggestion"),
     Told(STABILITY, "published size, ${}$ arcsec/yr", "published: Capitaine et al. 2003, table 3"),
@@ -177,7 +168,6 @@ TOLD: list[Told | Part] = [
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
     Told(TESTING, "runs the same with Python {} and", "the version of a program"),
-    Told(QUICK, "are half-widths of {} % intervals", ERROR),
     Told(
         FILES,
         "({} MB) are written in {} s and verified in {} s, of which the last line takes {} s",
