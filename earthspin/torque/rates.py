@@ -87,7 +87,7 @@ def period(rate: Numeric) -> Numeric:
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period, to first order; infinite for rate zero, NaN without a rate error."""
+    """Half-width of the period, to first order; infinite for rate zero, else NaN if unknown."""
     with np.errstate(divide="ignore", invalid="ignore"):
         # fmax ignores the NaN of 0/0, so that an infinite period has an infinite half-width
         relative = np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
