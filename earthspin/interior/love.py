@@ -226,7 +226,7 @@ def _inside(state: Array, r: float) -> Array:
 
 
 def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
-    """Integrate columns through solid layers, from layer `first` to the next liquid."""
+    """Integrate solution columns through solid layers, from layer `first` to the next liquid."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:

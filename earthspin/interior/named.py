@@ -97,7 +97,7 @@ class Interior:
 
 
 def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
-    """Interior with given layers.
+    """Interior with given layers, and other numbers from a known interior of the body.
 
     Parameters
     ----------

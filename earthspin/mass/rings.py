@@ -209,7 +209,7 @@ def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
 
 
 def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Distance of the distant mass, and the radius as a fraction of it."""
+    """Distance of the distant mass, and the radius divided by it."""
     b = positive("point mass", "distance", distance)
     return b, np.asarray(positive("point masses", "radius", radius) / b)
 

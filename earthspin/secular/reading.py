@@ -111,7 +111,7 @@ class Readings:
 
 
 def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
-    """Change of a value relative to the nominal solution."""
+    """Difference of a value from the nominal solution."""
     moved = of.values[name] - mine.values[name]
     if name != "longitude_of_perihelion":
         return moved
@@ -137,7 +137,7 @@ def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]
 
 
 def together(shares: dict[str, FloatArray]) -> FloatArray:
-    """Root sum square of the changes of all causes."""
+    """Root sum square of contributions from all causes."""
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 

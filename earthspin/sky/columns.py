@@ -147,5 +147,5 @@ def check_calendar(file: Path, line: int, calendar: list[float], mjd: float) -> 
         raise SeriesError(file, problem, "is a column lost?", line) from None
     expected = first + hour / 24
     if not abs(mjd - expected) <= _SAME_DATE:
-        problem = f"MJD {mjd:.2f} stands beside the calendar's date of MJD {expected:.2f}"
+        problem = f"MJD {mjd:.2f} differs from the calendar date, MJD {expected:.2f}"
         raise SeriesError(file, problem, "the two must agree; is a column lost?", line)

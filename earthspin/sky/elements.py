@@ -265,7 +265,10 @@ class Elements:
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative deflection of an axis due to position errors of a perturber; zero for elements."""
+        """Deflection of an axis due to rounding of a perturber's position.
+
+        It is a fraction of the angle by which the axis moves.
+        """
         angle, metres = self.error(target, centre)
         return 2 * angle + 3 * metres / distance
 

@@ -277,7 +277,9 @@ class Ephemeris:
         return growth(day) * mas * MAS, growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative deflection of an axis due to position errors of a perturber.
+        """Deflection of an axis due to errors of a perturber's position.
+
+        It is a fraction of the angle by which the axis moves.
 
         Measured for Sun and Moon acting on the Earth and for the Sun acting on Mars. For other
         pairs it is a bound from the errors of direction and distance: the torque is proportional to

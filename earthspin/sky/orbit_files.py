@@ -259,8 +259,9 @@ class _Rows:
 
     @classmethod
     def of_text(cls, file: Path) -> _Rows:
-        """Read a text file of numbers between spaces or commas, with names in the last header
-        line.
+        """Read a text file of numbers between spaces or commas.
+
+        The last header line has the names of the columns, if any.
         """
         names: list[str] = []
         rows: list[list[float]] = []

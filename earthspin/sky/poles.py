@@ -98,7 +98,7 @@ class Pole(Protocol):
         """
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether the axis is too close to the normal of that plane to have a longitude."""
+        """Whether the axis is too close to the normal of the orbit to have a longitude."""
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to the orbital plane and the equinox of J2000.0, shape (3, 3)."""

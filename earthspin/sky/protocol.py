@@ -98,7 +98,9 @@ class Source(Protocol):
         """
 
     def drift(self, target: Place, centre: Place, distance: float, /) -> float:
-        """Relative deflection of an axis due to position errors of a perturber.
+        """Deflection of an axis due to errors of a perturber's position.
+
+        It is a fraction of the angle by which the axis moves.
 
         Parameters
         ----------

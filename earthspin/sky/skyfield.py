@@ -89,7 +89,10 @@ class Skyfield:
         return self.file.error(target, centre, day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative deflection of an axis due to position errors of a perturber, from the kernel."""
+        """Deflection of an axis due to position errors of a perturber, from the kernel.
+
+        It is a fraction of the angle by which the axis moves.
+        """
         return self.file.drift(target, centre, distance)
 
     def positions(

@@ -168,7 +168,7 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 def _pair_about_start(
     start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps if the third root is well separated: u1 and u2 straddle the start."""
+    """Gaps between roots if the highest is well separated: u1, u2 straddle the start."""
     beta, below = start.beta, start.below
     far = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
     product = _ratio(c0, far)
@@ -186,7 +186,7 @@ def _pair_about_start(
 def _pair_about_pole(
     start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps if the first root is well separated: u2 and u3 straddle the upper pole."""
+    """Gaps between roots if the lowest is well separated: u2, u3 straddle the upper pole."""
     beta, below = start.beta, start.below
     # Expanded about the pole, u = 1 - p, and times beta^2 with P = beta p:
     # P^3 - d2 P^2 - 2 beta d1 P + beta^2 (b - a)^2.

@@ -156,7 +156,7 @@ def test_what_does_not_fit_together(folder: Path) -> None:
     with pytest.raises(SeriesError, match=r"step changes .* is a file missing"):
         read_angular_momentum(folder, ["AAM"])
     (folder / "notes.txt").write_text("")
-    with pytest.raises(SeriesError, match="does not tell its component"):
+    with pytest.raises(SeriesError, match="does not contain its component"):
         read_angular_momentum(folder)
     with pytest.raises(SeriesError, match="No such file"):
         read_angular_momentum(folder / "none")
