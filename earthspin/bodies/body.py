@@ -418,7 +418,7 @@ class Body(FromMass):
 
     @property
     def labelled(self) -> bool:
-        """True if some field is a labelled array, so that the body stands for an ensemble."""
+        """True if some field is a labelled array, which makes the body an ensemble."""
         return self.labelled_field is not None
 
     @property

@@ -85,7 +85,7 @@ SATURN_CONSTANT = Constant(
 
 
 def _year(days: float) -> Constant:
-    """Sidereal orbital period as a constant, from days."""
+    """Sidereal orbital period, converted from days."""
     return Constant(
         days * DAY,
         "s",

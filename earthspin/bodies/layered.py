@@ -73,7 +73,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """Read one layer of a table; a number stands for a constant polynomial."""
+    """Read one layer of a table; a number is read as a constant polynomial."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:

@@ -43,7 +43,7 @@ def time_per_degree(rate: Numeric) -> Numeric:
 
 
 def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
-    """Time from one season to the same season, s.
+    """Length of the tropical year, s.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Transform a pull to a frame whose last axis is N."""
+        """Transform the averaged torque to a frame whose last axis is N."""
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:

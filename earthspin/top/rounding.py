@@ -87,7 +87,7 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
 
 
 def _largest(values: Numbers) -> FloatArray:
-    """Largest value over the times, which keep an axis of length 1."""
+    """Largest value over the times, with an axis of length 1 in their place."""
     return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
 
 

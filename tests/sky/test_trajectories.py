@@ -177,7 +177,9 @@ def test_with_an_accuracy_a_kernel_is_enough(kernel: SpiceKernel) -> None:
 
 def test_a_live_object_is_not_run_again_silently(orbit: VectorFunction) -> None:
     found = series("sun", Body(name="comet", gm=1e5, position=orbit))
-    with pytest.raises(earthspin.SceneError, match=r"C/X.*a Python object, which a scene cannot store"):
+    with pytest.raises(
+        earthspin.SceneError, match=r"C/X.*a Python object, which a scene cannot store"
+    ):
         earthspin.run(found)
 
 
