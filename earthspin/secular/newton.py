@@ -170,8 +170,8 @@ def _linear(
     """
     gauss = rule(windows.order)
     jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: broadcasting is slower
-    for wide, of in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
-        wide[:] = of * windows.half
+    for wide, derivative in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
+        wide[:] = derivative * windows.half
     mixed, by_z, by_phi = jacobian
     phi, z = sides
     settled = np.zeros(sides.shape[2:-2], dtype=bool)
@@ -189,7 +189,7 @@ def _linear(
         if settled.all() or size.max() > DIVERGED:
             break
         before = np.maximum(change, TINY)
-    ends = [of @ gauss.weights for of in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
+    ends = [rate @ gauss.weights for rate in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
     return np.array([phi, z]), np.array(ends), settled
 
 

@@ -235,11 +235,11 @@ def read(
     axis = path.at(with_now)
     shape = setting.orbit.at(with_now)
     normal, eccentricity, _ = shape
-    n, e, turning = (beside(axis, of) for of in shape)
-    of = seasons(axis, n, e)
+    n, e, turning = (beside(axis, vector) for vector in shape)
+    season = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is orbital perihelion plus precession, apart from the tilt
-    perihelion = np.arctan2(of.climatic_precession, of.coprecession)
+    perihelion = np.arctan2(season.climatic_precession, season.coprecession)
     perihelion = followed(perihelion, orbits + general)
     perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
     e2 = np.sum(eccentricity**2, axis=0)
@@ -249,20 +249,20 @@ def read(
     sun = by_sun * dot(n, axis)
     moon = by_moon * moons_height((n, e, turning), axis, strength.node_rate)
     values = {
-        "obliquity": of.obliquity,
+        "obliquity": season.obliquity,
         "longitude_of_perihelion": perihelion,
         "general_precession": general,
         "psi_A": psi,
         "omega_A": np.arccos(np.clip(dot(fixed[2], axis), -1.0, 1.0)),
         "eccentricity": np.sqrt(e2),
-        "climatic_precession": of.climatic_precession,
-        "coprecession": of.coprecession,
+        "climatic_precession": season.climatic_precession,
+        "coprecession": season.coprecession,
         "sun": sun,
         "moon": moon,
         "total": sun + moon - strength.geodesic_rate(e2),
     }
-    told = {name: of[..., :-1] for name, of in values.items()}
-    return Read(told, axis[..., :-1], normal[:, :-1])
+    at_times = {name: value[..., :-1] for name, value in values.items()}
+    return Read(at_times, axis[..., :-1], normal[:, :-1])
 
 
 def _followed_precession(
@@ -281,7 +281,7 @@ def _followed_precession(
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
     """Values of p_A and psi_A modulo whole turns, rad, shape (2, ..., n)."""
-    pole, ecliptic = (np.stack([dot(row, of) for row in fixed], axis=-1) for of in (axis, normal))
+    pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])
 

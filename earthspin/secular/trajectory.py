@@ -218,7 +218,7 @@ class _Way:
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
         """Torque on the axis, or on the axes of members, whose dimensions precede the times."""
-        normal, eccentricity, turning = (beside(state, of) for of in self.orbit.at(times))
+        normal, eccentricity, turning = (beside(state, vector) for vector in self.orbit.at(times))
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
