@@ -20,10 +20,10 @@ _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)
 
 
 def proper(name: str) -> str:
-    """Spell a name as a sentence has it: ``"Earth"``; one of the user's own stays as it is."""
+    """Capitalise the name of a built-in body: ``"Earth"``; leave other names unchanged."""
     return name.capitalize() if name in BODIES else name
 
 
 def in_a_sentence(name: str) -> str:
-    """Spell a name with its article, if it takes one: ``"Mars"``, but ``"the Moon"``."""
+    """Return a body's name with its article, if it takes one: ``"Mars"``, but ``"the Moon"``."""
     return f"the {proper(name)}" if name in _WITH_ARTICLE else proper(name)

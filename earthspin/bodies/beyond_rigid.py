@@ -1,4 +1,4 @@
-"""Effects that a rigid body of three moments leaves out, by body, and how far each turns it."""
+"""Effects on the attitude that a rigid body with three moments does not include, by body."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ DAYS = (1.0, 10.0, 30.0, 100.0, 365.0, 1000.0, 3650.0, 14000.0)
 
 @dataclass(frozen=True)
 class BeyondRigid:
-    """Sizes of effects on the attitude of a body.
+    """Sizes of unmodelled effects on the attitude of a body.
 
     Attributes
     ----------
     sizes : mapping of str to tuple of float
-        By effect: largest change of the attitude up to each of `DAYS`, arcsec.
+        Largest change of the attitude up to each of `DAYS`, arcsec, by effect.
     source : str
         Where the sizes come from.
     """
@@ -29,13 +29,13 @@ class BeyondRigid:
     source: str
 
     def after(self, days: float) -> dict[str, float]:
-        """Sizes some days after the start, rad.
+        """Sizes of the effects a number of days after the start, rad.
 
         Parameters
         ----------
         days : float
-            Below the first of `DAYS` a size grows with the square of the time, as under a torque
-            that is left out; beyond the last one it stays.
+            Time since the start. Before the first of `DAYS` a size grows with the square of the
+            time, as for an unmodelled torque; beyond the last it is constant.
         """
         early = min(days / DAYS[0], 1.0) ** 2
         place = np.log(np.clip(days, DAYS[0], DAYS[-1]))
@@ -45,7 +45,7 @@ class BeyondRigid:
         }
 
 
-#: By the name of the body.
+#: Sizes by name of the body.
 BEYOND_RIGID = {
     "moon": BeyondRigid(
         {

@@ -1,8 +1,8 @@
-"""Bodies as data: named, cited, frozen; plain SI floats, or arrays with named dimensions.
+"""Bodies: named, cited, immutable records of SI floats or arrays with named dimensions.
 
 A body that spins needs its figure (`j2`, `dynamical_flattening`, `radius`), its `spin_period`
-and its `pole`; a body that only pulls needs `gm` and `naif`. Each world stands in a file beside
-this one, with the source and uncertainty of every number.
+and its `pole`; a body that only exerts a torque needs `gm` and `naif`. Each built-in body has a
+file in this package, with the source and uncertainty of every number.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ from earthspin.sky.poles import Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 
-#: What a table starts from that names every number of its body; and one whose figure follows from
-#: its layers.
+#: Values of the key "from" in a table of a body: all numbers are in the table, or the figure
+#: follows from its layers.
 NOTHING, LAYERS = "nothing", "layers"
 _ONE_AXIS = "the pole already gives it; set one of pole and obliquity"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Body(FromMass):
-    """A body that spins, pulls, or both.
+    """A body that spins, exerts a torque, or both.
 
     Numbers carry their units as text or Quantities (``"5 h"``); plain ones are SI and radians.
 
@@ -53,9 +53,9 @@ class Body(FromMass):
     gm : float
         Gravitational parameter, m3 s-2.
     naif : tuple of int
-        Codes by which kernels know it, the preferred one first.
+        NAIF codes of the body in kernels, the preferred one first.
     radius : float
-        Equatorial radius a, m; the one that `j2` refers to.
+        Equatorial radius a, m; the reference radius of `j2`.
     j2 : float
         (C - (A + B)/2) / (M a2); geodesy's J2, not the source text's (I.9.25).
     dynamical_flattening : float
@@ -74,35 +74,36 @@ class Body(FromMass):
     spin_period : float
         One turn relative to the stars, s; negative if retrograde.
     pole : Pole
-        Of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right ascension
+        Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right
+        ascension
         and a declination may be given (ICRF, J2000.0, rad).
     pole_uncertainty : float or None
         One standard deviation of `pole` at J2000.0 in each of two directions, rad; None if it is
         not known.
     orbit_pole : Direction or None
         Right ascension and declination of the orbit's normal (ICRF, rad); not used with
-        `IAU_2006`, which brings its own ecliptic.
+        `IAU_2006`, which includes a model of the ecliptic.
     orbital_period : float
-        Sidereal, s.
+        Sidereal period of the orbit, s.
     cycle : float
-        Of a perturber: the slowest cycle of its pull that averages must span, s. For the Moon
-        the turn of its node; else Jupiter's year, because Jupiter disturbs every orbit.
+        For a perturber: the longest cycle of its torque that averages must span, s. For the Moon
+        this is the period of its node; otherwise the period of Jupiter, which perturbs every orbit.
     slow_swing : float
-        Of a perturber: how far its mean pull swings more slowly than any window, half-width of
-        95 % over the pull.
+        For a perturber: relative variation of its mean torque on time scales longer than any
+        averaging window, half-width of the 95 % interval.
     interior : str, LayeredBody or None
-        What lies under the surface: a word of `earthspin.interior.named`, or layers of its own,
-        which may be given as a table of layers or samples; None is rigid.
+        Interior structure: a name from `earthspin.interior.named`, or layers, which may be given as
+        a table of layers or samples; None means rigid.
     observed_wobble : Constant or None
-        Period of the free wobble as observed, d.
+        Observed period of the free wobble, d.
     position : vector function, Trajectory or None
-        What gives its place, where a kernel does not: a vector function of Skyfield's, or an object
-        as `earthspin.sky.protocol` describes it.
+        Source of the body's position if not a kernel: a vector function of Skyfield, or an object
+        as described in `earthspin.sky.protocol`.
     orbit : Orbit or None
-        Its elements, where neither gives its place. Of a body that spins `orbit_pole` follows from
-        them, if it is not given.
+        Orbital elements, used if neither a kernel nor `position` is. For a spinning body,
+        `orbit_pole` follows from the elements if it is not given.
     relative_uncertainty : mapping
-        One standard deviation over value, by field name.
+        Standard deviation divided by the value, by field name.
     reference : str
         Where the numbers come from.
     obliquity : float
@@ -159,14 +160,14 @@ class Body(FromMass):
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
     by_name: ClassVar[bool] = True
-    #: How each field is read and written; the units of those that are numbers; and the numbers
-    #: that may be labelled arrays, which stand for many bodies.
+    #: Converter of each field; unit of each numeric field; and the numeric fields that may be
+    #: labelled arrays, for an ensemble of bodies.
     KINDS: ClassVar[dict[str, Any]]
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **_: object) -> Body:
-        """Refuse numbers without names: of thirty fields nobody knows the order."""
+        """Refuse positional arguments: nobody knows the order of thirty fields."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         return super().__new__(cls)
@@ -210,7 +211,7 @@ class Body(FromMass):
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def _read_units(self) -> None:
-        """Bring text, tables and Quantities to what is kept; plain numbers load nothing."""
+        """Convert text, tables and Quantities to SI values; plain numbers need no conversion."""
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and str in map(type, value)
@@ -221,21 +222,23 @@ class Body(FromMass):
                 object.__setattr__(self, name, read)
 
     def _read_orbit(self, value: object) -> None:
-        """Read the elements; of what spins, take the normal of its orbit from them."""
+        """Read the orbital elements; for a spinning body, derive the normal of its orbit."""
         orbit = Orbit.read(value, Where(f"{self.name}.orbit"))
         object.__setattr__(self, "orbit", orbit)
         if self.position is not None:
             raise BodyError(self.name, "orbit", str(orbit), "position places it; set one")
         if self.pole is not None and not self.pole.of_the_iau and self.orbit_pole is None:
             if orbit.plane == "orbit":
-                allowed = "of its own orbit it is circular"
+                allowed = (
+                    "the plane of its own orbit cannot be its reference plane; use another plane"
+                )
                 raise BodyError(self.name, "orbit.plane", "orbit", allowed)
             plane = Plane.of(orbit.plane, self.pole, None)
             normal = plane.mean_normal(orbit.i, orbit.node, orbit.node_period)
             object.__setattr__(self, "orbit_pole", normal)
 
     def __eq__(self, other: object) -> bool:
-        """Whether every field is the same, labels of arrays included."""
+        """Test whether all fields are identical, including the labels of arrays."""
         if not isinstance(other, Body):
             return NotImplemented
         return all(is_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
@@ -252,14 +255,14 @@ class Body(FromMass):
         return card(self.name, rows)
 
     def _source(self, name: str) -> str:
-        """Where a number comes from; empty if it has been changed."""
+        """Source of a number; empty if the number has been changed."""
         value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
         return cited.source if cited is not None and is_same(cited.value, value) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
-        """Every field that is set, with its unit."""
+        """Name, and value with unit, of every field that is set."""
         rows = []
         for name in self.KINDS:
             value, unit = getattr(self, name), self.UNITS.get(name, "")
@@ -278,15 +281,15 @@ class Body(FromMass):
 
     @classmethod
     def cited(cls, name: str, numbers: Mapping[str, c.Constant], **others: Any) -> Body:
-        """Make a body that can be named, of numbers that each have a source and an uncertainty.
+        """Create and register a built-in body from numbers with sources and uncertainties.
 
         Parameters
         ----------
         name : str
         numbers : mapping of str to Constant
-            By field, in the unit that the field is kept in. An angle has no relative uncertainty.
+            By field, in the unit of the field. An angle has no relative uncertainty.
         **others
-            Fields that are no numbers.
+            Non-numeric fields.
         """
         values: dict[str, Any] = {key: number.value for key, number in numbers.items()}
         uncertainty = {
@@ -300,7 +303,7 @@ class Body(FromMass):
 
     @classmethod
     def read(cls, value: object, where: Where) -> Body:
-        """Read a body: itself, a name, or a table that starts from one and changes numbers.
+        """Read a body: a `Body`, a name, or a table of changes to a named body.
 
         Raises
         ------
@@ -335,14 +338,14 @@ class Body(FromMass):
             raise where.error(dict(table), str(error)) from None
 
     def write(self) -> Any:
-        """Give the table of every number."""
+        """Return a table of all fields that are set, from which `read` restores the body."""
         values = {name: getattr(self, name) for name in self.KINDS}
         table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table
 
     @property
     def changes(self) -> str:
-        """What sets it apart from the named body that it started from; empty if nothing."""
+        """Description of the changes from the built-in body of the same name; empty if none."""
         start = BODIES.get(self.name)
         if start is None or start is self:
             return ""
@@ -358,11 +361,11 @@ class Body(FromMass):
                 changes.append(f"{name} = {value}{unit and ' '}{unit}")
         return "; ".join(changes)
 
-    # --- what follows from the fields --------------------------------------------------------
+    # --- derived quantities --------------------------------------------------------
 
     @property
     def mass(self) -> Numeric:
-        """Mass, kg; no better known than G."""
+        """Mass, kg; its uncertainty is dominated by that of G."""
         return self.gm / c.G.value
 
     @property
@@ -372,30 +375,32 @@ class Body(FromMass):
 
     @property
     def moments(self) -> Any:
-        """Principal moments A <= B <= C, kg m2, C about the axis of spin; numpy, shape (3,).
+        """Principal moments A <= B <= C, kg m2, with C about the spin axis; numpy, shape (3,).
 
         Raises
         ------
         BodyError
-            If `j2`, `dynamical_flattening` or `radius` are not set, or stand for many bodies, or
-            the flattening is zero: then C does not follow from them.
+            If `j2`, `dynamical_flattening` or `radius` is not set or is an array of many bodies, or
+            the flattening is zero, so that C cannot be derived.
         """
         self.require(("j2", "dynamical_flattening", "radius"))
         h = self.number("dynamical_flattening")
         if h == 0:
-            raise BodyError(self.name, "dynamical_flattening", h, "of a sphere C is not known")
+            raise BodyError(
+                self.name, "dynamical_flattening", h, "C of a sphere cannot be derived from j2"
+            )
         scale = self.number("gm") / c.G.value * self.number("radius") ** 2
         return scale * moments_of(self.number("j2"), h, self.number("triaxiality"))
 
     def relative_uncertainty_of_bulge(self) -> float:
-        """One standard deviation of C - A = J2 M a2, over its value; G is the worst known."""
+        """Relative standard deviation of C - A = J2 M a2, dominated by that of G."""
         u = self.relative_uncertainty
         return math.hypot(
             u.get("j2", 0.0), u.get("gm", 0.0), 2 * u.get("radius", 0.0), c.G.relative_uncertainty
         )
 
     def needed(self, name: str) -> Numeric:
-        """Return a field, or say that this body lacks it.
+        """Return a field, or raise an error if this body does not have it.
 
         Raises
         ------
@@ -406,7 +411,7 @@ class Body(FromMass):
         return getattr(self, name)
 
     def require(self, names: Iterable[str]) -> None:
-        """Refuse at once all that this body lacks, with the form in which to give it.
+        """Raise one error that lists all missing fields, each with an example value.
 
         Parameters
         ----------
@@ -436,18 +441,18 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """How each of its numbers is read, and its mass, by name; those that are set."""
+        """Converter of each number that is set, and of the mass, by name."""
         kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return kinds | {"mass": _READ_AS["mass"]}
 
     @property
     def labelled(self) -> bool:
-        """Whether it stands for many bodies: some field is a labelled array."""
+        """True if some field is a labelled array, which makes the body an ensemble."""
         return self.labelled_field is not None
 
     @property
     def labelled_field(self) -> str | None:
-        """The first field that is a labelled array; None if there is none."""
+        """Name of the first field that is a labelled array; None if there is none."""
         return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
@@ -456,10 +461,10 @@ class Body(FromMass):
         Parameters
         ----------
         **changes
-            Fields of `Body`, and besides ``mass`` (kg) for `gm`, ``obliquity`` (rad) for `pole`,
-            and ``moments`` (three principal moments, kg m2, the polar one last) for `j2`,
-            `dynamical_flattening` and `triaxiality`. `j2` given without
-            `dynamical_flattening` keeps C / (M a2).
+            Fields of `Body`; also ``mass`` (kg) for `gm`, ``obliquity`` (rad) for `pole`, and
+            ``moments`` (three principal moments, kg m2, the polar one last) for `j2`,
+            `dynamical_flattening` and `triaxiality`. If `j2` is given without
+            `dynamical_flattening`, C / (M a2) is unchanged.
             Plain numbers are SI; text and Quantities carry their units (``"12 h"``).
 
         Raises
@@ -493,8 +498,8 @@ class Body(FromMass):
         changes |= self._figure(changes)
         another_orbit = self.orbit is not None or obliquity is not None
         if changes.get("orbit") is not None and another_orbit:
-            changes = {"orbit_pole": None} | changes  # the present one is that of the orbit before
-        # A changed number is the user's own: what was known about the old one no longer holds.
+            changes = {"orbit_pole": None} | changes  # it belonged to the previous orbit
+        # The uncertainty of a number does not apply to a changed value.
         if "pole" in changes:
             changes.setdefault("pole_uncertainty", None)
         uncertainties = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
@@ -520,7 +525,7 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """What else changes, so that moments stay those of one body; takes `moments` away."""
+        """Further changes that keep the moments of inertia consistent; removes `moments`."""
         if "moments" in changes:
             moments = changes.pop("moments")
             clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
@@ -539,13 +544,13 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Whether a change makes it a body whose wobble nobody has observed."""
+        """Test whether changes make a body to which the observed wobble no longer applies."""
         changed = _OF_THE_WOBBLE & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
     @property
     def are_as_named(self) -> Numeric:
-        """Elementwise: whether figure and spin are those of the named body, to one per cent."""
+        """Test element-wise whether figure and spin equal those of the built-in body to 1 %."""
         named = BODIES.get(self.name)
         if named is None:
             return False
@@ -554,7 +559,7 @@ class Body(FromMass):
 
     @property
     def is_as_named(self) -> bool:
-        """Whether figure and spin are those of the named body, to one per cent, of all members."""
+        """True if figure and spin equal those of the built-in body to 1 %, in all members."""
         return all_of(self.are_as_named)
 
 
@@ -568,27 +573,27 @@ Body.LABELLED = frozenset(Body.UNITS) - {
     "meridian", "pole_uncertainty", "orbital_period", "cycle", "slow_swing",
 }  # fmt: skip
 
-#: How all is read that a body can be made or changed by.
+#: Converters of all keys by which a body can be created or changed.
 _READ_AS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
 
-#: What no body is without, by what its table starts from, and how one would write it.
+#: Required keys of a table, by its "from", each with an example value.
 _LEAST = {
     NOTHING: {"name": '"ceres"', "gm": '"62.6 km3/s2"'},
     LAYERS: {"name": '"ceres"', "spin_period": '"9.07 h"', "interior": "{layers = [...]}"},
 }
 
-#: Fields that a body's short form shows, and those that stand elsewhere in its card.
+#: Fields omitted from the body's card, and fields shown in its repr.
 _NOT_TOLD = {"name", "relative_uncertainty"}
 _TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 
-#: Numbers that the free wobble follows from.
+#: Numbers that determine the free wobble.
 _OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
 
 
-#: Every named body, and the source and uncertainty of its numbers; filled by the files of worlds.
+#: Every built-in body, and the source and uncertainty of its numbers; filled by the body's file.
 BODIES: dict[str, Body] = {}
 NUMBERS: dict[str, dict[str, c.Constant]] = {}
 
@@ -599,14 +604,14 @@ def body(name: object, where: Where | None = None) -> Body:
     Parameters
     ----------
     name : str
-        One of `BODIES`, in any case.
+        A key of `BODIES`, in upper or lower case.
     where : Where, optional
-        What asked, for the message.
+        Input that named the body, for the message.
 
     Raises
     ------
     SceneError
-        If the name is unknown; it names the nearest valid one.
+        If the name is unknown; the message suggests the nearest valid name.
     """
     match = BODIES.get(name.lower()) if isinstance(name, str) else None
     if match is None:
@@ -615,7 +620,7 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """The named body that a vector function of Skyfield's leads to, placed by it."""
+    """Built-in body that a Skyfield vector function has as target, with that position."""
     match = next((body for body in BODIES.values() if function.target in body.naif), None)
     if match is None:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
@@ -624,7 +629,7 @@ def _placed(function: Any, where: Where) -> Body:
 
 
 def members(bodies: Iterable[Body]) -> int:
-    """How many bodies some bodies stand for, labelled arrays of theirs taken together.
+    """Number of ensemble members described by the labelled arrays of several bodies.
 
     Parameters
     ----------

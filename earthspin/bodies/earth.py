@@ -27,7 +27,7 @@ _ROTATION_ANGLE = "Capitaine, Guinot & McCarthy 2000, A&A 355, 398, eq. 14"
 
 # Normalised coefficients of EGM2008, of degree and order 2.
 _C22, _S22 = 2.43938357e-6, -1.40027370e-6
-#: Turns of the Earth Rotation Angle in a day of UT1, and its start at J2000.0 UT1.
+#: Earth Rotation Angle, turns: rate per day of UT1, and value at J2000.0 UT1.
 _TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
 
 NUMBERS = {
@@ -70,7 +70,6 @@ NUMBERS = {
         (EPSILON_0.uncertainty or 0.0) * ARCSEC, "rad", None, EPSILON_0.source, EPSILON_0.read_in
     ),
     "flattening": Constant(1 / 298.25642, "", 1.1e-10, IERS_2010 + " (zero-tide)", IERS_TABLE_READ),
-    # one turn relative to the stars
     "spin_period": Constant(
         DAY / _TURNS_A_DAY,
         "s",

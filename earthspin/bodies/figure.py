@@ -1,4 +1,4 @@
-"""J2, H and triaxiality of a body, which hang together through its moments of inertia."""
+"""J2, H and triaxiality of a body, related through its moments of inertia."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def flattening_of(j2: Constant, moment: Constant) -> Constant:
-    """H = J2 / (C/(M R2)), with the uncertainty of both."""
+    """H = J2 / (C/(M R2)), with its propagated uncertainty."""
     h = j2.value / moment.value
     u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
     return Constant(
@@ -29,12 +29,12 @@ def flattening_of(j2: Constant, moment: Constant) -> Constant:
 
 
 def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
-    """Principal moments A <= B <= C over M a2, C about the axis of spin, shape (3,).
+    """Principal moments A <= B <= C in units of M a2, with C about the spin axis, shape (3,).
 
     Parameters
     ----------
     j2, h, triaxiality : float
-        (C - (A + B)/2) and (B - A) over M a2, and the former over C, which is not zero.
+        J2 = (C - (A + B)/2)/(M a2); H = (C - (A + B)/2)/C, not zero; (B - A)/(M a2).
     """
     polar = j2 / h
     equatorial, half = polar - j2, triaxiality / 2
@@ -44,30 +44,30 @@ def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
 def figure_of(
     name: str, moments: tuple[Numeric, Numeric, Numeric], scale: Numeric
 ) -> dict[str, Numeric]:
-    """J2, H and triaxiality of a body, by field.
+    """J2, H and triaxiality from three moments of inertia, by field.
 
     Parameters
     ----------
     name : str
-        Of the body.
+        Name of the body, for messages.
     moments : three floats or labelled arrays
-        The polar one last, kg m2.
+        Principal moments, kg m2, the polar one last.
     scale : float or labelled array
         M a2, kg m2.
 
     Raises
     ------
     BodyError
-        If no body has such moments.
+        If no body can have such moments.
     """
     try:
         small, middle, polar = moments
     except (TypeError, ValueError):
         raise BodyError(name, "moments", moments, "give three, the polar one last") from None
     if not all_of((small > 0) & (middle > 0) & (polar > 0)):
-        raise BodyError(name, "moments", moments, "each moment is greater than zero")
+        raise BodyError(name, "moments", moments, "each moment must be greater than zero")
     if not all_of(abs(small - middle) <= polar):
-        raise BodyError(name, "moments", moments, "no moment exceeds the other two's sum")
+        raise BodyError(name, "moments", moments, "no moment may exceed the sum of the other two")
     difference = polar - (small + middle) / 2
     return {
         "j2": difference / scale,

@@ -1,4 +1,4 @@
-"""Ways to make a body from where its mass lies."""
+"""Constructors of bodies from a mass distribution."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from earthspin.bodies.shapes import of_density, of_layers, of_masses, of_mesh
 
 
 class FromMass:
-    """What a body can be made of; each names the body's other fields as `Body.replace` does."""
+    """Constructors of a body from point masses, a density, a mesh or layers.
+
+    Each accepts the body's other fields as `Body.replace` does.
+    """
 
     def __init__(self, **fields: Any) -> None:
-        """Take the fields of a body by name, as the body does."""
+        """Accept the fields of a body by name, as the body does."""
 
     def replace(self, **changes: Any) -> Self:
-        """Change some fields, as the body does."""
+        """Return a copy with some fields changed, as the body does."""
         raise NotImplementedError
 
     @classmethod
@@ -27,7 +30,7 @@ class FromMass:
         radius: Any = None,
         **fields: Any,
     ) -> Self:
-        """Make a body of point masses, spinning about the axis of its greatest moment.
+        """Make a body of point masses that spins about its axis of greatest inertia.
 
         Parameters
         ----------
@@ -37,7 +40,7 @@ class FromMass:
             m, along any axes.
         name : str
         radius : float, str or Quantity, optional
-            That J2, J3 and J4 refer to; if not given, the distance of the farthest mass from the
+            Reference radius of J2, J3 and J4. Default: the distance of the farthest mass from the
             centre of mass.
         **fields
             More fields of `Body`, such as ``spin_period="5 h"``, as `replace` takes them.
@@ -45,7 +48,7 @@ class FromMass:
         Raises
         ------
         BodyError, UndefinedError
-            If a mass is not above zero, shapes do not match, or all lie in one point.
+            If a mass is not positive, the shapes do not match, or all masses are at one point.
 
         Examples
         --------
@@ -73,16 +76,16 @@ class FromMass:
         Parameters
         ----------
         density : array_like or Quantity, shape (nx, ny, nz)
-            kg m-3; empty cells hold zero.
+            kg m-3; zero in empty cells.
         x, y, z : array_like or Quantity
-            Edges of the cells, one more than cells, rising, m.
+            Edges of the cells in increasing order, one more than there are cells, m.
         name, radius, **fields
-            As for `from_masses`; the farthest place is the corner of a cell.
+            As for `from_masses`; the default radius is that of the farthest corner of a cell.
 
         Raises
         ------
         BodyError, UndefinedError
-            If a density is negative, all are zero, or edges do not rise or fit.
+            If a density is negative, all are zero, or the edges do not increase or match the cells.
 
         Examples
         --------
@@ -110,23 +113,23 @@ class FromMass:
         Parameters
         ----------
         mesh : path, Trimesh, or (vertices, faces)
-            A file of any format that trimesh reads, such as OBJ, PLY, STL, OFF; corners of each
-            triangle counter-clockwise as seen from outside.
+            Mesh, or a file in a format that trimesh reads, such as OBJ, PLY, STL, OFF. The corners
+            of each triangle are counter-clockwise as seen from outside.
         density, mass : float, str or Quantity
-            One of the two.
+            Exactly one of the two.
         unit : str
-            Of the vertices; files seldom say it.
+            Unit of the vertices; most file formats do not store it.
         name, radius, **fields
             As for `from_masses`.
 
         Raises
         ------
         BodyError
-            If the mesh is open or turned inside out, or not one of density and mass is given.
+            If the mesh is open or inside out, or not exactly one of density and mass is given.
         SeriesError
             If the file cannot be read.
         MissingExtraError
-            If the extra `mesh` is not installed, which files need.
+            If a file is given and the extra `mesh` is not installed.
 
         Examples
         --------
@@ -145,22 +148,22 @@ class FromMass:
     ) -> Self:
         """Make a body of layers in hydrostatic equilibrium, to first order in its flattening.
 
-        The layers are its `interior` too.
+        The layers are also stored as the body's `interior`.
 
         Parameters
         ----------
         layers : LayeredBody, str or mapping
-            Or the name of an interior that has layers, like ``"prem"``, or a table of layers or
+            Layers, the name of an interior with layers, such as ``"prem"``, or a table of layers or
             samples.
         spin_period : float, str or Quantity
-            How fast it turns shapes it.
+            Rotation period, which determines the flattening.
         name, **fields
             As for `from_masses`.
 
         Raises
         ------
         SceneError
-            If there is no such interior, it has no layers, or a table is of none.
+            If there is no such interior, it has no layers, or the table is invalid.
 
         Examples
         --------

@@ -1,8 +1,9 @@
 """Jupiter, Saturn, Uranus, Neptune.
 
-Jupiter and Saturn stand here with the satellites that they carry along (`satellites`), which do
-more than the planet's own bulge. Of Uranus and Neptune the polar moment is not known, so that a
-question that needs H asks for it; Triton, large, inclined and retrograde, is carried by nothing.
+Jupiter and Saturn include the satellites that precess with them (`satellites`); these contribute
+more than the planet's own bulge. The polar moments of Uranus and Neptune are not known, so a
+question that needs H requests it. Triton, large, inclined and retrograde, is not included in
+Neptune.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
 
 
 def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
-    """Satellite by GM (km3 s-2), half axis (km) and period (d)."""
+    """Satellite from GM (km3 s-2), semi-major axis (km) and period (d)."""
     return Satellite(
         name,
         Constant(gm * 1e9, "m3 s-2", None, JPL, JPL_READ),
@@ -54,14 +55,14 @@ OF_JUPITER = (
     _moon("Ganymede", 9887.834, 1070400.0, 7.154553),
     _moon("Callisto", 7179.289, 1882700.0, 16.689017),
 )
-#: Those inside the radius where the Sun takes over; Iapetus is outside.
+#: Satellites of Saturn inside its Laplace radius; Iapetus is outside.
 OF_SATURN = (
     _moon("Tethys", 41.21, 294672.0, 1.887802),
     _moon("Dione", 73.116, 377415.0, 2.736916),
     _moon("Rhea", 153.94, 527068.0, 4.517503),
     _moon("Titan", 8978.14, 1221865.0, 15.945448),
 )
-#: C/(M R2) of the planets alone, from models of the inside.
+#: C/(M R2) of the planets alone, from interior models.
 JUPITER_MOMENT = Constant(
     0.2639,
     "",
@@ -76,7 +77,7 @@ SATURN_MOMENT = Constant(
     "Militzer & Hubbard 2023; uncertainty assumed, ten times theirs",
     "abstract, arXiv:2308.04986",
 )
-#: Rate of precession over the cosine of the obliquity, as published, satellites carried along.
+#: Published precession constants (rate divided by cos obliquity), satellites included.
 JUPITER_CONSTANT = Constant(2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91", UNVERIFIED)
 SATURN_CONSTANT = Constant(
     0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501", UNVERIFIED
@@ -84,7 +85,7 @@ SATURN_CONSTANT = Constant(
 
 
 def _year(days: float) -> Constant:
-    """Sidereal period of an orbit."""
+    """Sidereal orbital period, converted from days."""
     return Constant(
         days * DAY,
         "s",
@@ -97,7 +98,7 @@ def _year(days: float) -> Constant:
 def _numbers(
     gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """Numbers of a giant: GM (km3 s-2), radius (km), spin in degrees a day, period of its orbit."""
+    """Numbers of a giant planet, from GM (km3 s-2), radius (km), spin (deg/d) and period."""
     return {
         "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites", GM_HORIZONS),
         "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
@@ -109,7 +110,7 @@ def _numbers(
 
 
 def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Mean ellipse about the Sun: au, and longitudes in degrees."""
+    """Mean elliptical orbit about the Sun, from au and longitudes in degrees."""
     return Orbit(
         a=a * AU,
         e=e,
@@ -123,7 +124,7 @@ def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: f
 
 
 ELLIPSES = Tabulated("mean orbits of the giant planets", ELEMENTS, STANDISH_READ)
-#: Mean orbits, for averages over years that are too long for a kernel.
+#: Mean orbits, for averages over intervals longer than kernels cover.
 ORBITS = {
     "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
     "saturn": _orbit(9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
@@ -133,7 +134,7 @@ ORBITS = {
 
 
 def _normal(planet: str) -> Direction:
-    """Of the mean orbit."""
+    """Normal of a planet's mean orbit."""
     return Direction.across(ORBITS[planet].i, ORBITS[planet].node)
 
 

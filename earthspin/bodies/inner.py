@@ -27,7 +27,7 @@ IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)"
 ELEMENTS = "Standish & Williams, approximate elements, sidereal"
 POLES = Tabulated("poles of Mercury and Venus", IAU_2015, PCK11)
 PLANES = Tabulated("planes of the orbits of Mercury and Venus", ELEMENTS, STANDISH_READ)
-#: How far the mean pull of a planet on others swings through centuries, relative.
+#: Relative variation, over centuries, of the mean torque that a planet exerts on other bodies.
 SWING = Constant(1e-3, "", None, "a bound for planets: not measured", ASSUMED)
 
 _MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09"
@@ -49,7 +49,7 @@ _VENUS_J2 = Constant(
     4.404e-6, "", None, "Konopliv et al. 1999, Icarus 139, 3 (MGNP180U), rounded", _GRAVITY_READ
 )
 VENUS_MOMENT = Constant(0.337, "", 0.024, _MARGOT_2021, _MARGOT_2021_READ)
-#: Rate of precession of the spin axis along the orbit, as observed.
+#: Observed precession rate of the spin axis in the plane of the orbit.
 VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021, _MARGOT_2021_READ)
 
 
@@ -68,7 +68,7 @@ MERCURY = Body.cited(
             _VERMA,
             _VERMA_READ,
         ),
-        # three turns in two orbits
+        # 3:2 spin-orbit resonance
         "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015, PCK11),
         "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
@@ -87,7 +87,7 @@ MERCURY = Body.cited(
     reference=f"{_MARGOT_2012}; {_VERMA}; {IAU_2015}; DE440",
 )
 
-#: Mercury's orbit on the plane that it precesses on; longitudes are not needed and not given.
+#: Mercury's orbit referred to its Laplace plane; longitudes are not needed.
 MERCURY_ORBIT = Orbit(
     period=_MERCURY_YEAR.value,
     e=0.2056,
@@ -96,7 +96,7 @@ MERCURY_ORBIT = Orbit(
     about="sun",
     reference=f"Yseboodt & Margot 2006, Icarus 181, 327 ({UNVERIFIED})",
 )
-#: Obliquity of Mercury to its orbit, as observed.
+#: Observed obliquity of Mercury to its orbit.
 MERCURY_OBLIQUITY = Constant(2.04, "arcmin", 0.08, _MARGOT_2012, _MARGOT_2012_READ)
 MERCURY_PLANE = Tabulated(
     "plane on which the orbit of Mercury precesses", MERCURY_ORBIT.reference, UNVERIFIED
@@ -111,7 +111,6 @@ VENUS = Body.cited(
         ),
         "j2": _VENUS_J2,
         "dynamical_flattening": flattening_of(_VENUS_J2, VENUS_MOMENT),
-        # retrograde
         "spin_period": Constant(
             -243.0226 * DAY, "s", 0.0013 * DAY, _MARGOT_2021, _MARGOT_2021_READ
         ),

@@ -1,4 +1,4 @@
-"""How the fields of a body are read from text, tables and Quantities, and written back exactly."""
+"""Converters of the fields of a body: from text, tables and Quantities, and back exactly."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.sky.sources import read_position, write_position
 from earthspin.units import pack, quantity, unpack
 
-#: What a scene file can hold. The border itself is loaded when there is something to read.
+#: A value that a scene file can hold.
 Plain = Any
 
 
@@ -24,11 +24,11 @@ class Magnitude:
     Attributes
     ----------
     unit : str
-        In which it is kept.
+        Unit of the stored value.
     text : str
-        An example: number and unit.
+        Example of a number with its unit.
     ratio : str
-        Of a pure number: what is divided by what.
+        Definition of a dimensionless number as a quotient.
     """
 
     unit: str
@@ -39,18 +39,18 @@ class Magnitude:
 
     @property
     def form(self) -> str:
-        """How one would write it in a scene, whatever the body."""
+        """Example of a valid value in a scene, for any body."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
-        """Read text, a number in SI units, a Quantity, a labelled array, or what `write` wrote."""
+        """Read text, a number in SI units, a Quantity, a labelled array, or output of `write`."""
         if isinstance(value, Mapping):
             return _labelled(value, where)
 
         return quantity(value, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
-        """Give a number with its unit; an array as a table of its bytes, dims and labels."""
+        """Return a number with its unit, or an array as a table of its bytes, dims and labels."""
         if hasattr(value, "dims"):
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
@@ -59,12 +59,12 @@ class Magnitude:
 
 @dataclass(frozen=True)
 class Moments:
-    """Three principal moments, the polar one last."""
+    """Converter of three principal moments of inertia, the polar one last, kg m2."""
 
     words, hint = "three moments, the polar one last", "Sequence[float | str]"
 
     def read(self, value: object, where: Where) -> list[Any]:
-        """Read each."""
+        """Read three moments of inertia."""
         if not isinstance(value, (list, tuple)) or len(value) != 3:
             raise where.error(value, "give three moments")
         return [quantity(moment, "kg m2", where, "8.03e37 kg m2") for moment in value]
@@ -72,42 +72,42 @@ class Moments:
 
 @dataclass(frozen=True)
 class Codes:
-    """Codes by which kernels know a body."""
+    """Converter of the NAIF codes of a body."""
 
     words, hint = "whole numbers, like [499, 4]", "Sequence[int]"
 
     def read(self, value: object, where: Where) -> tuple[int, ...]:
-        """Check that they are whole numbers."""
+        """Return the codes as a tuple; refuse anything but integers."""
         if not isinstance(value, (list, tuple)) or not all(type(code) is int for code in value):
             raise where.error(value, "give a list of whole numbers, like [499, 4]")
         return tuple(value)
 
     def write(self, value: tuple[int, ...]) -> Plain:
-        """Give the list."""
+        """Return the codes as a list."""
         return list(value)
 
 
 @dataclass(frozen=True)
 class Uncertainties:
-    """One standard deviation over value, by field."""
+    """Converter of relative standard deviations, by field."""
 
-    words, hint = "one standard deviation over value, by field", "Mapping[str, float]"
+    words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
     def read(self, value: object, where: Where) -> dict[str, float]:
-        """Read each; the body knows which names it has."""
+        """Read each number; the body checks the names."""
         if not isinstance(value, Mapping):
             raise where.error(value, "give a table of one number for each field")
 
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
-        """Give the table."""
+        """Return the table of uncertainties."""
         return dict(value)
 
 
 @dataclass(frozen=True)
 class OneOf:
-    """One of a few words.
+    """Converter that accepts one of several words.
 
     Attributes
     ----------
@@ -120,23 +120,23 @@ class OneOf:
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """The allowed words, for messages."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
-        """Check."""
+        """Return the word; refuse any that is not allowed."""
         if not isinstance(value, str) or value not in self.allowed:
             raise where.error(value, nearest(value, self.allowed))
         return value
 
     def write(self, value: str) -> Plain:
-        """Give the word."""
+        """Return the word unchanged."""
         return value
 
 
 @dataclass(frozen=True)
 class CitedPeriod:
-    """A period in days with its uncertainty and source."""
+    """Converter of a period in days with its uncertainty and source."""
 
     words, hint = (
         "a table of value, unit, uncertainty and source",
@@ -144,7 +144,7 @@ class CitedPeriod:
     )
 
     def read(self, value: object, where: Where) -> Constant:
-        """Take a constant, or a table of its fields."""
+        """Return a `Constant` from a constant or a table of its fields."""
         if isinstance(value, Constant):
             return value
 
@@ -163,12 +163,12 @@ class CitedPeriod:
             raise where.error(value, f"give a table of {names}") from None
 
     def write(self, value: Constant) -> Plain:
-        """Give the table of what is known."""
+        """Return the table of the fields that are set."""
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
 class OwnPlace:
-    """What gives the place of a body, where a kernel does not."""
+    """Converter of the position source of a body that has none in a kernel."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"
@@ -178,7 +178,7 @@ class OwnPlace:
 
 
 def _labelled(table: Mapping[str, Any], where: Where) -> Any:
-    """A labelled array as `Magnitude.write` wrote it.
+    """Labelled array from a table made by `Magnitude.write`.
 
     Raises
     ------
@@ -202,7 +202,7 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 
 def _labels_of(array: Any) -> dict[str, Any]:
-    """Labels of an array, of whatever kind, as tables."""
+    """Labels of an array, of any dtype, as tables."""
     tables: dict[str, Any] = {}
     for name, label in array.coords.items():
         floats = label.dtype.kind == "f" and label.size

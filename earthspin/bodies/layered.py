@@ -1,4 +1,4 @@
-"""How what lies under the surface is given: by name, as a table of layers or samples, as itself."""
+"""Converters of interiors, given by name, as a table of layers or samples, or as an object."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q
 
 
 class Layers:
-    """Kind of a layered body."""
+    """Converter of a layered body."""
 
     words = (
         'the name of an interior with layers, like "prem", or a table: name, and either layers '
@@ -29,7 +29,7 @@ class Layers:
     by_name = True
 
     def read(self, value: object, where: Where) -> LayeredBody:
-        """Read a name, a layered body, or a table."""
+        """Return a `LayeredBody` from a name, a layered body, or a table."""
         if isinstance(value, LayeredBody):
             return value
         if isinstance(value, str):
@@ -51,11 +51,11 @@ class Layers:
         )
         tops = [layer.top for layer in layers]
         if not tops or any(top <= below for below, top in pairwise([0.0, *tops])):
-            raise where.error(tops, "the tops of layers grow from the centre outwards")
+            raise where.error(tops, "list layers from the centre outwards, with increasing tops")
         return LayeredBody(name, layers, reference)
 
     def write(self, value: LayeredBody) -> dict[str, Any]:
-        """Give the table of layers."""
+        """Return the table of layers."""
         return {
             "name": value.name,
             "reference": value.reference,
@@ -73,7 +73,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """One layer of a table; a number stands for an even layer."""
+    """Read one layer of a table; a number is read as a constant polynomial."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:
@@ -96,7 +96,7 @@ def _layer(table: Any, where: Where) -> Layer:
 
 
 def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody:
-    """Samples as a table of columns, or anything with columns of these names."""
+    """Read samples from a table of columns, or any object with columns of these names."""
     try:
         columns = {
             column: real_numbers(table[column]).tolist()
@@ -112,7 +112,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
 
 
 class UnderTheSurface:
-    """Kind of the interior of a body: a name stays one, all else becomes a layered body."""
+    """Converter of the interior of a body: a name is stored as text, all else as a layered body."""
 
     words = (
         'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '
@@ -121,7 +121,7 @@ class UnderTheSurface:
     hint = Layers.hint
 
     def read(self, value: object, where: Where) -> str | LayeredBody:
-        """Read a name, a layered body, or a table."""
+        """Return the name as text, or a `LayeredBody` from a layered body or table."""
         if isinstance(value, (LayeredBody, Mapping)):
             return Layers().read(value, where)
         if not isinstance(value, str):
@@ -129,5 +129,5 @@ class UnderTheSurface:
         return Text().read(value, where)
 
     def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
-        """Give the name, or the table of layers."""
+        """Return the name, or the table of layers."""
         return value if isinstance(value, str) else Layers().write(value)

@@ -1,7 +1,6 @@
-"""Limits of the formulas: bodies that are apart, spins that hold together, axes that turn slowly.
+"""Limits of validity: bodies must not overlap, spins not exceed break-up, axes turn slowly.
 
-A body itself may be extreme. Each question applies the rules that its formulas need, and each rule
-stands here once.
+A body itself may be extreme. Each question applies the limits that its formulas need.
 """
 
 from __future__ import annotations
@@ -13,35 +12,36 @@ from earthspin.bodies.labelled import Numeric, all_of
 from earthspin.constants import SPEED_OF_LIGHT, G
 from earthspin.errors import BodyError, UndefinedError
 
-#: Tension that no material bears, Pa: a spin below it may exceed what gravity alone holds, as
-#: that of a small rock or a flywheel does.
+#: Upper bound on the tensile strength of any material, Pa: a small rock or a flywheel may spin
+#: faster than gravity alone allows, up to this tension.
 STRONGEST = 1e10
-#: Largest precession in one radian of an orbit, or of the spin, rad.
+#: Largest precession per radian of the orbit or of the spin, rad.
 SLOW = 0.01
-#: Bound on the relative error of a first-order average, over the sum of both shares: 0.3 to 1.8
-#: measured against the rotation under the Sun, at two obliquities and shares up to 0.05.
+#: Bound on the relative error of a first-order average, divided by the sum of the two ratios of
+#: precession rate to orbital and spin rate. Measured values are 0.3 to 1.8, against the rotation
+#: under the Sun's torque, at two obliquities and ratios up to 0.05.
 OF_AVERAGE = 2.0
 
 
 def largest(value: Numeric) -> float:
-    """Return a number, or the largest of an array."""
+    """Return a number, or the largest element of an array."""
     return float(value.max() if hasattr(value, "max") else value)
 
 
 def extent(body: Any) -> float:
-    """Distance inside which a body is no point mass of Newton's law, m.
+    """Radius inside which a body cannot be treated as a Newtonian point mass, m.
 
     Parameters
     ----------
     body : Body
-        Its radius counts, or that of its horizon, 2 GM/c2, if that is larger.
+        Its radius, or its Schwarzschild radius 2 GM/c2 if that is larger, is returned.
     """
     radius = 0.0 if body.radius is None else largest(body.radius)
     return max(radius, 2 * largest(body.gm) / SPEED_OF_LIGHT.value**2)
 
 
 def overlap(distance: float, reach: float, name: str, centre: str) -> str | None:
-    """Say that two bodies overlap at a distance, if they do.
+    """Message that two bodies overlap at a distance, or None if they do not.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def overlap(distance: float, reach: float, name: str, centre: str) -> str | None
     reach : float
         Sum of their extents, m.
     name, centre : str
-        Of the bodies, as they stand in the message.
+        Names of the two bodies, for the message.
     """
     if distance > reach:
         return None
@@ -61,12 +61,12 @@ def overlap(distance: float, reach: float, name: str, centre: str) -> str | None
 
 
 def refuse_break_up(body: Any) -> None:
-    """Refuse a spin that neither gravity nor any material holds together.
+    """Refuse a spin faster than both gravity and material strength can hold together.
 
     Parameters
     ----------
     body : Body
-        With a mass; without a radius or a spin nothing is checked.
+        Body to check. Nothing is checked without a radius, a rotation period or a positive mass.
 
     Raises
     ------
@@ -76,26 +76,26 @@ def refuse_break_up(body: Any) -> None:
         return
     period = abs(body.spin_period)
     by_gravity = 2 * math.pi * body.radius * (body.radius / body.gm) ** 0.5
-    # density times the square of the equator's speed is STRONGEST
+    # from density * (equatorial speed)^2 = STRONGEST
     by_strength = (3 * math.pi / (G.value * STRONGEST) * body.gm / body.radius) ** 0.5
     if all_of((period >= by_gravity) | (period >= by_strength)):
         return
     shortest = float(period.min()) if hasattr(period, "dims") else float(period)
-    allowed = (
-        f"its equator flies off: gravity holds it at {largest(by_gravity) / 3600:.3g} h or more"
-    )
+    hours = largest(by_gravity) / 3600
+    allowed = f"it would break up: gravity holds it together at {hours:.3g} h or more"
     raise BodyError(body.name, "spin_period", f"{shortest:g} s", allowed)
 
 
 def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
-    """Refuse an axis that turns too fast for an average over orbits and spin.
+    """Refuse an axis that precesses too fast for an average over orbits and spin.
 
     Parameters
     ----------
     by_orbit : float or array
-        Rate of precession, of the axis or the orbit, over the mean motion; summed over what pulls.
+        Precession rate of the axis or of the orbit, divided by the mean motion and summed over the
+        perturbers.
     by_spin : float or array
-        The same over the rate of the spin.
+        The same precession rate divided by the rate of the spin.
 
     Raises
     ------
@@ -106,6 +106,6 @@ def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
     orbits, spin = largest(by_orbit), largest(by_spin)
     word, share = ("orbit", orbits) if orbits > spin else ("rotation", spin)
     raise UndefinedError(
-        f"an average over orbits needs a slow precession: this one makes {share:.2g} turns in each "
-        f"{word}, and at most {SLOW:g} is allowed; ask rotation for the motion itself"
+        f"an average over orbits needs a slow precession: this axis makes {share:.2g} turns per "
+        f"{word}, and at most {SLOW:g} is allowed; use the question rotation for the full motion"
     )

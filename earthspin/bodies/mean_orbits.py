@@ -1,4 +1,4 @@
-"""Mean orbits: of Sun and Moon about the Earth, and of bodies whose spin is locked to theirs."""
+"""Mean orbits of the Sun and Moon about the Earth, and of bodies in spin-orbit resonance."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ from earthspin.constants import (
 MEAN_ELEMENTS = "Simon et al. 1994, A&A 282, 663 (J2000.0)"
 LUNAR_ELEMENTS = "Chapront-Touze & Chapront 1988, A&A 190, 342"
 
-#: Half the long axis, eccentricity, inclination to the ecliptic.
+#: Semi-major axis, eccentricity, and inclination to the ecliptic.
 SUN_DISTANCE = Constant(1.000001018 * AU, "m", None, MEAN_ELEMENTS, SIMON_READ)
 SUN_ECCENTRICITY = Constant(0.01670863, "", None, MEAN_ELEMENTS, SIMON_READ)
-#: ELP's constant; that of an ellipse with the same month is 384748 km, the mean of 1/r is 1/384400.
+#: Constant of ELP. An ellipse with the same period has 384748 km; the mean of 1/r is 1/(384400 km).
 MOON_DISTANCE = Constant(383397772.5, "m", None, LUNAR_ELEMENTS, SIMON_READ)
 MOON_ECCENTRICITY = Constant(0.05554553, "", None, LUNAR_ELEMENTS, SIMON_READ)
 MOON_INCLINATION = Constant(5.15668983, "deg", None, LUNAR_ELEMENTS, SIMON_READ)
 
-#: Longitudes at J2000.0 on the ecliptic and equinox of that date: mean, and of the pericentre.
+#: Mean longitude and longitude of pericentre at J2000.0, from the ecliptic and equinox of J2000.0.
 SUN_LONGITUDE = Constant(280.46645683, "deg", None, MEAN_ELEMENTS, SIMON_READ)
 SUN_PERIGEE = Constant(282.93734808, "deg", None, MEAN_ELEMENTS, SIMON_READ)
 MOON_LONGITUDE = Constant(218.31664563, "deg", None, MEAN_ELEMENTS, SIMON_READ)
 MOON_PERIGEE = Constant(83.35324312, "deg", None, MEAN_ELEMENTS, SIMON_READ)
 MOON_NODE = Constant(125.04455501, "deg", None, MEAN_ELEMENTS, SIMON_READ)
-#: Of the longitudes of the Moon's perigee and node, from the fixed equinox of J2000.0.
+#: Rates of the longitudes of the Moon's perigee and node, from the fixed equinox of J2000.0.
 PERIGEE_RATE = Constant(14643420.2669, "0.01 arcsec yr-1", None, MEAN_ELEMENTS, SIMON_READ)
 NODE_RATE = Constant(-6967919.3631, "0.01 arcsec yr-1", None, MEAN_ELEMENTS, SIMON_READ)
 
 _TURN = 1296000.0 * DAYS_PER_CENTURY * DAY  # arcsec s / (100 yr)
 
-#: The Sun on its apparent ellipse about the Earth.
+#: The Sun on its apparent elliptical orbit about the Earth.
 MEAN_SUN = SUN.replace(
     orbit=Orbit(
         a=SUN_DISTANCE.value,
@@ -56,7 +56,7 @@ MEAN_SUN = SUN.replace(
         reference=MEAN_ELEMENTS,
     )
 )
-#: The Moon on an ellipse of its own month, with node and perigee that go round.
+#: The Moon on an ellipse with its sidereal period, with precessing node and perigee.
 MEAN_MOON = MOON.replace(
     orbit=Orbit(
         period=SIDEREAL_MONTH.value,
@@ -66,18 +66,18 @@ MEAN_MOON = MOON.replace(
         pericentre=math.radians(MOON_PERIGEE.value - MOON_NODE.value),
         mean_anomaly=math.radians(MOON_LONGITUDE.value - MOON_PERIGEE.value),
         node_period=_TURN / NODE_RATE.value,
-        # the argument counts from the node, which comes to meet the perigee
+        # the argument of perigee is measured from the node, which regresses
         pericentre_period=_TURN / (PERIGEE_RATE.value - NODE_RATE.value),
         about="earth",
         reference=f"{LUNAR_ELEMENTS}; {MEAN_ELEMENTS}",
     )
 )
-#: Orbits on the planes that they precess on, by the name of the body.
+#: Orbits referred to their Laplace planes, by name of the body.
 PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT} | OF_MOONS
 
 _LUNAR_STATE = "data_tools/lunar_state.py, means over the orbit of DE421"
-#: What the equation of Cassini states leaves out, as a change of the obliquity in the upright
-#: state, by the name of the body.
+#: Effects not included in the Cassini-state equation, as changes of the obliquity in the upright
+#: state, by name of the body.
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     MOON.name: {
         "the Sun in the orbit": Constant(-0.0227, "deg", None, _LUNAR_STATE, COMPUTED),

@@ -21,10 +21,10 @@ from earthspin.sky.poles import Direction
 
 _GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging)"
 _GRAIL_READ = SHTOOLS + "Moon.py"
-#: Model of the field of DE430, by degree and order.
+#: Gravity field of DE430, by degree and order.
 _DE430_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
 
-#: Obliquity to its own orbit, as observed.
+#: Observed obliquity of the Moon to its orbit.
 OBLIQUITY = Constant(
     6.688,
     "deg",
@@ -37,7 +37,7 @@ BETA = Constant(6.310213e-4, "", 3.1e-9, _GRAIL, _GRAIL_READ)
 GAMMA = Constant(2.277317e-4, "", 4.2e-9, _GRAIL, _GRAIL_READ)
 J2 = Constant(2.03216e-4, "", 2e-9, _GRAIL + "; rounded", f"2.03214e-4 of DE430: {_DE430_READ}")
 
-# with C = 1: A = B - gamma and 1 - A = beta B
+# moments in units of C: A = B - gamma and 1 - A = beta B
 _B = (1 + GAMMA.value) / (1 + BETA.value)
 _H = 1 - (_B - GAMMA.value / 2)
 
@@ -55,10 +55,10 @@ NUMBERS = {
     "triaxiality": Constant(
         GAMMA.value * J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL, _GRAIL_READ
     ),
-    # locked: one turn in each month
+    # synchronous rotation
     "spin_period": SIDEREAL_MONTH,
     "orbital_period": SIDEREAL_MONTH,
-    # the node goes once round in 1296000"/6962890.5431" centuries = 6798.383 d
+    # period of the node, 1296000"/6962890.5431" centuries = 6798.383 d
     "cycle": Constant(
         1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY,
         "s",
@@ -71,7 +71,7 @@ NUMBERS = {
 POLE = Tabulated(
     "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", PCK11
 )
-#: Terms of the IAU's pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
+#: Terms of the IAU pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
 _TERMS = {
     1: (125.045, -0.0529921),
     2: (250.089, -0.1059842),
@@ -85,7 +85,7 @@ _TERMS = {
 
 
 def _terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
-    """Size (deg), phase (deg) and rate (deg a century) of each term."""
+    """Amplitude (deg), phase (deg) and rate (deg per century) of each term."""
     return [(s, _TERMS[n][0], _TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
 
 
@@ -106,7 +106,7 @@ MOON = Body.cited(
             }
         ),
     ),
-    # the plane that its orbit precesses on: the ecliptic of J2000.0
+    # the orbit precesses about the normal of the ecliptic of J2000.0
     orbit_pole=Direction(math.radians(270.0), math.radians(66.5607)),
     reference=f"{NUMBERS['gm'].source}; {_GRAIL}",
 )  # fmt: skip

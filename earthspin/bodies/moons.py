@@ -1,7 +1,7 @@
 """Moons of other planets whose spin is locked to their orbit: Phobos, Titan, Iapetus, Triton.
 
-They stand in Cassini states. Neither J2 nor the moments of Iapetus and Triton were ever measured:
-a question that needs them asks for them.
+They occupy Cassini states. J2 and the moments of Iapetus and Triton have not been measured; a
+question that needs these numbers requests them from the user.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ TITAN_MOMENT = Constant(
     "Iess et al. 2010, Science 327, 1367",
     f"about 0.34 in the abstract; the further digits {UNVERIFIED}",
 )
-#: Obliquity of Titan to its orbit as observed, and as predicted for a solid body.
+#: Observed obliquity of Titan to its orbit, and the prediction for a solid body.
 TITAN_OBLIQUITY = Constant(
     0.31,
     "deg",
@@ -57,14 +57,14 @@ TITAN_OBLIQUITY_IF_SOLID = Constant(
 
 
 def _days(days: float, source: str, read_in: str) -> Constant:
-    """Sidereal period."""
+    """Sidereal period as a constant, from days."""
     return Constant(days * DAY, "s", None, source, read_in)
 
 
 def _locked(
     gm: Constant, radius: float, period: Constant, source: str, read_in: str
 ) -> dict[str, Constant]:
-    """Numbers of a moon of a radius (km) that turns once in each orbit."""
+    """Numbers of a synchronous moon, from GM, radius (km) and period."""
     return {
         "gm": gm,
         "radius": Constant(radius * 1e3, "m", None, source, read_in),
@@ -139,12 +139,12 @@ ELLIPSES = Tabulated("orbits of Phobos, Iapetus and Triton", JPL, JPL_READ)
 TITAN_ELLIPSE = Tabulated(
     "orbit of Titan", "Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6)", UNVERIFIED
 )
-#: Orbits on the planes that they precess on; longitudes are not needed and not given.
+#: Orbits referred to their Laplace planes; longitudes are not needed.
 ORBITS = {
     PHOBOS.name: Orbit(
         period=PHOBOS.number("orbital_period"),
         e=0.0151,
-        # size and rate of the main term of its pole
+        # amplitude and rate of the main term of its pole
         i=math.radians(1.08),
         node_period=360.0 / _M1[1] * DAYS_PER_CENTURY * DAY,
         about="mars",
@@ -166,7 +166,7 @@ ORBITS = {
         about="saturn",
         reference=JPL,
     ),
-    # it goes round backwards: its angles count from the normal that it turns about
+    # retrograde orbit: angles are measured about its own orbit normal
     TRITON.name: Orbit(
         period=TRITON.number("orbital_period"),
         i=math.radians(180.0 - 156.865),

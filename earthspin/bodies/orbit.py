@@ -1,4 +1,4 @@
-"""An orbit by its elements: an ellipse whose node and pericentre may turn at even rates."""
+"""Keplerian orbits whose node and pericentre may precess at constant rates."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where, nearest
 from earthspin.units import Text
 
-#: What the angles of an orbit may be counted from.
+#: Reference planes for the angles of an orbit.
 PLANES = ("ecliptic", "equator", "orbit", "icrf")
 
 _ONE_OF = 'give a or period, like a = "384399 km" or period = "27.32 d"'
 
 
 class Epoch:
-    """Kind of a date that is kept in days from J2000.0 TDB."""
+    """Converter of a date that is stored as days from J2000.0 TDB."""
 
     words, hint = 'a date, like "2000-01-01T12:00"', "str | datetime | datetime64 | Time | float"
 
     def read(self, value: object, where: Where) -> float:
-        """Read a date; a number is days from J2000.0 TDB."""
+        """Read a date, or a number of days from J2000.0 TDB."""
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             if not abs(value) <= _LARGEST:
                 raise where.error(value, f"give a date, or at most {_LARGEST:g} days from J2000.0")
@@ -32,28 +32,29 @@ class Epoch:
         return microseconds(value, where) / MICROSECONDS_PER_DAY
 
     def write(self, value: float) -> Plain:
-        """Give the days: a date would round them to the microsecond."""
+        """Return the days, because a date would be rounded to the microsecond."""
         return value
 
 
 @dataclass(frozen=True, kw_only=True)
 class Orbit:
-    """An orbit by its elements, in place of a kernel.
+    """Keplerian elements, used instead of a kernel.
 
-    Of a perturber it is the orbit about the spinning body, unless `about` names what else it goes
-    round; of the spinning body, the one about what it goes round. The Sun may thus be given its
-    apparent orbit, or the body its own.
+    For a perturber this is its orbit about the spinning body, unless `about` names another centre.
+    For the spinning body this is its own orbit. Thus either the Sun may have its apparent orbit, or
+    the spinning body its orbit about the Sun.
 
     Numbers carry their units as text or Quantities; plain ones are SI and radians.
 
     Attributes
     ----------
     a : float or None
-        Half the long axis, m. If it is not given it follows from the period and both masses.
+        Semi-major axis, m. If not given, it follows from the period and both masses.
     period : float or None
-        Sidereal, s: of the mean longitude (node + pericentre + mean anomaly). If it is not given it
-        follows from `a` and both masses. With both, `a` gives the distance and `period` the motion;
-        they must agree with Kepler's third law to one per cent, because others disturb real orbits.
+        Sidereal period, s: that of the mean longitude (node + pericentre + mean anomaly). If not
+        given, it follows from `a` and both masses. If both are given, `a` sets the distance and
+        `period` the motion; they must agree with Kepler's third law to 1 %, as real orbits are
+        perturbed.
     e : float
         Eccentricity, 0 to less than 1.
     i, node, pericentre, mean_anomaly : float
@@ -62,21 +63,21 @@ class Orbit:
     epoch : float
         Days from J2000.0 TDB; given as a date or such days.
     node_period, pericentre_period : float or None
-        In which the node, and the argument of the pericentre, go once round, s; negative if they
-        go backwards. None: they stand still.
+        Period of the node, and of the argument of the pericentre, s; negative if retrograde. None:
+        constant.
     plane : str
-        What the angles are counted from: the ``"ecliptic"`` and equinox of J2000.0; the
-        ``"equator"`` or the ``"orbit"`` of the spinning body, at J2000.0 and from its equinox
-        (without an orbit: where its equator rises above that of the ICRF); or the ``"icrf"``.
+        Reference plane of the angles: the ``"ecliptic"`` and equinox of J2000.0; the ``"equator"``
+        or the ``"orbit"`` of the spinning body at J2000.0, from its equinox (or, without an orbit,
+        from the ascending node of its equator on the equator of the ICRF); or the ``"icrf"``.
     about : str
-        Name of the body that it goes round; empty for the spinning body.
+        Name of the central body; empty for the spinning body.
     reference : str
         Where the numbers come from.
 
     Raises
     ------
     SceneError, UnitsError
-        If an element is impossible (no ellipse, a length of zero, both `a` and `period` missing).
+        If an element is out of range, or both `a` and `period` are missing.
 
     Examples
     --------
@@ -114,7 +115,7 @@ class Orbit:
 
     @classmethod
     def read(cls, value: object, where: Where) -> Orbit:
-        """Read an orbit: itself, or a table of its elements.
+        """Read an orbit: an `Orbit`, or a table of its elements.
 
         Raises
         ------
@@ -131,7 +132,7 @@ class Orbit:
         return cls(**_checked(value, where))
 
     def write(self) -> Plain:
-        """Give the table of every element that is set."""
+        """Return the table of all elements that are set."""
         elements = {name: getattr(self, name) for name in _KINDS}
         return {n: _KINDS[n].write(v) for n, v in elements.items() if v not in (None, "")}
 
@@ -151,27 +152,27 @@ _KINDS: dict[str, Any] = {
 }
 _DEFAULTS = {f.name: f.default for f in fields(Orbit)}
 
-#: Larger than all that is seen, and longer than its age: m, s.
+#: Plausibility bound: above the size and age of the observable universe, m and s.
 _LARGEST = 1e30
 
-#: What an element must be beyond a finite number.
+#: Conditions on each element, besides being finite.
 _RULES: dict[str, tuple[Callable[[float], bool], str]] = {
     "a": (lambda a: 0 < a <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} m"),
     "period": (lambda p: 0 < p <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} s"),
-    "e": (lambda e: 0 <= e < 1, "elements are those of an ellipse: e is 0 or more, less than 1"),
-    "i": (lambda i: 0 <= i <= math.pi, "an inclination is 0 to 180 deg"),
+    "e": (lambda e: 0 <= e < 1, "the orbit must be an ellipse: e is 0 or more, less than 1"),
+    "i": (lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
     "node_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
     "pericentre_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
 }
 
 
 def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
-    """Each element read and within its bounds.
+    """Read the elements and check that each is within its bounds.
 
     Raises
     ------
     SceneError, UnitsError
-        Naming the element.
+        Names the element.
     """
     read: dict[str, Any] = {}
     for name, value in elements.items():
@@ -179,7 +180,7 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
             continue
         if hasattr(value, "dims") or isinstance(value, Mapping):
             raise where.at(name).error("an array", "an element is one number")
-        # in SI: nothing to load for it
+        # already in SI; skips loading the converters
         plain = type(value) is float and math.isfinite(value) and not where.typed
         read[name] = value if plain else _KINDS[name].read(value, where.at(name))
         if not isinstance(read[name], (float, str)):

@@ -1,4 +1,4 @@
-"""The planets, and what pulls on each unless others are named."""
+"""The planets, and the default perturbers of each body."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ __all__ = [
     "on_its_orbit", "pulled_by",
 ]  # fmt: skip
 
-#: Those that circle the Sun: what the effect ``planets`` adds to the perturbers.
+#: The planets; the effect ``planets`` adds them to the perturbers.
 PLANETS = ("mercury", "venus", "earth", "mars", "jupiter", "saturn", "uranus", "neptune")
 
-#: What torques on the bulge leave out of the rate of precession, by planet and effect.
+#: Contributions to the precession rate other than torques on the bulge, by planet and effect.
 LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
     "mars": {
         "geodesic": Constant(
@@ -43,12 +43,12 @@ _OTHERS = (
 
 
 def pulled_by(body: Body) -> tuple[Body, ...]:
-    """What pulls on a body unless others are named: Sun and Moon, or the Sun and its planet."""
+    """Default perturbers of a body: the Sun and the Moon, or the Sun and the body's planet."""
     return tuple(BODIES[name] for name in _OTHERS.get(body.name, _SUN_AND_MOON))
 
 
 def on_its_orbit(body: Body) -> Body:
-    """A giant on its mean orbit, where nothing else places it; any other body as it is."""
+    """Return a giant planet with its mean orbit if it has no position; other bodies unchanged."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body

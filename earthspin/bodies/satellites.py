@@ -1,7 +1,7 @@
-"""Satellites that a planet carries along: one body with it, as far as its precession goes.
+"""Satellites that precess together with their planet's equator.
 
-A satellite near the equator, inside the radius at which the Sun's pull on its orbit is that of the
-planet's bulge, keeps to the equator while this precesses. Planet and satellites then turn as one
+A satellite inside the Laplace radius, where the planet's bulge and the Sun perturb its orbit
+equally, stays near the equator as the equator precesses. Planet and satellites then precess as one
 body (Ward 1975, AJ 80, 64; French et al. 1993, Icarus 103, 163):
 
     J2' = J2 + q,   q = (1/2) sum (m/M) (a/R)^2,
@@ -32,9 +32,9 @@ class Satellite:
     gm : Constant
         m3 s-2.
     a : Constant
-        Half the long axis, m.
+        Semi-major axis, m.
     period : Constant
-        Sidereal, s.
+        Sidereal period, s.
     """
 
     name: str
@@ -46,13 +46,13 @@ class Satellite:
 def added_by(
     satellites: Iterable[Satellite], gm: float, radius: float, spin_period: float
 ) -> tuple[float, float]:
-    """What satellites add to J2 and to C/(M R^2): q and l.
+    """Contributions of satellites to J2 and to C/(M R^2), called q and l.
 
     Parameters
     ----------
     satellites : iterable of Satellite
     gm, radius, spin_period : float
-        Of the planet, m3 s-2, m and s.
+        GM, equatorial radius and rotation period of the planet, m3 s-2, m and s.
     """
     q = moment = 0.0
     for satellite in satellites:
@@ -65,14 +65,14 @@ def added_by(
 def carried(
     planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
 ) -> dict[str, Constant]:
-    """J2 and H of a planet with the satellites that it carries.
+    """J2 and H of a planet, including the satellites that precess with it.
 
     Parameters
     ----------
     planet : dict of str to Constant
-        Its own `gm`, `radius`, `spin_period` and `j2`.
+        The planet's own `gm`, `radius`, `spin_period` and `j2`.
     polar_moment : Constant
-        Its own C/(M R^2).
+        C/(M R^2) of the planet alone.
     satellites : tuple of Satellite
     """
     q, more = added_by(

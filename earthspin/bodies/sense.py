@@ -1,6 +1,6 @@
-"""Whether the numbers of a body make sense, each by itself and with the others.
+"""Checks that the numbers of a body are valid individually and consistent with each other.
 
-Fields come by name; what cannot be is refused with the field that says so.
+Fields are passed by name; an impossible value is refused with the name of its field.
 """
 
 from __future__ import annotations
@@ -18,32 +18,32 @@ from earthspin.sky.poles import NAMED_POLES
 #: Values of a body by field.
 Fields = Mapping[str, Any]
 
-#: Bounds of sense: more than the mass of all that is seen, and longer than its age.
+#: Plausibility bounds: above the mass and the age of the observable universe, m3 s-2 and s.
 LARGEST_GM, LONGEST_DAY = 1e60, 1e30
 
-#: What single numbers must hold, in the order in which they are looked at.
+#: Conditions on single numbers, in the order of the checks, with the text of the message.
 _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
-    ("gm", lambda gm: gm >= 0, "a mass is zero or more"),
+    ("gm", lambda gm: gm >= 0, "a mass must be zero or more"),
     ("gm", lambda gm: gm <= LARGEST_GM, f"give at most {LARGEST_GM:g} m3 s-2"),
-    ("cycle", lambda t: t > 0, "a cycle lasts longer than zero"),
-    ("orbital_period", lambda t: t > 0, "a year lasts longer than zero"),
-    ("radius", lambda a: a > 0, "a radius is greater than zero"),
-    ("spin_period", lambda p: p != 0, "a period is not zero"),
+    ("cycle", lambda t: t > 0, "a cycle must be greater than zero"),
+    ("orbital_period", lambda t: t > 0, "a period must be greater than zero"),
+    ("radius", lambda a: a > 0, "a radius must be greater than zero"),
+    ("spin_period", lambda p: p != 0, "a period must not be zero"),
     ("spin_period", lambda p: abs(p) <= LONGEST_DAY, f"give at most {LONGEST_DAY:g} s"),
-    ("flattening", lambda f: f < 1, "a flattening is less than 1"),
+    ("flattening", lambda f: f < 1, "a flattening must be less than 1"),
     (
         "dynamical_flattening",
         lambda h: h <= 0.5,
         "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
     ),
-    ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) is zero or more"),
-    ("pole_uncertainty", lambda u: u >= 0, "an uncertainty is zero or more"),
-    ("slow_swing", lambda swing: swing >= 0, "a swing is zero or more"),
+    ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) must be zero or more"),
+    ("pole_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
+    ("slow_swing", lambda swing: swing >= 0, "a variation must be zero or more"),
 )
 
 
 def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
-    """Numbers are finite, names words, codes whole numbers, labels those of one table.
+    """Check types: numbers are finite, names text, codes integers, array labels consistent.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
     Raises
     ------
     BodyError
-        With the first field that is not what it should be.
+        Names the first field of the wrong type.
     """
     name = body["name"]
     for field in numbers:
@@ -73,7 +73,7 @@ def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
-    """Each number, the uncertainties, and what the figure's numbers say together.
+    """Check the range of each number and uncertainty, and the consistency of the figure.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
     Raises
     ------
     BodyError
-        If they are those of no body.
+        If no body can have these numbers.
     """
     name = body["name"]
     for field, holds, allowed in _HOLDS:
@@ -101,22 +101,22 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
             raise BodyError(name, "relative_uncertainty", field, nearest(field, numbers))
         if not 0 <= u < math.inf:
             entry = f"relative_uncertainty[{field!r}]"
-            raise BodyError(name, entry, u, "it is zero or more, finite")
+            raise BodyError(name, entry, u, "it must be finite, and zero or more")
     j2, h = body["j2"], body["dynamical_flattening"]
     if j2 is not None and h is not None:
         _check_polar_moment(name, j2, h, body["triaxiality"])
 
 
 def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric) -> None:
-    """C/(M a2) = J2/H lies between 0 and 1, and no difference of moments exceeds C.
+    """Check that C/(M a2) = J2/H is in 0 to 1, and that no difference of moments exceeds C.
 
-    With H = 0 the polar moment does not follow from J2, and nothing is said of it.
+    With H = 0 the polar moment does not follow from J2 and is not checked.
     """
     if not all_of((j2 * h > 0) | (h == 0)):
-        allowed = f"it has the sign of dynamical_flattening = {h!r}, and is not 0"
+        allowed = f"it must have the sign of dynamical_flattening = {h!r}, and must not be 0"
         raise BodyError(name, "j2", j2, allowed)
     if not all_of((abs(j2) <= abs(h)) | (h == 0)):
-        allowed = f"C = (j2/H) M a2 cannot exceed M a2, so it is at most H = {h!r}"
+        allowed = f"C = (j2/H) M a2 cannot exceed M a2, so j2 is at most H = {h!r}"
         raise BodyError(name, "j2", j2, allowed)
     if triaxiality is None:
         raise BodyError(name, "triaxiality", triaxiality, "give a number, 0 for a round body")
@@ -125,7 +125,7 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
 
 
 def _check_words(body: Fields) -> None:
-    """Names are words, codes are whole numbers, uncertainties a table of numbers."""
+    """Check that names are text, codes are integers and uncertainties a table of numbers."""
     name = body["name"]
     for field in ("name", "reference"):
         if not isinstance(body[field], str):
@@ -145,7 +145,7 @@ def _check_words(body: Fields) -> None:
 
 
 def _check_labels(name: str, numbers: Fields) -> None:
-    """Labelled arrays that share a dimension have the same length and labels along it."""
+    """Check that arrays that share a dimension have the same length and labels along it."""
     along: dict[str, tuple[str, Any]] = {}
     for field, array in numbers.items():
         for dim in getattr(array, "dims", ()):
@@ -168,19 +168,19 @@ def _check_labels(name: str, numbers: Fields) -> None:
 
 
 def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Read a pole or the normal of an orbit, also where a word or two angles were given.
+    """Read the pole or orbit normal of a body from a name, two angles or a direction.
 
     Parameters
     ----------
     name, field : str
-        Of the body, and of its field.
+        Names of the body and of its field, for the message.
     value : object
     read : callable
 
     Raises
     ------
     BodyError
-        If it is no direction, or several.
+        If `value` is not a single direction.
     """
     try:
         return read(value)
@@ -189,5 +189,5 @@ def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) 
         allowed = f"write {names} or right ascension and declination, -90 to 90 deg, in rad"
         angles = value if isinstance(value, (list, tuple)) else (value,)
         if any(getattr(angle, "ndim", 0) for angle in angles):
-            value, allowed = "an array", f"it is one direction: {allowed}"
+            value, allowed = "an array", f"give one direction: {allowed}"
         raise BodyError(name, field, value, allowed) from None

@@ -1,4 +1,4 @@
-"""Numbers of a body from where its mass lies: masses, a density on a grid, a mesh, layers."""
+"""Numbers of a body from point masses, a density on a grid, a mesh or layers."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Fields = dict[str, Any]
 
 
 def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
-    """Of point masses, kg, at positions, m."""
+    """Numbers of a body of point masses, kg, at positions, m."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -48,7 +48,7 @@ def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
 
 
 def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields:
-    """Of a density, kg m-3, in cells between edges, m."""
+    """Numbers of a body of uniform grid cells: density, kg m-3, and cell edges, m."""
     from earthspin.mass.shape import Shape
 
     x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
@@ -57,7 +57,7 @@ def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields
 
 
 def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
-    """Of a homogeneous solid between triangles, its vertices in a unit."""
+    """Numbers of a homogeneous body bounded by triangles, with vertices in the given unit."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -84,12 +84,12 @@ def _of(shape: Shape) -> Fields:
 
 
 def _si(value: Any, unit: str, name: str, example: str) -> Any:
-    """Numbers in SI units: plain ones, Quantities, or text with units."""
+    """Convert plain numbers, Quantities, or text with units to SI."""
     return quantity(value, unit, Where(name), example)
 
 
 def _single(value: Any, unit: str, name: str, example: str) -> float:
-    """One number in SI units, not zero."""
+    """Convert one nonzero number to SI."""
     number = _si(value, unit, name, example)
     if not isinstance(number, float) or number == 0:
         raise Where(name).error(value, f"give one number other than zero, like '{example}'")
@@ -97,19 +97,19 @@ def _single(value: Any, unit: str, name: str, example: str) -> float:
 
 
 def _optional(value: Any, unit: str, name: str, example: str) -> float | None:
-    """The same; None stays."""
+    """Convert one nonzero number to SI; return None unchanged."""
     return None if value is None else _single(value, unit, name, example)
 
 
 def _mesh(mesh: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Vertices (m) and faces of a mesh: of a file, of trimesh's Trimesh, or a pair of arrays.
+    """Vertices (m) and faces of a mesh from a file, a Trimesh, or a pair of arrays.
 
     Raises
     ------
     SeriesError
-        If the file cannot be read, or holds no mesh.
+        If the file cannot be read, or contains no mesh.
     BodyError
-        If it is none of these.
+        If `mesh` has another type.
     MissingExtraError
         If trimesh, which reads files, is not installed.
     """
@@ -128,7 +128,7 @@ def _mesh(mesh: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
 
 
 def _read(file: Path) -> Any:
-    """A mesh from a file; corners at the same place are one, for formats that repeat them."""
+    """Read a mesh from a file and merge coincident vertices, which some formats repeat."""
     try:
         import trimesh
     except ImportError:
@@ -136,27 +136,27 @@ def _read(file: Path) -> Any:
     kind = file.suffix.lstrip(".").lower()
     formats = sorted(trimesh.exchange.load.mesh_formats())
     if kind not in formats:
-        raise SeriesError(file, f"'.{kind}' is no format of a mesh", nearest(kind, formats))
+        raise SeriesError(file, f"'.{kind}' is not a mesh format", nearest(kind, formats))
     if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
         raise SeriesError(file, problem)
     try:
         mesh = trimesh.load_mesh(file, process=True)
-    except Exception as error:  # each reader has kinds of its own
+    except Exception as error:  # readers raise errors of many types
         raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
     if not np.size(getattr(mesh, "vertices", ())):
-        raise SeriesError(file, "it holds no mesh")
+        raise SeriesError(file, "it contains no mesh")
     return mesh
 
 
 def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
-    """Of layers in hydrostatic equilibrium, to first order in the flattening.
+    """Numbers of a layered body in hydrostatic equilibrium, to first order in the flattening.
 
     Parameters
     ----------
     layers : LayeredBody, str or mapping
-        Or the name of an interior that has layers, or a table of layers or samples.
+        Layers, the name of an interior with layers, or a table of layers or samples.
     spin_period : float, str or Quantity
-        s.
+        Rotation period, s.
 
     Raises
     ------
@@ -167,7 +167,7 @@ def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -
     spin = 2 * math.pi / _single(spin_period, "s", "spin_period", "23.93 h")
     gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
     ellipticity = figure(layers, spin).e
-    # the surface is level: f = (k + 1) q/2
+    # the surface is an equipotential: f = (k + 1) q/2
     pull = spin**2 * mean**3 / gm
     flattening = (k + 1) * pull / 2
     radius = mean * (1 + flattening / 3)

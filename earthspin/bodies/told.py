@@ -1,16 +1,16 @@
-"""Bodies in words, for a terminal: what is known of each, and where it stands in print."""
+"""Lists of bodies and of their cited numbers as text, for the terminal."""
 
 from __future__ import annotations
 
 from earthspin.bodies.body import BODIES, NUMBERS, body
 from earthspin.errors import Where
 
-#: What a precession needs, in the order of a list.
+#: Fields that the question precession needs, in the order of the list.
 _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """A line for each body: what it can be asked about, and what is not known."""
+    """List all bodies, one per line: whether each exerts a torque and spins, and missing fields."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
@@ -23,7 +23,7 @@ def all_in_words() -> str:
 
 
 def in_words(name: str) -> str:
-    """Every number of a body with its unit, its standard deviation, and its source.
+    """List every number of a body with its unit, standard deviation and source.
 
     Raises
     ------

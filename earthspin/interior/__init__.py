@@ -1,1 +1,1 @@
-"""What lies under the surface: layers, Love numbers, the figure of equilibrium."""
+"""Interior models: layers, Love numbers, hydrostatic figure and free modes."""

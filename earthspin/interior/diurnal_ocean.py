@@ -1,9 +1,10 @@
-r"""The ocean as it follows a tide of a day: not in equilibrium, as it follows the wobble.
+r"""Dynamic response of the ocean to diurnal tides, which is not in equilibrium.
 
-A tide model gives what the sea adds to the potential of degree 2 and order 1 for single waves; over
-the potential of the same wave that is a change of the Love number, \Delta k (IERS Conventions
-2010, eq. 6.6 to 6.15). K1 is at rest in space; O1 and Q1 are nutations of 13.7 and 9.1 days,
-retrograde.
+A tide model gives the contribution of the ocean to the potential of degree 2 and order 1 for single
+waves; divided by the potential of the same wave, it is a change of the Love number, \Delta k (IERS
+Conventions
+2010, eq. 6.6 to 6.15). K1 is at rest in space; O1 and Q1 correspond to retrograde nutations of 13.7
+and 9.1 days.
 """
 
 from __future__ import annotations
@@ -32,22 +33,23 @@ FES2004 = Tabulated(
 PER_METRE = Constant(
     -3.1274e-8, "m-1", None, IERS + ", eq. 6.8d", "codes of the equation in public repositories"
 )
-#: Of the coefficients below. The file said 1e-12 until the Conventions Centre corrected it on
+#: Unit of the coefficients below. The file stated 1e-12 until the Conventions Centre corrected it
+#: on
 #: 23 September 2011 (maia.usno.navy.mil/conv2010/convupdt/convupdt_c6.html).
 _UNIT = 1e-11
 
 
 class Wave(NamedTuple):
-    """One diurnal wave.
+    """One diurnal tidal wave.
 
     Attributes
     ----------
     degrees : float
-        Of its phase in an hour.
+        Phase rate, degrees per hour.
     height : float
-        Of the equilibrium tide, m.
+        Height of the equilibrium tide, m.
     cosine, sine : float
-        C+ and S+ of the ocean, in 1e-11.
+        C+ and S+ of the ocean tide, in units of 1e-11.
     """
 
     degrees: float
@@ -56,7 +58,8 @@ class Wave(NamedTuple):
     sine: float
 
 
-#: From slow to fast. P1 is left out: the sign of its row is that of a tide of the other sign.
+#: In order of frequency. P1 is omitted because its row in the file has the opposite sign
+#: convention.
 WAVES = {
     "Q1": Wave(13.39866, -0.05020, -3.75105, -3.54595),
     "O1": Wave(13.94304, -0.26223, -16.83767, -18.02652),
@@ -65,26 +68,26 @@ WAVES = {
 
 
 def wave_response(wave: Wave) -> complex:
-    """Change of the Love number, for exp(i sigma Omega t) with sigma near -1.
+    """Change of the Love number due to one wave, for exp(i sigma Omega t) with sigma near -1.
 
-    The Conventions write it for a phase that grows, which is the complex conjugate.
+    The Conventions give the complex conjugate, for a phase that increases with time.
     """
     over = -1j * PER_METRE.value * wave.height
     return complex(np.conj((wave.cosine - 1j * wave.sine) * _UNIT / over))
 
 
 def diurnal_response(sigma: Array) -> Array:
-    """Change of the Love number at frequencies in the body, turns per turn.
+    """Change of the Love number due to the ocean, at body-fixed frequencies in turns per turn.
 
-    Straight lines between the waves; beyond the first and the last it stays.
+    Linear interpolation between the waves; constant beyond the first and the last.
 
     Parameters
     ----------
     sigma : ndarray
-        Near -1.
+        Frequencies near -1.
     """
     turn = WAVES["K1"].degrees
     at = np.array([wave.degrees / turn for wave in WAVES.values()])
-    found = np.array([wave_response(wave) for wave in WAVES.values()])
+    change = np.array([wave_response(wave) for wave in WAVES.values()])
     near = np.abs(np.asarray(sigma, dtype=float))
-    return np.asarray(np.interp(near, at, found.real) + 1j * np.interp(near, at, found.imag))
+    return np.asarray(np.interp(near, at, change.real) + 1j * np.interp(near, at, change.imag))

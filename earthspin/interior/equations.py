@@ -1,4 +1,4 @@
-"""The static elastic-gravitational equations of degree two.
+"""Static elastic-gravitational equations of degree two.
 
 In the notation of Takeuchi & Saito (1972, Methods in Computational Physics 11, eq. 82):
 
@@ -24,20 +24,20 @@ from earthspin.interior.layers import Layer, LayeredBody
 Array = NDArray[Any]
 
 FOUR_PI_G = 3.0
-#: The integration starts here, not at the centre, where the equations are singular.
+#: Starting radius of the integration; the equations are singular at the centre.
 START = 1e-3
-#: Smaller cores, over the radius, are refused: the start would show in what an inner core answers
-#: to itself, which at this size is off by 1.6e-5.
+#: Smallest core radius, as a fraction of R. At this size the starting radius causes an error of
+#: 1.6e-5 in the response of an inner core to a potential of its own.
 SMALLEST_CORE = 1e-2
 
 
 class Profile:
-    """Density, moduli and gravity of a body in its own units, at one radius or many."""
+    """Density, moduli and gravity of a body in normalised units, at one radius or many."""
 
     def __init__(self, body: LayeredBody) -> None:
         self.layers = body.layers
         self.tops = [layer.top / body.radius for layer in body.layers]
-        #: The layer in which the integration starts; what lies under it counts by its mass alone.
+        #: The layer in which the integration starts; of the layers below it only the mass matters.
         self.first = next(i for i, top in enumerate(self.tops) if top > START)
         self.density_unit = body.mass / (4 / 3 * np.pi * body.radius**3)
         gravity = G.value * body.mass / body.radius**2
@@ -58,11 +58,11 @@ class Profile:
         return _horner(self.layers[i].density, r) / self.density_unit
 
     def gravity(self, i: int, r: Any) -> Any:
-        """G m(r)/r2, with 4 pi G = 3."""
+        """Gravity G m(r)/r2, with 4 pi G = 3."""
         return (self._mass[i](r) + self._below[i]) / r**2
 
     def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame's lambda and mu, shape (strain, r); the bulk modulus stays when mu changes."""
+        """Lame parameters lambda and mu, shape (strain, r); the bulk modulus is constant."""
         layer, rho = self.layers[i], _horner(self.layers[i].density, r)
         seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
         bulk = rho * _horner(layer.vp, r) ** 2 / self.modulus_unit - 4 / 3 * seismic
@@ -78,7 +78,7 @@ def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
 
 
 def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
-    """M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6); degree two."""
+    """Matrix M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6); degree two."""
 
     def matrix(r: Array) -> Array:
         rho, g = profile.density(i, r), profile.gravity(i, r)
@@ -103,7 +103,7 @@ def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
 
 
 def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
-    """M of the pair (y5, y7) in liquid layer i (Saito 1974, eq. 17), shape (r, 2, 2)."""
+    """Matrix M of the pair (y5, y7) in liquid layer i (Saito 1974, eq. 17), shape (r, 2, 2)."""
 
     def matrix(r: Array) -> Array:
         s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
@@ -129,6 +129,6 @@ def solid_centre(profile: Profile, strain: Array) -> Array:
 
 
 def liquid_centre(profile: Profile, i: int, r: float = START) -> Array:
-    """The regular solution (y5, y7) near the centre of a liquid, at a radius in layer i."""
+    """Regular solution (y5, y7) near the centre of a liquid, at a radius in layer i."""
     s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
     return np.array([r**2, (5 / r - s) * r**2])

@@ -1,4 +1,4 @@
-"""The figure of a layered body in hydrostatic equilibrium, to first order (Clairaut 1743)."""
+"""Hydrostatic figure of a layered body, to first order in the flattening (Clairaut 1743)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ from earthspin.numerics.collocation import carry
 Numeric = Any
 Array = NDArray[Any]
 
-#: Largest Omega2/(pi G rho) of a homogeneous liquid body in equilibrium, a Maclaurin spheroid.
+#: Largest Omega2/(pi G rho) at which a homogeneous liquid body, a Maclaurin spheroid, has an
+#: equilibrium.
 FASTEST = Constant(
     0.449331,
     "",
@@ -30,22 +31,24 @@ FASTEST = Constant(
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """How a body of the same densities would be shaped if it were liquid throughout.
+    """Response of a liquid body with the same density profile to a potential of degree two.
 
     Attributes
     ----------
     k : float
-        Love number of the liquid body.
+        Love number of the whole liquid body.
     core_k : float
-        Of the masses of its core, as `Yielding.core_k`.
+        Contribution of the core's masses to the Love number, as `Yielding.core_k`.
     tops : ndarray, shape (n,)
-        Where layers end, over R.
+        Outer radii of the layers, divided by R.
     potential : ndarray, shape (n,)
-        There: of the deforming potential r2 and of all masses.
+        Sum, at these radii, of the deforming potential r2 and that of all masses.
     enclosed : ndarray, shape (n,)
-        What the masses inside answer, as a k: to first order (C - A) of them.
+        Love number of the masses inside each radius, which is to first order in proportion to their
+        C - A.
     outside : ndarray, shape (n,)
-        Factor of r2 in the potential there: 1 for what deforms, the rest for the masses outside.
+        Coefficient of r2 in the potential: 1 for the deforming potential, plus that of the masses
+        outside each radius.
     """
 
     k: float
@@ -58,16 +61,18 @@ class Equilibrium:
 
 @lru_cache(maxsize=32)
 def equilibrium(body: LayeredBody) -> Equilibrium:
-    """Clairaut's hydrostatic figure to first order, by the equations of a liquid."""
+    """Solve Clairaut's equation for the hydrostatic response, from the equations of a liquid."""
     profile = Profile(body)
-    found = [liquid_centre(profile, i, top) for i, top in enumerate(profile.tops[: profile.first])]
+    solutions = [
+        liquid_centre(profile, i, top) for i, top in enumerate(profile.tops[: profile.first])
+    ]
     pair, r = liquid_centre(profile, profile.first)[:, np.newaxis], START
     for i in range(profile.first, len(profile.tops)):
         pair = carry(liquid(profile, i), r, profile.tops[i], pair)
-        found.append(pair[:, 0])
+        solutions.append(pair[:, 0])
         r = profile.tops[i]
-    # The equation of a free liquid surface: the potential of degree two comes from outside.
-    y5, y7 = (5 / pair[1, 0] * np.array(found)).T
+    # boundary condition at a free liquid surface under an external potential of degree two
+    y5, y7 = (5 / pair[1, 0] * np.array(solutions)).T
     tops = np.array(profile.tops)
     enclosed = tops**3 * (y5 - tops * y7 / 5)
     at_core = profile.tops.index(body.core_radius / body.radius) if body.core_radius else None
@@ -82,7 +87,7 @@ def equilibrium(body: LayeredBody) -> Equilibrium:
 
 
 def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
-    """(C_f - A_f)/A_f of a core in hydrostatic equilibrium, to first order.
+    """Dynamical ellipticity (C_f - A_f)/A_f of a core in hydrostatic equilibrium, to first order.
 
     Parameters
     ----------
@@ -95,20 +100,20 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Figure:
-    """Ellipticities of a body in hydrostatic equilibrium and of its parts, and their moments.
+    """Ellipticities and relative moments of a body in hydrostatic equilibrium and of its regions.
 
     Attributes
     ----------
     e, e_f, e_s : float
-        (C - A)/A of the whole, the fluid core and the inner core; 0 for a part that is missing.
+        (C - A)/A of the whole body, the fluid core and the inner core; 0 for an absent region.
     e_core : float
-        Of fluid and inner core together.
+        (C - A)/A of the fluid core and inner core together.
     fluid, inner : float
-        A_f/A and A_s/A.
+        Relative equatorial moments A_f/A and A_s/A.
     a1, a2, a3 : float
         Coupling numbers of the inner core (Mathews, Buffett, Herring & Shapiro 1991, JGR 96,
-        8219): the share of its C - A that the liquid would have in its place; the pull of all
-        others on it, pressure included; and 1 - a1, the excess.
+        8219): the fraction of its C - A that fluid in the same volume would have; the torque on it
+        by all other regions, pressure included; and the excess, 1 - a1.
     unit : float
         Omega2 R5/(3 G A): product of inertia over A per radian and unit of a Love number.
     surface : float
@@ -130,7 +135,7 @@ class Figure:
 
 @lru_cache(maxsize=32)
 def figure(layers: LayeredBody, spin_rate: float) -> Figure:
-    """Figure of equilibrium of a body that spins, by Clairaut's equation.
+    """Hydrostatic figure of a spinning layered body, from Clairaut's equation.
 
     Parameters
     ----------
@@ -145,8 +150,8 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
 
     Notes
     -----
-    The ellipticity of a level surface is W'/(2 g r), W' the potential of degree two there; the
-    moments A follow from the mean ones, I = A (1 + e/3).
+    The ellipticity of an equipotential surface is W'/(2 g r), where W' is the potential of degree
+    two; the moments A follow from the mean moments, I = A (1 + e/3).
     """
     mean_density = layers.mass / (4 / 3 * np.pi * layers.radius**3)
     fastest = np.sqrt(FASTEST.value * np.pi * G.value * mean_density)
@@ -177,12 +182,13 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
         share["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment
         ellipticity = centrifugal * rest.potential[i] / (2 * profile.gravity(i, r) * r)
         density = float(profile.density(i + 1, r))
-        # Of an even spheroid of the liquid: (8 pi/15) rho eps r5, in units of (3/5) (C - A)/unit.
+        # C - A of a homogeneous fluid spheroid, (8 pi/15) rho eps r5, in units of (3/5) (C -
+        # A)/unit.
         liquid_excess = 8 * np.pi / 15 * density * profile.density_unit * ellipticity
         liquid_excess *= layers.inner_core_radius**5 / moment
         a1 = float(liquid_excess / excess["inner"])
         a3 = 1 - a1
-        # 8 pi G rho eps/(5 Omega2), the liquid that the inner core has put aside.
+        # 8 pi G rho eps/(5 Omega2), for the fluid displaced by the inner core
         aside = 2 * FOUR_PI_G / 5 * density * ellipticity / centrifugal
         a2 = float(a1 - a3 * (rest.outside[i] - 1 + aside))
     e = _over_equatorial(whole, 1.0)
@@ -206,5 +212,5 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
 
 
 def _over_equatorial(difference: float, mean: float) -> float:
-    """(C - A)/A from C - A and the mean moment (2 A + C)/3."""
+    """Ratio (C - A)/A from C - A and the mean moment (2 A + C)/3."""
     return difference / (mean - difference / 3) if mean else 0.0

@@ -1,4 +1,4 @@
-"""A layered body: its shells, and its moments by the polynomials' primitives."""
+"""Layered bodies: shells with polynomial profiles, and their mass and moments of inertia."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Numeric = Any
 
 @dataclass(frozen=True)
 class Layer:
-    """One shell; polynomials in x = r/R, constant term first.
+    """One shell; profiles are polynomials in x = r/R, constant term first.
 
     Attributes
     ----------
@@ -36,9 +36,9 @@ class Layer:
 
 @dataclass(frozen=True)
 class LayeredBody:
-    """A body of layers: a solid mantle, and in it a liquid core, and in that a solid inner core.
+    """A layered body: a solid mantle around an optional liquid core and optional solid inner core.
 
-    Core and inner core may be missing.
+    The core and the inner core may be absent.
 
     Attributes
     ----------
@@ -77,22 +77,22 @@ class LayeredBody:
         return float(4 * math.pi * self._radial_moment(2, self.radius))
 
     def moment_of_inertia(self, radius: float | None = None) -> float:
-        """Moment of inertia of what lies within a radius, kg m2; of all by default."""
+        """Moment of inertia of the mass inside a radius, by default of the whole body, kg m2."""
         outer = self.radius if radius is None else radius
         return float(8 * math.pi / 3 * self._radial_moment(4, outer))
 
     @property
     def moment_factor(self) -> float:
-        """I/(M R2)."""
+        """Moment of inertia factor, I/(M R2)."""
         return self.moment_of_inertia() / (self.mass * self.radius**2)
 
     @property
     def core_fraction(self) -> float:
-        """Moment of inertia of the core, inner core included, over that of the whole body."""
+        """Moment of inertia of the core, inner core included, divided by that of the whole body."""
         return self.moment_of_inertia(self.core_radius) / self.moment_of_inertia()
 
     def _radial_moment(self, power: int, radius: float) -> float:
-        """Integral of rho r^power from the centre, by the polynomials' primitives."""
+        """Integral of rho r^power from the centre to a radius, in closed form."""
         total, below = 0.0, 0.0
         for layer in self.layers:
             top = min(layer.top, radius) / self.radius
@@ -102,7 +102,7 @@ class LayeredBody:
 
 
 def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
-    """Integral of x^power rho(x) from the centre."""
+    """Integral of x^power rho(x) from the centre to x."""
     total = 0.0
     for n in reversed(range(len(density))):
         total = total * x + density[n] / (n + power + 1)
@@ -110,6 +110,6 @@ def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
-    """Omega2 R5/(3 G A): products of inertia over A per radian of wobble and unit of k2."""
+    """Ratio Omega2 R5/(3 G A): product of inertia over A, per radian of wobble and unit k2."""
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)

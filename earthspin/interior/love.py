@@ -1,4 +1,4 @@
-"""How a layered body yields to a tide, a load, and to the turning of its own parts."""
+"""Response of a layered body to tides, surface loads and relative rotation of its core."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Array = NDArray[Any]
 
 
 class Carry(Protocol):
-    """Carries columns y, shape (..., n, columns), of dy/dr = M(r) y from one radius to another."""
+    """Integrator of dy/dr = M(r) y from one radius to another, for columns (..., n, columns)."""
 
     def __call__(
         self,
@@ -41,20 +41,20 @@ class Carry(Protocol):
         *,
         together: bool = False,
     ) -> Array:
-        """`together`: all combinations of the columns are wanted, not each of them."""
+        """Integrate; `together` if only linear combinations of the columns are needed."""
         ...
 
 
-#: The potentials r2 that are put to a body: in all of it, in its fluid core, in its inner core.
+#: Regions in which a potential r2 is applied: the whole body, its fluid core, its inner core.
 PARTS = ("whole", "fluid", "inner")
-#: Each of them, and that of a load, in inner core, fluid core and mantle.
+#: Amplitude of each potential, and of a load's potential, in inner core, fluid core and mantle.
 _ACTS_IN = np.array([[1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]])
 _LOAD = 3
 
 
 @dataclass(frozen=True)
 class Yielding:
-    """How a layered body yields in degree two; arrays have the shape of the given `strain`.
+    """Deformation of a layered body in degree two; arrays have the shape of the given `strain`.
 
     Attributes
     ----------
@@ -63,11 +63,12 @@ class Yielding:
     k_load, h_load, l_load : array
         Load Love numbers.
     answers : array, shape (..., 3, 3)
-        [i, j]: potential at the surface of what the masses of part i answer to a potential that
-        acts in part j alone and is 1 when continued to the surface; the parts are the whole body,
-        its fluid core and its inner core. Symmetric (Betti); [0, 0] is k.
+        [i, j]: potential at the surface due to the displaced masses of region i, if a potential of
+        unit size at the surface is applied in region j only. The regions are the whole body, its
+        fluid core and its inner core. Symmetric by Betti's theorem; [0, 0] is k.
     lift : array, shape (..., 3)
-        By how much each of them lifts the level surface above the ground, over its size: 1 + k - h.
+        Height of the equipotential surface above the ground for each applied potential, relative to
+        it: 1 + k - h for a tide.
     """
 
     k: Array
@@ -81,40 +82,42 @@ class Yielding:
 
     @property
     def core_k(self) -> Array:
-        """As k, but of the masses of all the core alone."""
+        """Contribution of the masses of the whole core to k."""
         return np.asarray(self.answers[..., 1:, 0].sum(axis=-1))
 
     @property
     def k_pressure(self) -> Array:
-        """As k, for a potential in the core alone: a core that turns about another axis."""
+        """Love number for a potential in the core only, from its rotation about another axis."""
         return np.asarray(self.answers[..., 0, 1:].sum(axis=-1))
 
     @property
     def core_k_pressure(self) -> Array:
-        """As `core_k`, for a potential in the core alone."""
+        """Contribution of the core's masses to the Love number for a potential in the core only."""
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
 def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation) -> Yielding:
-    """Love numbers of degree two, and the answers of the parts to potentials in the parts.
+    """Love numbers of degree two, and responses of the regions to potentials in each region.
 
     Parameters
     ----------
     body : LayeredBody
     strain : complex or array
-        Relative change of the shear modulus at quality factor 1; a layer's modulus is
-        multiplied by 1 + strain/shear_q. 0 is the elastic body as seismology has it.
+        Relative change of the shear modulus at quality factor 1; a layer's modulus is multiplied by
+        1 + strain/shear_q. 0 is the elastic body at seismic periods.
     carry : callable
-        How the equations are integrated.
+        Integrator of the equations.
 
     Raises
     ------
     UndefinedError
-        If the surface is liquid, there are several liquids with solids between them, or a core is
-        smaller than a hundredth of the radius.
+        If the surface is liquid, there are several liquid layers separated by solid ones, or the
+        radius of a core is less than a hundredth of the body's.
     """
     fluid = [not layer.vs for layer in body.layers]
-    liquids = sum(now and not below for below, now in pairwise([False, *fluid]))
+    liquids = sum(
+        is_liquid and not below_liquid for below_liquid, is_liquid in pairwise([False, *fluid])
+    )
     if fluid[-1] or liquids > 1:
         what = "ends in a liquid" if fluid[-1] else f"has {liquids} liquids with solids between"
         raise UndefinedError(
@@ -130,8 +133,8 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
             )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
-    found = _solved(Profile(body), body, flat, carry)
-    return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in found))
+    solution = _solved(Profile(body), body, flat, carry)
+    return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in solution))
 
 
 @lru_cache(maxsize=32)
@@ -140,27 +143,29 @@ def elastic(layers: LayeredBody) -> Yielding:
     return yielding(layers)
 
 
-#: Strains between which the Love numbers are interpolated, and how many are integrated.
+#: Range of strains of the interpolation of Love numbers, and the number of nodes.
 _STRAIN_RANGE = (-40.0, 2.0)
 _STRAIN_NODES = 10
 
 
 @lru_cache(maxsize=8)
 def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
-    """`k`, `core_k`, `k_pressure`, `core_k_pressure` over their elastic values, by strain.
+    """Love numbers relative to their elastic values, as polynomials in the strain.
 
-    Polynomials in the strain of `yielding`, good for complex strains too: Love numbers
-    are analytic in the modulus. Within 1e-8 of the integration.
+    They are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
+
+    The variable is the strain of `yielding`, which may be complex, because Love numbers are
+    analytic in the modulus. The error relative to the integration is at most 1e-8.
     """
     grid = np.polynomial.chebyshev.chebpts1(_STRAIN_NODES)
     low, high = _STRAIN_RANGE
     strain = (low + high) / 2 + (high - low) / 2 * grid
-    found, reference = yielding(layers, strain), elastic(layers)
+    love, reference = yielding(layers, strain), elastic(layers)
     names = ("k", "core_k", "k_pressure", "core_k_pressure")
     return tuple(
         np.polynomial.Chebyshev.fit(
             strain,
-            getattr(found, name) / float(getattr(reference, name)),
+            getattr(love, name) / float(getattr(reference, name)),
             _STRAIN_NODES - 1,
             domain=list(_STRAIN_RANGE),
         )
@@ -170,13 +175,12 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 
 # --- from the centre to the surface -------------------------------------------------------------
 #
-# States are kept as columns: first one for each unknown, then one for each potential that is put
-# to the body. A potential acts where it acts: across a boundary y5 jumps by the difference times
-# r2, and y6 by five times the difference times r.
+# A state has one column for each unknown, then one for each applied potential. If the applied
+# potential differs by d across a boundary, y5 jumps by d r2, and y6 by 5 d r.
 
 
 def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
-    """Meet the conditions at boundaries and surface for all potentials at once."""
+    """Solve the boundary and surface conditions for all applied potentials."""
     zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
         y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
@@ -189,13 +193,13 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
         bottom = _onto_mantle(profile, body, pair)
         core = bottom
         y = _across(profile, i, bottom, strain, carry)
-    given = np.zeros((3, 4))
-    given[0, _LOAD] = -5 / 3  # the weight of a load
-    given[2] = 5 * _ACTS_IN[2]
+    sources = np.zeros((3, 4))
+    sources[0, _LOAD] = -5 / 3  # weight of the load
+    sources[2] = 5 * _ACTS_IN[2]
     unknowns = y.shape[-1] - 4
     met = np.concatenate([*conditions, y[:, [1, 3, 5]]], axis=1)
     wanted = np.zeros((met.shape[1], 4))
-    wanted[-3:] = given
+    wanted[-3:] = sources
     mix = np.linalg.solve(met[..., :unknowns], wanted - met[..., unknowns:])
     mix = np.concatenate([mix, np.broadcast_to(np.eye(4), (strain.size, 4, 4))], axis=1)
     top = y @ mix
@@ -217,17 +221,18 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
 
 
 def _inside(state: Array, r: float) -> Array:
-    """What the masses inside r add to the potential there, r3 (y5 - r y6/5), as a k."""
+    """Contribution of the masses inside r to the potential at r, r3 (y5 - r y6/5), as a k."""
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
 def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
-    """Carry columns through solid layers, from the first of them to the next liquid."""
+    """Integrate solution columns through solid layers, from layer `first` to the next liquid."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
             break
-        # From the centre on nothing binds one solution, before the next boundary binds all.
+        # From the centre, solutions may be recombined until the next boundary sets conditions on
+        # all.
         y = carry(solid(profile, i, strain), r, profile.tops[i], y, together=first == profile.first)
         r = profile.tops[i]
     return y
@@ -236,7 +241,7 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
 def _through_inner_core(
     profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
-    """The pair (y5, y7) at the bottom of the liquid, the inner core's top, and what is to hold."""
+    """Integrate the inner core: (y5, y7) above it, its state at the top, boundary conditions."""
     if not body.inner_core_radius:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
@@ -248,13 +253,13 @@ def _through_inner_core(
     i = profile.tops.index(r) + 1
     rho, g = profile.density(i, r), profile.gravity(i, r)
     y5, y6 = _stepped(y, r, _ACTS_IN[1] - _ACTS_IN[0])
-    # No shear at the liquid, and the liquid's pressure.
+    # at the liquid: no shear stress, and the normal stress equals the pressure
     conditions = np.stack([y[:, 3], y[:, 1] - rho * (g * y[:, 0] - y5)], axis=1)
     return np.stack([y5, y6 + FOUR_PI_G * y[:, 1] / g], axis=1), y, [conditions]
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """y5 and y6 on the other side of a boundary, where other potentials act."""
+    """State with y5 and y6 changed across a boundary where the applied potential changes."""
     y5, y6 = y[:, 4].copy(), y[:, 5].copy()
     y5[:, -4:] += step * r**2
     y6[:, -4:] += 5 * step * r
@@ -264,7 +269,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """The pair at the top of the liquid, and the first layer above it."""
+    """The pair at the top of the liquid, and the index of the first layer above it."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)
@@ -275,9 +280,9 @@ def _through_liquid(
 
 
 def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
-    """The bottom of the mantle; its two displacements, which the liquid leaves free, are unknown.
+    """State at the bottom of the mantle, with its two displacements as the last two unknowns.
 
-    They are the last two of the unknowns.
+    The displacements are undetermined because the liquid may slip.
     """
     b = body.core_radius / body.radius
     i = profile.tops.index(b)

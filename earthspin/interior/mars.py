@@ -1,4 +1,4 @@
-"""Mars in four even layers, a fluid core among them, that have its mass and moment of inertia."""
+"""Four-layer Mars with a fluid core, consistent with its mass and moment of inertia."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from earthspin.interior.layers import Layer, LayeredBody
 
 _INSIGHT = "Le Maistre et al. 2023, Nature 619, 733"
 _INSIGHT_READ = "abstract, nature.com/articles/s41586-023-06150-0"
-#: Of the fluid core; the density within the 5955 to 6290 kg m-3 of the same paper.
+#: Radius and density of the fluid core; the paper gives a density of 5955 to 6290 kg m-3.
 CORE_RADIUS = Constant(1835e3, "m", 55e3, _INSIGHT, _INSIGHT_READ)
 CORE_DENSITY = Constant(6100.0, "kg m-3", 90.0, _INSIGHT + ": 5955 to 6290", _INSIGHT_READ)
-#: Crust of 24 to 72 km (Knapmeyer-Endrun et al. 2021, Science 373, 438), in the middle.
+#: Thickness of the crust: the middle of 24 to 72 km (Knapmeyer-Endrun et al. 2021).
 CRUST = Constant(
     48e3,
     "m",
@@ -31,7 +31,7 @@ CRUST = Constant(
     "abstract, doi.org/10.1126/science.abf8966",
 )
 CRUST_DENSITY = Constant(2900.0, "kg m-3", None, "between 2500 and 3100 kg m-3", UNVERIFIED)
-#: Where the minerals of the mantle change, about 1000 km deep.
+#: Radius of the mantle's mineral phase transition, about 1000 km deep.
 TRANSITION_RADIUS = Constant(2390e3, "m", None, "about 1000 km below the surface", UNVERIFIED)
 MEAN_RADIUS = Constant(
     3389.5e3, "m", None, "Archinal et al. 2018, Celest. Mech. 130:22, table 4", SHTOOLS + "Mars.py"
@@ -41,29 +41,28 @@ _KHAN = f"near those of Khan et al. 2021, Science 373, 434 ({UNVERIFIED})"
 SHEAR_SPEEDS = tuple(
     Constant(speed, "m s-1", None, _KHAN, UNVERIFIED) for speed in (2900.0, 4450.0, 4850.0)
 )
-#: Of compressional waves: over that of shear waves in the solid, and in the core.
+#: Ratio of compressional to shear wave speed in the solid, and compressional speed in the core.
 SPEED_RATIO = Constant(1.8, "", None, "rounded; " + _KHAN, UNVERIFIED)
 CORE_SPEED = Constant(5000.0, "m s-1", None, "rounded; " + _KHAN, UNVERIFIED)
-#: Quality factor of the mantle in shear at 1 s.
+#: Shear quality factor of the mantle at 1 s.
 SHEAR_Q = Constant(
     100.0, "", None, "assumed: of the order that the acceleration of Phobos gives", ASSUMED
 )
-#: I/(M R2) of the mean moment, (A + B + C)/3 = C - 2/3 J2 M a2.
+#: I/(M R2) for the mean moment, (A + B + C)/3 = C - 2/3 J2 M a2.
 MOMENT = (MARS_POLAR_MOMENT.value - 2 / 3 * MARS_J2.value) * (
     MARS_RADIUS.value / MEAN_RADIUS.value
 ) ** 2
 
 
 def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
-    """Mars with a fluid core of a given radius.
+    """Four-layer model of Mars with a fluid core of a given radius.
 
-    The densities of upper and lower mantle are those with which mass and moment of inertia are
-    met.
+    The densities of upper and lower mantle follow from the mass and the moment of inertia.
 
     Parameters
     ----------
     core_radius : float
-        m.
+        Radius of the fluid core, m.
     """
     mass = MARS_GM.value / G.value
     tops = np.array(
@@ -71,10 +70,10 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     )
     volume, moment = (np.diff(tops**n, prepend=0.0) for n in (3, 5))
     volume, moment = 4 * np.pi / 3 * volume, 8 * np.pi / 15 * moment
-    known = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
+    fixed = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
     wanted = [
-        mass - volume @ known,
-        MOMENT * mass * MEAN_RADIUS.value**2 - moment @ known,
+        mass - volume @ fixed,
+        MOMENT * mass * MEAN_RADIUS.value**2 - moment @ fixed,
     ]
     lower, upper = np.linalg.solve([volume[1:3], moment[1:3]], wanted)
     crust, above, below = (speed.value for speed in SHEAR_SPEEDS)

@@ -1,7 +1,7 @@
-r"""Mantle, fluid core and inner core that turn against one another: one linear system.
+r"""Coupled rotation of mantle, fluid core and inner core: one linear system.
 
-In a frame that turns at Omega (z + m) with the mantle, the fluid core turns by Omega m_f and the
-inner core by Omega m_s beside it, and the axis of the inner core is tilted by n. With complex
+In a frame that rotates with the mantle at Omega (z + m), the fluid core rotates at Omega m_f, the
+inner core at Omega m_s, and the figure axis of the inner core is tilted by n. With complex
 vectors (x + i y) that vary as exp(i sigma Omega t), sigma = -1 being at rest in space, and a tidal
 potential phi in the units of the wobbles (Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219)::
 
@@ -11,23 +11,23 @@ potential phi in the units of the wobbles (Mathews, Buffett, Herring & Shapiro 1
                                                 + (1 + sigma - a2) e_s n + K ... = 0
     m_s + sigma n = 0
 
-c, c_f, c_s are the products of inertia of whole, fluid and inner core over their A: linear in
-(m - phi, m_f, m_s) through the answers of the layers (`love.Yielding`).
+c, c_f, c_s are the products of inertia of the whole body, the fluid core and the inner core,
+divided by the A of each. They are linear in (m - phi, m_f, m_s), with coefficients from
+`love.Yielding`.
 
-The second and the third row follow from one statement. Let S be a part of the core within a liquid
-that turns at w, in equilibrium with the potential Psi of gravity, tide and its own centrifugal
-force. The torque on S is the integral of r x grad(V) over its mass, less that of the pressure on
-its surface, whose gradient is rho_f grad(Psi); and grad(V) is grad(Psi) less the centrifugal
-force. So
+The second and the third row have the same derivation. Let S be a region of the core within a fluid
+that rotates at w, in equilibrium with the potential Psi of gravity, tide and centrifugal force. The
+torque on S is the integral of r x grad(V) over its mass, minus the torque of the pressure on its
+surface, whose gradient is rho_f grad(Psi); grad(V) is grad(Psi) minus the centrifugal force. Hence
 
     torque on S = w x (I w) + integral over S of (rho - rho_f) r x grad(Psi).
 
-For the liquid itself the second term vanishes, and dH_f/dt + Omega (z + m) x H_f = w x H_f is the
-second row. For the inner core it is the pull of tide, rotation and of the masses outside on what it
-has more than the liquid would: A_s e_s a3 [(m + m_f - phi) - (1 + a_g) n] Omega2, a2 = a1 - a3 a_g.
-Its product of inertia c_s stands on both sides, with 1 + sigma on the left and 1 on the right, so
-that sigma c_s remains. What is left out is the pull on the *excess* that deformation makes, a few
-hundredths of c_s.
+For the fluid itself the second term vanishes, and dH_f/dt + Omega (z + m) x H_f = w x H_f is the
+second row. For the inner core the second term is the torque of tide, rotation and outer masses on
+its excess over the fluid: A_s e_s a3 [(m + m_f - phi) - (1 + a_g) n] Omega2, a2 = a1 - a3 a_g.
+Its product of inertia c_s occurs on both sides, with 1 + sigma on the left and 1 on the right, so
+that sigma c_s remains. The torque on the *excess* caused by deformation, a few hundredths of c_s,
+is neglected.
 """
 
 from __future__ import annotations
@@ -45,28 +45,28 @@ from earthspin.interior.love import elastic
 Numeric = Any
 Array = NDArray[Any]
 
-#: Names of the free modes, in the order in which parts are added.
+#: Names of the free modes, in the order in which regions are added.
 MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_core_wobble")
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What the system stands on; floats, or arrays of one shape.
+    """Parameters of the rotating system; floats, or arrays of one shape.
 
     Attributes
     ----------
     e, e_f, e_s : float
-        (C - A)/A of whole, fluid core and inner core.
+        (C - A)/A of the whole body, the fluid core and the inner core.
     fluid, inner : float
-        A_f/A and A_s/A; 0 for a part that is missing.
+        Relative equatorial moments A_f/A and A_s/A; 0 for an absent region.
     a1, a2, a3 : float
         Coupling numbers of the inner core (`equilibrium.Figure`).
     answers : array, shape (..., 3, 3), complex
-        Products of inertia over A of whole, fluid and inner core, for wobbles m, m_f and m_s of
-        size 1.
+        Products of inertia, divided by A, of the whole body, fluid core and inner core, for unit
+        wobbles m, m_f and m_s.
     k_cmb, k_icb : complex
-        Coupling at the boundaries of the fluid core beside that of the figure, in the units of
-        e_f and e_s (Buffett, Mathews & Herring 2002, JGR 107(B4), 2070).
+        Coupling constants of the fluid core's two boundaries, in addition to pressure and gravity,
+        in the units of e_f and e_s (Buffett, Mathews & Herring 2002, JGR 107(B4), 2070).
     """
 
     e: Numeric
@@ -83,30 +83,30 @@ class Parts:
 
     @property
     def count(self) -> int:
-        """Unknowns: 4 with an inner core, 2 without, 1 for a body without a core."""
+        """Number of unknowns: 4 with an inner core, 2 with a fluid core only, 1 without a core."""
         return 4 if np.any(self.inner) else 2 if np.any(self.fluid) else 1
 
     @property
     def compliances(self) -> dict[str, Numeric]:
-        """The same answers as Mathews et al. (1991) name them, each over the A of its part."""
+        """Compliances named as in Mathews et al. (1991), each divided by its region's moment A."""
         rows = (("kappa", "xi", "zeta"), ("gamma", "beta", "delta"), ("theta", "chi", "nu"))
         over = (1.0, self.fluid, self.inner)
-        there = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
+        size = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
         return {
             name: self.answers[..., i, j] / over[i]
-            for i, row in enumerate(rows[:there])
-            for j, name in enumerate(row[:there])
+            for i, row in enumerate(rows[:size])
+            for j, name in enumerate(row[:size])
         }
 
 
 def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
-    """The same body with its inner core counted with the fluid: mantle and core alone.
+    """Parameters of the same body with its inner core treated as fluid: mantle and core only.
 
     Parameters
     ----------
     parts : Parts
     e_core : float
-        (C - A)/A of all the core.
+        (C - A)/A of the whole core.
     """
     lump = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
     answers = np.zeros((*np.shape(parts.answers)[:-2], 3, 3), dtype=np.asarray(parts.answers).dtype)
@@ -134,7 +134,7 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
     right, left = (np.zeros((*shape, 4), dtype=complex) for _ in range(2))
     c = np.asarray(o.answers)
     share = (None, o.fluid, o.inner)
-    # The whole body: c answers at (1 + sigma), as does what the core carries.
+    # The whole body: c and the angular momentum of the core enter with (1 + sigma).
     for j in range(3):
         p[..., 0, j] = q[..., 0, j] = c[..., 0, j] + (1.0 if j == 0 else share[j])
     q[..., 0, 0] -= 1 + o.e
@@ -148,7 +148,7 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
         q[..., 1, 1] = 1 + o.e_f + o.k_cmb + ratio * o.k_icb
         q[..., 1, 2] = -ratio * o.k_icb
         right[..., 1] = c[..., 1, 0] / o.fluid
-    if o.count > 2:  # the inner core, and how its axis follows it
+    if o.count > 2:  # the inner core, and the kinematics of its axis
         for j in range(3):
             p[..., 2, j] = c[..., 2, j] / o.inner + (j != 1)
         p[..., 2, 3] = o.e_s
@@ -161,7 +161,7 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
 
 
 def held_by_mantle(parts: Parts) -> Parts:
-    """The same body with its inner core bound to the mantle: the fluid core turns alone."""
+    """Parameters of the same body with its inner core locked to the mantle."""
     answers = np.array(parts.answers)
     answers[..., 2, :] = answers[..., :, 2] = 0
     none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
@@ -169,45 +169,45 @@ def held_by_mantle(parts: Parts) -> Parts:
 
 
 def wobble_response(parts: Parts, sigma: Array) -> Array:
-    """Wobble over tide, m/phi, at frequencies in the body, turns per turn."""
+    """Wobble per unit tidal potential, m/phi, at body-fixed frequencies in turns per turn."""
     p, q, right, left = system(parts)
     at = np.asarray(sigma)[..., None]
-    found = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
-    return np.asarray(found[..., 0, 0])
+    solution = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
+    return np.asarray(solution[..., 0, 0])
 
 
 def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
-    """Nutation over that of a rigid body, at frequencies in the body.
+    """Nutation amplitude relative to that of a rigid body, at body-fixed frequencies.
 
     Parameters
     ----------
     parts : Parts
     sigma : ndarray
-        Turns per turn of the body, negative if retrograde; -1 is at rest in space.
+        Frequencies in turns per turn of the body, negative if retrograde; -1 is at rest in space.
     rigid_e : float
-        (C - A)/A of the rigid body. Whatever is inside, T(-1) is H of the body over that of the
+        (C - A)/A of the rigid body. For any interior, T(-1) is H of the body divided by H of the
         rigid one.
     """
     return np.asarray(wobble_response(parts, sigma) * (rigid_e - sigma) / rigid_e)
 
 
 def free_modes(parts: Parts) -> dict[str, complex]:
-    """Frequencies of the free modes in the body, turns per turn; Im > 0 decays.
+    """Body-fixed frequencies of the free modes, turns per turn; decaying modes have Im > 0.
 
-    A mode that the body does not have, because a part is missing, is not among them.
+    A mode whose region is absent is not included.
     """
     p, q, _, _ = system(parts)
     roots, vectors = np.linalg.eig(-np.linalg.solve(p, q))
     wobbles: list[tuple[float, complex]] = []
     nutations: list[tuple[float, complex]] = []
     for s, x in zip(roots, vectors.T, strict=True):
-        # How much of the motion is the inner core's own: of its axis, or of its turning.
+        # Relative amplitude of the inner core: of its axis, or of its rotation.
         share = abs(x[3] / x[0]) if s.real > -0.5 and x.size > 2 else 0.0
         share = abs(x[2] / x[1]) if s.real <= -0.5 and x.size > 2 else share
         (wobbles if s.real > -0.5 else nutations).append((share, complex(s)))
-    found = dict(zip(MODES[::3], (s for _, s in sorted(wobbles, key=_first)), strict=False))
-    found |= zip(MODES[1:3], (s for _, s in sorted(nutations, key=_first)), strict=False)
-    return {name: found[name] for name in MODES if name in found}
+    modes = dict(zip(MODES[::3], (s for _, s in sorted(wobbles, key=_first)), strict=False))
+    modes |= zip(MODES[1:3], (s for _, s in sorted(nutations, key=_first)), strict=False)
+    return {name: modes[name] for name in MODES if name in modes}
 
 
 def _first(pair: tuple[float, complex]) -> float:
@@ -215,7 +215,7 @@ def _first(pair: tuple[float, complex]) -> float:
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
-    """All parts of a layered body, with its hydrostatic figure inside and a given one outside.
+    """Parameters of a layered body with hydrostatic internal figures and outer ellipticity e.
 
     Parameters
     ----------
@@ -223,9 +223,9 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
     spin_rate : float
         rad/s.
     answers : ndarray, shape (..., 3, 3)
-        Of `love.Yielding`.
+        Responses from `love.Yielding`.
     e : float
-        (C - A)/A of the whole.
+        (C - A)/A of the whole body.
     """
     f = figure(layers, spin_rate)
     return Parts(
@@ -235,7 +235,7 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
 
 
 def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[str, float]:
-    """Turns of the body in a free wobble, by what its inner core does.
+    """Period of the free wobble, in turns of the body, for three treatments of the inner core.
 
     Parameters
     ----------
@@ -248,7 +248,7 @@ def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[st
     Returns
     -------
     dict of str to float
-        With the inner core bound to the mantle, counted with the fluid, and free.
+        With the inner core locked to the mantle, treated as fluid, and free.
     """
     free = parts_of(layers, spin_rate, elastic(layers).answers, e)
     models = {
@@ -256,11 +256,11 @@ def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[st
         "counted with the fluid": all_fluid(free, figure(layers, spin_rate).e_core),
         "free": free,
     }
-    return {name: 1 / free_modes(of)["chandler_wobble"].real for name, of in models.items()}
+    return {name: 1 / free_modes(model)["chandler_wobble"].real for name, model in models.items()}
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
-    """Compliances, ellipticities, coupling numbers and moments, of the parts that there are.
+    """Compliances, ellipticities, coupling numbers and relative moments of the existing regions.
 
     Parameters
     ----------
@@ -270,15 +270,15 @@ def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
     """
     f = figure(layers, spin_rate)
     parts = parts_of(layers, spin_rate, elastic(layers).answers, f.e)
-    found = {name: float(value) for name, value in parts.compliances.items()} | {"e": f.e}
+    numbers = {name: float(value) for name, value in parts.compliances.items()} | {"e": f.e}
     if parts.count > 1:
-        found |= {"e_f": f.e_f, "fluid": f.fluid}
+        numbers |= {"e_f": f.e_f, "fluid": f.fluid}
     if parts.count > 2:
-        found |= {"e_s": f.e_s, "a1": f.a1, "a2": f.a2, "a3": f.a3, "inner": f.inner}
-    return found
+        numbers |= {"e_s": f.e_s, "a1": f.a1, "a2": f.a2, "a3": f.a3, "inner": f.inner}
+    return numbers
 
 
 def mode_period(name: str, mode: complex, spin_rate: float) -> float:
-    """Period of a free mode, s: of a nutation in space, of a wobble in the body."""
+    """Period of a free mode, s: in space for a nutation, in the body for a wobble."""
     turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
     return float(turns * 2 * np.pi / abs(spin_rate))

@@ -1,7 +1,7 @@
-"""Named interiors: what a body's wobble needs beside its figure, each number with its source.
+"""Named interiors: the inputs of a body's wobble besides its figure, with sources.
 
-An interior is either a layered model, from which everything follows by integration, or a
-set of published numbers. A body names its interior; one that names none is rigid.
+An interior is either a layered model, from which all numbers follow by integration, or a set of
+published numbers. A body without an interior is rigid.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from earthspin.interior.ocean import OCEAN_SOURCE, ocean_matrix
 from earthspin.interior.prem import PREM
 from earthspin.interior.published import DYNAMICAL_CORE_ELLIPTICITY, K_CMB
 
-#: (C_f - A_f)/A_f that the observed free core nutation asks for: the core's own, and the coupling
-#: at its boundary, which acts like a larger one.
+#: (C_f - A_f)/A_f inferred from the observed free core nutation: the core's own ellipticity, plus
+#: the coupling at its boundary, which acts like an additional ellipticity.
 CORE_ELLIPTICITY = Constant(
     DYNAMICAL_CORE_ELLIPTICITY.value + K_CMB[0].value,
     "",
@@ -37,7 +37,7 @@ CORE_ELLIPTICITY = Constant(
     DYNAMICAL_CORE_ELLIPTICITY.read_in,
 )
 
-#: Exponent of frequency in the mantle's quality factor.
+#: Exponent of the frequency dependence of the mantle's quality factor.
 ANELASTIC_EXPONENT = Constant(
     0.09,
     "",
@@ -50,25 +50,26 @@ ANELASTIC_EXPONENT = Constant(
 
 @dataclass(frozen=True)
 class Interior:
-    """What lies under the surface.
+    """Interior structure of a body.
 
     Attributes
     ----------
     name : str
     reference : str
     layers : LayeredBody or None
-        Where there is one, the Love number and the core's moment follow from it.
+        Layered model, from which the Love number and the core's moment follow; None if there is
+        none.
     k2, core_fraction, core_ellipticity : float or None
-        Published, where there are no layers: the potential Love number, the moment of the
-        core over that of the body, and (C_f - A_f)/A_f.
+        Published values, for an interior without layers: the potential Love number, the moment of
+        the core divided by that of the body, and (C_f - A_f)/A_f.
     observed_core_ellipticity : Constant or None
-        Where observation asks for another one than hydrostatic equilibrium.
+        Ellipticity inferred from observation if it differs from hydrostatic equilibrium.
     ocean : 2 x 2 tuple or None
         Products of inertia (c13, c23)/(M a2) per radian of wobble (m1, m2).
     relative_uncertainty : mapping
-        One standard deviation over value, by name of the input (`Inputs` of the ladder).
+        Standard deviation divided by value, by name of the input (`Inputs` of the ladder).
     neglected : mapping of str to Constant
-        By how many days the period of the free wobble is off for what the model leaves out.
+        Change of the free wobble's period, in days, by each effect that the model does not include.
     """
 
     name: str
@@ -83,9 +84,9 @@ class Interior:
     neglected: Mapping[str, Constant] = field(default_factory=dict, hash=False)
 
     def values(self) -> tuple[float, float, float | None]:
-        """Love number k2, core fraction and hydrostatic (or published) core ellipticity.
+        """Love number k2, core fraction, and hydrostatic or published ellipticity of the core.
 
-        The ellipticity is None where layers give it in proportion to the spin; see
+        The ellipticity is None if it follows from layers and the spin; see
         `equilibrium.hydrostatic_core`.
         """
         if self.layers is not None:
@@ -96,15 +97,15 @@ class Interior:
 
 
 def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
-    """Interior of given layers.
+    """Interior with given layers, and other numbers from a known interior of the body.
 
     Parameters
     ----------
     layers : LayeredBody
     known : Interior, optional
-        Of the same body by another model: its sea, the core as observed and how sure such models
-        are stay as they are; what it says of Love number and core gives way to the layers, and
-        sizes of what it neglects are not known of them.
+        Another interior of the same body. Its ocean, observed core ellipticity and uncertainties
+        are kept. Its Love number and core numbers are replaced by those of the layers, and its
+        neglected effects are dropped, as their sizes are unknown for these layers.
     """
     if known is None:
         return Interior(layers.name, layers.reference, layers)
@@ -120,7 +121,7 @@ def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
     )
 
 
-#: Change of the free wobble by what the ladder leaves out, for the body that PREM is.
+#: Changes of the free wobble's period by effects that the ladder does not include, for PREM.
 _LEFT_OUT_OF_PREM = {
     "rotation and ellipticity in the Love number": Constant(
         -2.7,
@@ -140,7 +141,7 @@ _LEFT_OUT_OF_PREM = {
     ),
 }
 
-#: Of the core of Mars on average.
+#: Mean density of the core of Mars.
 MARS_CORE_DENSITY = Constant(
     6000.0,
     "kg m-3",
@@ -148,11 +149,11 @@ MARS_CORE_DENSITY = Constant(
     "Staehler et al. 2021, Science 373, 443",
     "abstract, doi.org/10.1126/science.abi7730: 5.7 to 6.3 g/cm3",
 )
-#: Moment of that core, as if it were even, over A = (C/(M R2) - J2) M R2.
+#: Moment of a homogeneous core, divided by A = (C/(M R2) - J2) M R2.
 _MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
     (MARS_POLAR_MOMENT.value - MARS_J2.value) * MARS_GM.value / G.value * MARS_RADIUS.value**2
 )
-#: Love number of Mars as observed.
+#: Observed Love number of Mars.
 MARS_K2 = Constant(
     0.174, "", 0.008, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568", UNVERIFIED
 )
@@ -181,7 +182,7 @@ INTERIORS: dict[str, Interior] = {
             reference=MARS.reference,
             layers=MARS,
             relative_uncertainty={
-                # Of the observed k2, and three times that of the core's radius.
+                # From the observed k2, and three times that of the core's radius.
                 "k2": MARS_K2.relative_uncertainty,
                 "core_fraction": 3 * CORE_RADIUS.relative_uncertainty,
                 "core_ellipticity": 0.1,

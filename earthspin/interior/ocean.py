@@ -1,4 +1,4 @@
-"""What an ocean in equilibrium adds: published for the real one, computed for one all over."""
+"""Contribution of an equilibrium ocean: published for the real ocean, computed for a global one."""
 
 from __future__ import annotations
 
@@ -26,9 +26,10 @@ SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
-    """Products of inertia (c13, c23)/(M a2) per radian of wobble, of the real ocean.
+    """Products of inertia (c13, c23)/(M a2) of the real ocean, per radian of wobble.
 
-    The symmetric part of the published response: the other is the mantle's delay.
+    Only the symmetric part of the published response is used; the antisymmetric part is due to the
+    delay of the mantle's response.
     """
     (a, ab), (d, dc) = _OCEAN_C21, _OCEAN_S21
     unit = math.sqrt(5 / 3) / ARCSEC
@@ -37,11 +38,11 @@ def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float:
-    """Love number that an ocean in equilibrium all over the body adds to k2.
+    """Contribution to k2 of an equilibrium ocean that covers the whole body.
 
-    The sea surface follows the potential of the wobble, of the yielding body, of the
-    water and of what the water presses in: one equation of degree two, solved in closed
-    form (Munk & MacDonald 1960, The Rotation of the Earth, sect. 5.7, self-attraction
+    The sea surface follows the potential of the wobble, of the deformed body, of the water and of
+    the loading by the water. This is one equation of degree two, solved in closed form (Munk &
+    MacDonald 1960, The Rotation of the Earth, sect. 5.7, self-attraction
     and loading added).
     """
     love = elastic(layers)

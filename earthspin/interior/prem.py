@@ -7,7 +7,7 @@ from earthspin.interior.layers import Layer, LayeredBody
 
 
 def _prem(*outermost: Layer) -> tuple[Layer, ...]:
-    """Layers of PREM below the uppermost crust, isotropic, and what is put on them."""
+    """Layers of PREM below the uppermost crust, isotropic, followed by given upper layers."""
     lower = (7956.5, -6476.1, 5528.3, -3080.7)
     lid = ((2691.0, 692.4), (4187.5, 3938.2), (2151.9, 2348.1))
     return (
@@ -53,7 +53,7 @@ def _prem(*outermost: Layer) -> tuple[Layer, ...]:
 _PREM_SOURCE = "Dziewonski & Anderson 1981, PEPI 25, 297, table I"
 LAYERS = Tabulated("layers of PREM", _PREM_SOURCE, PREM_READ)
 
-#: As published, with three kilometres of ocean all over.
+#: PREM as published, with a global ocean of 3 km.
 PREM_WITH_OCEAN = LayeredBody(
     "prem-ocean",
     _prem(
@@ -62,7 +62,8 @@ PREM_WITH_OCEAN = LayeredBody(
     _PREM_SOURCE,
 )
 
-#: The ocean filled by upper crust: its surface is solid, and an ocean can be added on its own.
+#: PREM with the ocean replaced by upper crust, so that the surface is solid and an ocean can be
+#: added separately.
 PREM = LayeredBody(
     "prem",
     _prem(Layer(6371e3, (2600.0,), (5800.0,), (3200.0,), 600.0)),

@@ -1,4 +1,4 @@
-"""Compliances, coupling and Love numbers as published: of PREM, of the Earth, from nutations."""
+"""Published compliances, coupling constants and Love numbers of PREM and of the Earth."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from earthspin.constants import IERS, UNVERIFIED, Constant
 _MBHS = "Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219"
 _CODE = "codes of the nutation of PREM in public repositories"
 
-#: By the name in that paper; a_1 to a_3 are its alphas.
+#: By the name in that paper; a_1 to a_3 are the paper's alpha_1 to alpha_3.
 PREM_PUBLISHED: dict[str, Constant] = {
     name: Constant(value, "", None, _MBHS, read_in)
     for name, value, read_in in (
@@ -34,7 +34,7 @@ PREM_PUBLISHED: dict[str, Constant] = {
 _GROSS = "Gross 2007, Treatise on Geophysics 3.09, table 1"
 _TIDES_READ = "codes of the solid tides of the Conventions in public repositories"
 
-#: Love numbers of the Earth: of a tide with rotation and ellipticity, of a load for PREM.
+#: Love numbers of the Earth: tidal ones with rotation and ellipticity, load ones for PREM.
 LOVE_PUBLISHED: dict[str, Constant] = {
     "k2": Constant(0.29525, "", None, IERS + ", table 6.3, elastic, zonal", _TIDES_READ),
     "h2": Constant(0.6078, "", None, IERS + ", tables 7.3a and 7.3b, nominal", _TIDES_READ),
@@ -46,8 +46,7 @@ LOVE_PUBLISHED: dict[str, Constant] = {
 _MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
 _MHB_2 = _MHB + ", table 2"
 
-#: The free core nutation, observed through its resonance in the nutations, and built into
-#: IAU 2000A.
+#: The free core nutation, observed through its resonance in the nutations, and used in IAU 2000A.
 CORE_NUTATION = Constant(
     -430.21,
     "d",
@@ -63,10 +62,10 @@ CORE_NUTATION_QUALITY = Constant(
     _MHB + ", rounded; 20,046 of the 0.000025 in " + IERS + ", table 6.4",
     "codes of the diurnal Love numbers in public repositories: 1.0023181 + 0.000025 i",
 )
-#: (C_f - A_f)/A_f of the core, without what couples it.
+#: (C_f - A_f)/A_f of the core, without boundary coupling.
 DYNAMICAL_CORE_ELLIPTICITY = Constant(2.6456e-3, "", 2e-6, _MHB_2, UNVERIFIED)
-#: What couples the core beside its figure, in phase and out, magnetic by that paper; all inferred
-#: from nutation.
+#: Coupling constants of the core's boundaries, in phase and out of phase, magnetic according to
+#: that paper; all inferred from nutation.
 K_CMB = (
     Constant(2.232e-5, "", None, _MHB_2, UNVERIFIED),
     Constant(-1.85e-5, "", 1.4e-6, _MHB_2, UNVERIFIED),

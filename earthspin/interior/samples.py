@@ -1,4 +1,4 @@
-"""Layered bodies from samples along the radius, as tables of seismology have them."""
+"""Layered bodies from samples along the radius, as in seismological tables."""
 
 from __future__ import annotations
 
@@ -19,31 +19,32 @@ def from_samples(
     shear_q: Sequence[float],
     reference: str = "",
 ) -> LayeredBody:
-    """Make a layered body of samples, straight lines between them.
+    """Make a layered body from samples, with linear interpolation between them.
 
     Parameters
     ----------
     name : str
     radius : sequence of float
-        m, from the centre outwards; a boundary has the same radius twice.
+        Radii from the centre outwards, m; a boundary is given by the same radius twice.
     density, vp, vs : sequence of float
-        kg m-3, m/s; `vs` is 0 in a liquid.
+        Density, kg m-3, and wave speeds, m/s; `vs` is 0 in a liquid.
     shear_q : sequence of float
-        Of each sample; that of the upper of two counts between them. Not used in a liquid.
+        Quality factor of each sample; the value of the upper of two samples applies between them.
+        Not used in a liquid.
     reference : str
 
     Raises
     ------
     ValueError
-        If the radii do not begin at 0 or do not grow, or the columns are not of one length.
+        If the radii do not begin at 0 or do not increase, or the columns differ in length.
     """
     r, rho, p, s, q = (
         np.asarray(column, dtype=float) for column in (radius, density, vp, vs, shear_q)
     )
     if len({column.shape for column in (r, rho, p, s, q)}) > 1 or r.ndim != 1 or r.size < 2:
-        raise ValueError("samples are columns of one length, two at least")
+        raise ValueError("give columns of equal length, at least two samples")
     if r[0] != 0 or np.any(np.diff(r) < 0) or not np.all(np.isfinite([r, rho, p, s])):
-        raise ValueError("radii begin at 0 and grow outwards, and all samples are finite")
+        raise ValueError("radii must begin at 0 and grow outwards, and all samples must be finite")
     whole, layers = r[-1], []
     for i in np.flatnonzero(np.diff(r) > 0):
         x = r[i : i + 2] / whole

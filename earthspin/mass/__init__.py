@@ -1,1 +1,1 @@
-"""How mass is spread: inertia, multipoles, spheroids (I.1, I.3, I.9)."""
+"""Mass distributions: inertia, principal axes, multipoles, spheroids (I.1, I.3, I.9)."""

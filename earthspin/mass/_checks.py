@@ -1,4 +1,4 @@
-"""What every function of this package asks of its input: one clear line when it is not so."""
+"""Input checks shared by this package; each raises a one-line message."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 
 
 def positive(body: str, field: str, value: ArrayLike) -> FloatArray:
-    """Return finite numbers above zero as an array, or say which one is not."""
+    """Return finite positive numbers as an array; raise an error that names any other value."""
     values = np.asarray(value, dtype=float)
     wrong = ~(np.isfinite(values) & (values > 0))
     if np.any(wrong):
@@ -35,12 +35,12 @@ def vectors(name: str, value: ArrayLike) -> FloatArray:
 
 
 def degree(name: str, value: Any) -> int:
-    """Return a whole number that is not negative."""
+    """Return a non-negative integer; raise an error otherwise."""
     if not isinstance(value, int | np.integer) or value < 0:
-        raise UndefinedError(f"{name} = {value!r} is not possible; give a whole number from 0 on")
+        raise UndefinedError(f"{name} = {value!r} is not possible; give an integer of 0 or more")
     return int(value)
 
 
 def first(values: FloatArray, wrong: NDArray[np.bool_]) -> float:
-    """First of the values that are wrong."""
+    """Return the first of the values for which `wrong` is true."""
     return float(values[wrong].flat[0])

@@ -1,4 +1,4 @@
-"""Where mass lies: point masses, and densities on a grid turned into point masses.
+"""Mass distributions: point masses, and gridded densities converted to point masses.
 
 A density that is constant in each cell is replaced by Gauss points inside the cells. With k
 points along each edge every polynomial up to degree 2k - 1 is integrated exactly: two points
@@ -15,19 +15,19 @@ from earthspin.mass._checks import FloatArray, first, positive, vectors
 
 
 def point_masses(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return point masses as arrays that fit each other.
+    """Check point masses and positions, and return them as arrays of matching shapes.
 
     Parameters
     ----------
     masses : array_like, shape (..., k)
-        kg, above zero; one mass alone stands for all.
+        Positive, kg; a single mass applies to all positions.
     positions : array_like, shape (..., k, 3)
         m.
 
     Raises
     ------
     BodyError
-        If a mass is not above zero.
+        If a mass is not positive.
     UndefinedError
         If the shapes do not match.
     """
@@ -45,7 +45,7 @@ def point_masses(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, F
 
 
 def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
-    """Mean position weighted by mass.
+    """Centre of mass of point masses.
 
     Parameters
     ----------
@@ -66,21 +66,21 @@ def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
 def grid_masses(
     density: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, points: int = 2
 ) -> tuple[FloatArray, FloatArray]:
-    """Point masses that stand for a density on a Cartesian grid.
+    """Point masses that represent a density on a Cartesian grid.
 
     Parameters
     ----------
     density : array_like, shape (nx, ny, nz)
-        Of each cell, constant in it, kg m-3; empty cells hold zero.
+        Density of each cell, kg m-3; zero in empty cells.
     x, y, z : array_like, shapes (nx + 1,), (ny + 1,), (nz + 1,)
-        Edges of the cells, rising, m.
+        Edges of the cells in increasing order, m.
     points : int
         Gauss points along each edge of a cell.
 
     Returns
     -------
     masses : ndarray, shape (k,)
-        kg; those of empty cells are left out.
+        kg; empty cells are omitted.
     positions : ndarray, shape (k, 3)
         m.
 
@@ -89,7 +89,7 @@ def grid_masses(
     BodyError
         If a density is negative, or all are zero.
     UndefinedError
-        If the edges do not rise or do not fit the density.
+        If the edges do not increase or do not match the density.
     """
     rho = np.asarray(density, dtype=float)
     edges = [np.asarray(edge, dtype=float) for edge in (x, y, z)]
@@ -107,7 +107,7 @@ def grid_masses(
 
 
 def _check_grid(rho: FloatArray, edges: list[FloatArray]) -> None:
-    """Refuse densities and edges that make no body."""
+    """Refuse invalid densities and edges."""
     cells = tuple(e.size - 1 for e in edges)
     if rho.shape != cells:
         raise UndefinedError(
@@ -116,7 +116,9 @@ def _check_grid(rho: FloatArray, edges: list[FloatArray]) -> None:
         )
     for name, edge in zip("xyz", edges, strict=True):
         if edge.ndim != 1 or not np.all(np.isfinite(edge)) or np.any(np.diff(edge) <= 0):
-            raise UndefinedError(f"the edges along {name} do not rise; sort them, without repeats")
+            raise UndefinedError(
+                f"the edges along {name} do not increase; sort them, without repeats"
+            )
     wrong = ~(np.isfinite(rho) & (rho >= 0))
     if np.any(wrong):
         raise BodyError("grid", "density", first(rho, wrong), "it must be finite and not negative")

@@ -1,13 +1,13 @@
-"""The figure of a homogeneous spheroid: perimeter, mean radius, moments (I.9.35 to I.9.52).
+"""Figure of a homogeneous spheroid: perimeter, mean radius, moments (I.9.35 to I.9.52).
 
 The spheroid has the equatorial radius a, the polar one c = a (1 - f), and
 
     e2 = (a2 - c2)/a2 = f (2 - f)
 
-The flattening f is positive for an oblate body, negative for a prolate one, and an input:
-a2 - c2 is never formed by subtraction. First-order formulas stand beside the exact ones; each
-says which it is. The source writes epsilon for f, A for the equatorial radius and a for the
-mean one; here `radius` is always the equatorial radius unless it is called `mean_radius`.
+The flattening f is an input, positive for an oblate body and negative for a prolate one, so that a2
+- c2 is never computed by subtraction. Both exact and first-order formulas are given. The source
+writes epsilon for f, A for the equatorial radius and a for the mean radius; here `radius` is always
+the equatorial radius and `mean_radius` the mean.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from scipy.special import elliprc
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass._checks import FloatArray, first, positive
 
-#: The longest needle that the kernels are tested for: c = 10^6 a.
+#: Most prolate figure tested: c = 10^6 a.
 LEAST_FLATTENING = -1e6
 
 
@@ -35,7 +35,7 @@ class Moments(NamedTuple):
     polar : ndarray
         C, about the axis of symmetry, kg m2.
     difference : ndarray
-        C - A, formed without subtraction, kg m2.
+        C - A, computed without subtraction, kg m2.
     """
 
     equatorial: FloatArray
@@ -44,7 +44,7 @@ class Moments(NamedTuple):
 
 
 def check_flattening(flattening: ArrayLike) -> FloatArray:
-    """Return flattenings that a body can have.
+    """Return flattenings as an array; refuse those that no body can have.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
     Raises
     ------
     BodyError
-        Outside -10^6 (a needle) <= f < 1 (a disc).
+        If f is outside -10^6 (a needle) <= f < 1 (a disc).
     """
     values = np.asarray(flattening, dtype=float)
     wrong = ~((values >= LEAST_FLATTENING) & (values < 1))
@@ -69,12 +69,12 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
 
 
 def polar_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """C = a (1 - f), in the unit of the equatorial radius a."""
+    """Polar radius c = a (1 - f), in the unit of the equatorial radius a."""
     return np.asarray(np.asarray(radius, dtype=float) * (1 - check_flattening(flattening)))
 
 
 def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
-    """e2 = (a2 - c2)/a2 = f (2 - f), negative for a prolate body (I.9.38)."""
+    """Squared eccentricity e2 = (a2 - c2)/a2 = f (2 - f), negative if prolate (I.9.38)."""
     f = check_flattening(flattening)
     return np.asarray(f * (2 - f))
 
@@ -102,8 +102,8 @@ def perimeter_first_order(
 ) -> FloatArray:
     """Distance of the surface from the centre, to first order in f (I.9.39), m.
 
-    The same in the mean radius, `mean_radius_first_order`, is (I.9.43):
-    <r> [1 - (2/3) f P2(cos theta)], up to f squared.
+    In terms of the mean radius, `mean_radius_first_order`, the distance is <r> [1 - (2/3) f P2(cos
+    theta)] to first order in f (I.9.43).
     """
     a = positive("spheroid", "radius", radius)
     return np.asarray(a * (1 - check_flattening(flattening) * np.cos(colatitude) ** 2))
@@ -112,7 +112,9 @@ def perimeter_first_order(
 def perimeter_about_mean(
     mean_radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Distance of the surface from the centre, from the mean radius, first order (I.9.43), m.
+    """Distance of the surface from the centre, in terms of the mean radius (I.9.43), m.
+
+    The formula is of first order in the flattening.
 
     Parameters
     ----------
@@ -129,10 +131,10 @@ def perimeter_about_mean(
 
 
 def mean_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Mean over all directions of the distance of the surface from the centre, exact, m.
+    """Exact mean, over all directions, of the distance of the surface from the centre, m.
 
-    (I.9.40) with nothing neglected: a asinh(k)/k with k2 = e2/(1 - f)2, or arcsine where k2
-    is negative; Carlson's R_C is both.
+    The integral (I.9.40) is a asinh(k)/k with k2 = e2/(1 - f)2, or the arcsine form for negative
+    k2; Carlson's R_C covers both cases.
     """
     a = positive("spheroid", "radius", radius)
     axis_ratio = 1 - check_flattening(flattening)
@@ -146,7 +148,10 @@ def mean_radius_first_order(radius: ArrayLike, flattening: ArrayLike) -> FloatAr
 
 
 def spheroid_mass(density: ArrayLike, radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Mass of a homogeneous spheroid, (4 pi/3) rho a3 (1 - f); (I.9.48) without it, kg."""
+    """Mass of a homogeneous spheroid, (4 pi/3) rho a3 (1 - f), kg.
+
+    (I.9.48) omits the factor 1 - f.
+    """
     rho = positive("spheroid", "density", density)
     a = positive("spheroid", "radius", radius)
     return np.asarray(4 * np.pi / 3 * rho * a**3 * (1 - check_flattening(flattening)))
@@ -178,7 +183,7 @@ def moment_difference_first_order(
 ) -> FloatArray:
     """C - A of a homogeneous spheroid to first order in f: (2/5) f M a2 (I.9.49), kg m2.
 
-    To this order the equatorial and the mean radius serve alike.
+    To this order the equatorial and the mean radius give the same result.
     """
     m, a = positive("spheroid", "mass", mass), positive("spheroid", "radius", radius)
     return np.asarray(0.4 * check_flattening(flattening) * m * a**2)
@@ -204,18 +209,18 @@ def moment_difference_from_density(
 
 
 def ellipticity_homogeneous(flattening: ArrayLike) -> FloatArray:
-    """(C - A)/A of a homogeneous spheroid, exact: (a2 - c2)/(a2 + c2).
+    """Exact (C - A)/A of a homogeneous spheroid, (a2 - c2)/(a2 + c2).
 
-    McCullough's formula (I.9.52) takes the flattening for it.
+    McCullough's formula (I.9.52) approximates it by the flattening.
     """
     e2 = eccentricity_squared(flattening)
     return np.asarray(e2 / (2 - e2))
 
 
 def mccullough_error(flattening: ArrayLike) -> FloatArray:
-    """(C - A)/A of a homogeneous spheroid less its flattening: f2 (1 - f)/(2 - e2), exact.
+    """Exact error of McCullough's formula, (C - A)/A - f = f2 (1 - f)/(2 - e2), if homogeneous.
 
-    About f2/2. What density adds to it is another matter: see `layered_moments`.
+    It is about f2/2. For the effect of density variations, see `layered_moments`.
     """
     f = check_flattening(flattening)
     return np.asarray(f**2 * (1 - f) / (2 - eccentricity_squared(f)))
@@ -226,18 +231,18 @@ def layered_moments(
 ) -> tuple[float, Moments]:
     """Mass and moments of homogeneous layers between coaxial, concentric spheroids, exact.
 
-    What density does to McCullough's formula: layers of one flattening keep
-    (C - A)/A = (a2 - c2)/(a2 + c2) however the density runs; a core that is rounder than the
-    surface makes (C - A)/A smaller than the flattening, as in the Earth.
+    If all layers have the same flattening, (C - A)/A = (a2 - c2)/(a2 + c2) for any density profile.
+    If the core is rounder than the surface, as in the Earth, (C - A)/A is smaller than the
+    flattening given by McCullough's formula.
 
     Parameters
     ----------
     radii : array_like, shape (n,)
         Equatorial radii of the outer surfaces of the layers, from the core outwards, m.
     densities : array_like, shape (n,)
-        Of the layers, kg m-3.
+        Densities of the layers, kg m-3.
     flattenings : array_like, shape (n,)
-        Of the outer surfaces.
+        Flattenings of the outer surfaces.
 
     Returns
     -------
@@ -260,7 +265,7 @@ def layered_moments(
             f"{f.shape}; give one of each per layer"
         )
     _check_nested(a, f)
-    excess = rho - np.append(rho[1:], 0.0)  # of each whole spheroid over what surrounds it
+    excess = rho - np.append(rho[1:], 0.0)  # of each spheroid over the layer around it
     mass = 4 * np.pi / 3 * excess * a**3 * (1 - f)
     fifth = mass * a**2 / 5
     e2 = f * (2 - f)
@@ -273,7 +278,7 @@ def layered_moments(
 
 
 def _check_nested(radii: FloatArray, flattenings: FloatArray) -> None:
-    """Refuse layers that cut or touch one another, at the equator or at the pole."""
+    """Refuse layers that intersect or touch, at the equator or at the pole."""
     for name, sizes in (("equatorial", radii), ("polar", radii * (1 - flattenings))):
         wrong = np.diff(sizes) <= 0
         if np.any(wrong):

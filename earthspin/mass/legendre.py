@@ -6,8 +6,8 @@ source and in `scipy.special.lpmv`:
     integral of P_nm P_n'm dz = K_nm delta_nn'      K_nm = f(n, m)/(n + 1/2)
     f(n, m) = (n + m)!/(n - m)!
 
-They are computed as P_nm/sqrt(K_nm), which neither overflows nor, beside z = 1, loses the
-digits that `lpmv` does (1e-12 of m = 1 at z = 0.999999, against 2e-14).
+They are computed as P_nm/sqrt(K_nm), which does not overflow and is more accurate near z = 1 than
+`lpmv` (for m = 1 at z = 0.999999, errors of 2e-14 and 1e-12).
 """
 
 from __future__ import annotations
@@ -22,12 +22,15 @@ from scipy.integrate import quad_vec
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.mass._checks import FloatArray, degree
 
-#: Pieces that a projection may split [-1, 1] into before it gives up.
+#: Maximum number of intervals in the quadrature of a projection.
 _INTERVALS = 500
 
 
 def factorial_ratio(n: int, m: int) -> float:
-    """f(n, m) = (n + m)!/(n - m)!, for |m| <= n (I.9.3); f(n, -m) weighs 1/R (I.9.11)."""
+    """Ratio f(n, m) = (n + m)!/(n - m)!, for |m| <= n (I.9.3).
+
+    f(n, -m) is the weight of a term of 1/R (I.9.11).
+    """
     _check_order(n, abs(m))
     try:
         ratio = float(math.perm(n + abs(m), 2 * abs(m)))
@@ -39,12 +42,12 @@ def factorial_ratio(n: int, m: int) -> float:
 
 
 def legendre_norm(n: int, m: int = 0) -> float:
-    """K_nm, the integral of P_nm squared over [-1, 1] (I.9.3)."""
+    """Norm K_nm, the integral of P_nm squared over [-1, 1] (I.9.3)."""
     return factorial_ratio(n, m) / (n + 0.5)
 
 
 def orthonormal_functions(n_max: int, z: ArrayLike, m: int = 0) -> FloatArray:
-    """P_nm(z)/sqrt(K_nm) for n = m to n_max, by the recurrence in the degree.
+    """Normalised functions P_nm(z)/sqrt(K_nm) for n = m to n_max, by recurrence in the degree.
 
     Parameters
     ----------
@@ -94,10 +97,10 @@ def legendre_coefficients(
     m : int
         Order, from 0 to n_max.
     breaks : sequence of float
-        Where g or its slope jumps.
+        Points at which g or its slope is discontinuous.
     accuracy : float
-        Half-width that the integrals must reach, as a fraction of the largest coefficient
-        (each coefficient taken with a function of unit norm).
+        Largest half-width of the integrals, as a fraction of the largest coefficient (for functions
+        of unit norm).
 
     Returns
     -------
@@ -121,13 +124,14 @@ def legendre_coefficients(
         limit=_INTERVALS,
     )
     scale = float(np.max(np.abs(result)))
-    # Rounding leaves an even function's odd coefficients at this level: not a failure.
+    # The odd coefficients of an even function are nonzero at this level by rounding; this is no
+    # failure.
     if not error <= max(10 * accuracy, 1e-14) * max(scale, np.finfo(float).tiny):
         raise AccuracyError(
             accuracy * scale,
             error,
             "(of a coefficient)",
-            "name the jumps of the function in breaks",
+            "list the discontinuities of the function in breaks",
         )
     return np.asarray(result / roots)
 
@@ -156,18 +160,18 @@ def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) 
     n_max : int
         Last degree.
     z, other : array_like
-        In [-1, 1]; they broadcast.
+        Points in [-1, 1]; they broadcast.
     m : int
         Order.
 
     Returns
     -------
     ndarray
-        Its integral against a polynomial (times (1 - z2)^(m/2)) of degree up to n_max gives
-        that function back.
+        Integrated with a polynomial of degree up to n_max, times (1 - z2)^(m/2), the kernel
+        reproduces that function.
     """
-    here, there = np.broadcast_arrays(_argument(z), _argument(other))
-    products = orthonormal_functions(n_max, here, m) * orthonormal_functions(n_max, there, m)
+    first, second = np.broadcast_arrays(_argument(z), _argument(other))
+    products = orthonormal_functions(n_max, first, m) * orthonormal_functions(n_max, second, m)
     return np.asarray(np.sum(products, axis=0))
 
 
@@ -178,7 +182,7 @@ def _roots_of_norms(n_max: int, m: int) -> FloatArray:
 
 
 def _argument(z: ArrayLike) -> FloatArray:
-    """Cosines, refused outside [-1, 1]."""
+    """Return cosines as an array; refuse values outside [-1, 1]."""
     values = np.asarray(z, dtype=float)
     wrong = ~(np.abs(values) <= 1)
     if np.any(wrong):
@@ -189,6 +193,6 @@ def _argument(z: ArrayLike) -> FloatArray:
 
 
 def _check_order(n: int, m: int) -> None:
-    """Refuse anything but 0 <= m <= n."""
+    """Refuse an order m outside 0 <= m <= n."""
     if degree("degree n", n) < degree("order m", m):
         raise UndefinedError(f"order m = {m} exceeds the degree n = {n}; allowed: 0 to {n}")

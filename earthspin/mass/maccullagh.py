@@ -1,11 +1,11 @@
-"""MacCullagh's potential of a distant body, and the torque on it (I.9.31, I.9.34).
+"""MacCullagh's potential at a distant point, and torque by a distant mass (I.9.31, I.9.34).
 
     V = -GM/r - G/(2 r3) (A + B + C - 3 I)      I = n . I n, about the line to the point
     N = 3 GM/r3 n x (I n)
 
-to order 1/r3, for any distribution of mass about its centre of mass. Neither the quadrupole
-nor the torque changes if a multiple of the unit matrix is taken from the tensor: for a nearly
-spherical body give the differences, np.diag([0, B - A, C - A]), and no digits are lost.
+to order 1/r3, for any distribution of mass about its centre of mass. The quadrupole and the torque
+do not change if a multiple of the unit matrix is subtracted from the tensor. For a nearly spherical
+body pass the differences, np.diag([0, B - A, C - A]), to avoid cancellation.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> 
     Parameters
     ----------
     gm : array_like
-        Of the mass that pulls, m3 s-2.
+        Gravitational parameter of the distant mass, m3 s-2.
     tensor : array_like, shape (..., 3, 3)
         Inertia of the body about its centre of mass, or its differences as above, kg m2.
     position : array_like, shape (..., 3)
@@ -75,7 +75,7 @@ def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> 
     Returns
     -------
     ndarray, shape (..., 3)
-        For a body of revolution 3 GM (C - A)/r5 (r . k) (r x k).
+        Torque; for a body of revolution it is 3 GM (C - A)/r5 (r . k) (r x k).
     """
     mu = positive("point mass", "gm", gm)
     n, r = _direction(position)
@@ -84,13 +84,13 @@ def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> 
 
 
 def _less_sphere(tensor: ArrayLike) -> FloatArray:
-    """The tensor less its first diagonal term times the unit matrix: exact where it matters."""
+    """Tensor minus its first diagonal element times the unit matrix, to avoid cancellation."""
     values = np.asarray(tensor, dtype=float)
     return np.asarray(values - values[..., :1, :1] * np.eye(3))
 
 
 def _direction(position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and distances; the centre has no direction."""
+    """Unit vectors and distances of positions; refuse the centre, which has no direction."""
     r = vectors("position", position)
     distance = np.asarray(np.sqrt(np.sum(r * r, axis=-1)))
     if np.any(distance == 0):

@@ -1,12 +1,12 @@
-r"""A solid between triangles: its mass as points that integrate polynomials exactly.
+r"""Solids bounded by triangles, as weighted points that integrate polynomials exactly.
 
-A closed mesh is the sum of tetrahedra from one point to each triangle, those counted negative that
-lie outside. With r = u (p + v (q - p) + v w (s - q)) for the corners p, q, s,
+A closed mesh is the sum of the signed tetrahedra from one point to each triangle. With r = u (p + v
+(q - p) + v w (s - q)) for the corners p, q, s,
 
     integral of f over a tetrahedron = det(p, q, s) x integral of f u^2 v du dv dw from 0 to 1,
 
-which k Gauss points along each of u, v and w, with Jacobi's weights u^2 and v in them, give exactly
-for polynomials up to degree 2k - 1: one for the volume and its middle, two for the inertia, three
+Gauss-Jacobi quadrature with k points along each of u, v and w, with weights u^2 and v, is exact for
+polynomials up to degree 2k - 1: one point for the volume and centroid, two for the inertia, three
 for multipoles up to degree 5.
 """
 
@@ -22,28 +22,28 @@ from scipy.special import roots_jacobi
 from earthspin.errors import BodyError
 from earthspin.mass._checks import FloatArray, vectors
 
-#: Triangles whose points stand in memory at once.
+#: Number of triangles processed per block, to limit memory.
 AT_ONCE = 1 << 14
 _BODY = "mesh"
 
 
 def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return a mesh that encloses a solid, its triangles counter-clockwise from outside.
+    """Check that a mesh encloses a solid, with triangles counter-clockwise seen from outside.
 
     Parameters
     ----------
     vertices : array_like, shape (k, 3)
         m.
     faces : array_like of int, shape (n, 3)
-        Places of each triangle's corners in `vertices`.
+        Indices of each triangle's corners in `vertices`.
 
     Raises
     ------
     BodyError
-        If a triangle names a corner that is not there, the mesh is open, two triangles that meet
-        are turned against one another, all are turned inside out, or two shells coincide.
+        If an index is out of range, the mesh is open, adjacent triangles have opposite orientation,
+        all triangles are inside out, or two shells coincide.
     UndefinedError
-        If the vertices are no finite vectors.
+        If the vertices are not finite vectors.
     """
     places, corners = vectors("vertices", vertices), np.asarray(faces)
     if corners.ndim != 2 or corners.shape[-1] != 3 or corners.dtype.kind not in "iu":
@@ -61,30 +61,31 @@ def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDAr
     if not volume > 0:
         raise BodyError(
             _BODY, "faces", f"a volume of {volume:.3g} m3",
-            "it is turned inside out: give the corners of each triangle counter-clockwise as seen "
+            "the mesh is inside out: give the corners of each triangle counter-clockwise as seen "
             "from outside, like faces[:, ::-1]",
         )  # fmt: skip
     return places, corners.astype(np.int64)
 
 
 def _refuse_open(faces: NDArray[np.integer]) -> None:
-    """In a closed mesh each edge is passed twice, once in either direction."""
+    """Refuse an open mesh: each edge must occur exactly once in each direction."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     size = int(faces.max()) + 1
-    there, back = np.sort(edges @ [size, 1]), np.sort(edges @ [1, size])
-    if np.array_equal(there, back) and np.all(np.diff(there) > 0):
+    forward, backward = np.sort(edges @ [size, 1]), np.sort(edges @ [1, size])
+    if np.array_equal(forward, backward) and np.all(np.diff(forward) > 0):
         return
     single = np.setxor1d(edges @ [size, 1], edges @ [1, size])
     if single.size:
         raise BodyError(
-            _BODY, "faces", f"{single.size // 2} edges with a triangle on one side, or two turned "
-            "against one another", "close it, and turn all triangles the same way",
+            _BODY, "faces",
+            f"{single.size // 2} edges with one triangle, or two of opposite orientation",
+            "close the mesh, and orient all triangles the same way",
         )  # fmt: skip
     raise BodyError(_BODY, "faces", "an edge of more than two triangles", "give each triangle once")
 
 
 def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
-    """Refuse triangles at the same place that face the same way: their solid would count twice."""
+    """Refuse coincident triangles of the same orientation, whose volume would count twice."""
     _, same = np.unique(places, axis=0, return_inverse=True)
     corners = same.reshape(-1)[faces]
     first = np.argmin(corners, axis=1)[:, np.newaxis]
@@ -99,15 +100,15 @@ def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
 
 @cache
 def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
-    """Barycentric factors of the corners, shape (k, 3), and weights of the points, shape (k,)."""
+    """Barycentric coordinates of quadrature points, shape (k, 3), and their weights, shape (k,)."""
 
     def rule(power: int) -> tuple[FloatArray, FloatArray]:
-        """Nodes and weights for the weight x^power from 0 to 1."""
+        """Nodes and weights of Gauss quadrature on 0 to 1 with weight x^power."""
         nodes, weights = roots_jacobi(degree // 2 + 1, 0.0, float(power))
         return (nodes + 1) / 2, weights / 2.0 ** (power + 1)
 
     (u, wu), (v, wv), (w, ww) = rule(2), rule(1), rule(0)
-    u, v, w = (of.ravel() for of in np.meshgrid(u, v, w, indexing="ij"))
+    u, v, w = (grid.ravel() for grid in np.meshgrid(u, v, w, indexing="ij"))
     weights = np.einsum("i,j,k->ijk", wu, wv, ww).ravel()
     return np.stack([u * (1 - v), u * v * (1 - w), u * v * w], axis=-1), weights
 
@@ -115,15 +116,15 @@ def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
 def solid_points(
     vertices: FloatArray, faces: NDArray[np.int64], degree: int
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Volumes (m3, of either sign) and places (m) of points that stand for the solid, in pieces.
+    """Yield signed volumes (m3) and positions (m) of quadrature points of a solid, in blocks.
 
     Parameters
     ----------
     vertices : ndarray, shape (k, 3)
-        From a point near the middle: the farther off it lies, the more cancels.
+        Relative to a point near the centre; a distant origin causes cancellation.
     faces : ndarray, shape (n, 3)
     degree : int
-        Of polynomials that are to be exact.
+        Degree of the polynomials to integrate exactly.
     """
     factors, weights = _cone(degree)
     for first in range(0, len(faces), AT_ONCE):

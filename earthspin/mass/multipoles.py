@@ -1,10 +1,10 @@
 """Multipole expansion in (n, m) of 1/R and of a body's potential (I.9.5 to I.9.21).
 
-Harmonics here are Racah's, with the phase (-1)^m,
+The harmonics are Racah's, with the phase (-1)^m,
 
     C_nm(theta, phi) = sqrt((n - m)!/(n + m)!) P_nm(cos theta) e^(i m phi)
 
-so that C_n0 = P_n. In Jackson's Y_nm they are sqrt(4 pi/(2n + 1)) Y_nm. With them
+so that C_n0 = P_n; in terms of Jackson's Y_nm they are sqrt(4 pi/(2n + 1)) Y_nm. Then
 
     1/R = sum over n, m of r<^n r>^(-n-1) C_nm(r) C*_nm(r')
 
@@ -13,8 +13,8 @@ and the source's (I.9.17) to (I.9.19) hold as printed; with its own unnormalised
 Jackson's 4 pi/(2n + 1). Of each pair of orders m and -m only m >= 0 is stored and summed,
 with Neumann's factor (I.9.13): masses are real.
 
-Solid harmonics are built from Cartesian coordinates by the recurrence in the degree, which
-is stable upwards: no angle, and nothing special at the poles or the centre.
+Solid harmonics are computed from Cartesian coordinates by upward recurrence in the degree, which is
+stable and regular at the poles and the centre.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int
     Parameters
     ----------
     position : ndarray, shape (..., 3)
-        In units of the radius that the expansion refers to.
+        Position in units of the reference radius.
     n_max : int
         Last degree.
     """
@@ -58,24 +58,24 @@ def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int
 
 
 def inverse_distance(position: ArrayLike, source: ArrayLike, n_max: int) -> FloatArray:
-    """1/R between two points by its expansion up to degree n_max (I.9.10 to I.9.13).
+    """Inverse distance 1/R of two points by its expansion up to degree n_max (I.9.10 to I.9.13).
 
     Parameters
     ----------
     position, source : array_like, shape (..., 3)
-        Either may be the farther one from the origin, m.
+        The two points, in any order, m.
     n_max : int
         Last degree.
 
     Returns
     -------
     ndarray, shape (...)
-        m-1; `inverse_distance_bound` tells how far it may be off.
+        m-1; `inverse_distance_bound` bounds the truncation error.
 
     Raises
     ------
     UndefinedError
-        If both are equally far from the origin: the series does not converge there.
+        If both points are at the same distance from the origin, where the series does not converge.
     """
     near, far, r_far, _ = _near_and_far(position, source)
     total = np.zeros(r_far.shape)
@@ -90,7 +90,7 @@ def inverse_distance(position: ArrayLike, source: ArrayLike, n_max: int) -> Floa
 
 
 def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -> FloatArray:
-    """Largest error of `inverse_distance`: (r</r>)^(n_max + 1)/(r> - r<), m-1."""
+    """Bound on the truncation error of `inverse_distance`: (r</r>)^(n_max + 1)/(r> - r<), m-1."""
     near, _, r_far, gap = _near_and_far(position, source)
     ratio = np.sqrt(np.sum(near**2, axis=-1)) / r_far
     return np.asarray(ratio ** (degree("n_max", n_max) + 1) / gap)
@@ -98,7 +98,7 @@ def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -
 
 @dataclass(frozen=True)
 class Multipoles:
-    """Multipole moments of a body, and the potential that they give.
+    """Multipole moments of a body, and the potential derived from them.
 
     Attributes
     ----------
@@ -108,9 +108,9 @@ class Multipoles:
         By n and m >= 0, in kg: integral of dm (r'/radius)^n C*_nm outside, and of
         dm (radius/r')^(n + 1) C*_nm inside.
     radius : float
-        Where the series stops converging, and the unit of length of the moments, m.
+        Radius of convergence and unit of length of the moments, m.
     mass : float
-        Of all sources, kg.
+        Total mass of the sources, kg.
     """
 
     side: str
@@ -125,7 +125,7 @@ class Multipoles:
 
     @property
     def zonal(self) -> FloatArray:
-        """The zonal moments, m = 0, shape (n_max + 1,), kg: Z_n of `earthspin.mass.zonal`."""
+        """Zonal moments (m = 0), shape (n_max + 1,), kg: Z_n of `earthspin.mass.zonal`."""
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
@@ -136,7 +136,7 @@ class Multipoles:
         """
         if not abs(m) <= n <= self.n_max:
             raise UndefinedError(
-                f"moment n = {n}, m = {m} is not there; allowed: n to {self.n_max}, |m| to n"
+                f"moment n = {n}, m = {m} is not stored; allowed: n to {self.n_max}, |m| to n"
             )
         value = complex(self.moments[n, abs(m)])
         if m < 0:
@@ -154,11 +154,11 @@ class Multipoles:
         Raises
         ------
         UndefinedError
-            If a position is on the wrong side of the radius: the series diverges.
+            If a position is on the side of the radius where the series diverges.
         """
         scaled, ratio = self._converging(position)
         if self.side == "exterior":
-            # Inversion makes r^n C_nm into r^(-n-1) C_nm, up to the factor 1/r.
+            # Inversion turns r^n C_nm into r^(-n-1) C_nm, apart from the factor 1/r.
             scaled = scaled * ratio[..., np.newaxis] ** 2
         total = np.zeros(ratio.shape)
         for n, m, harmonic in solid_harmonics(scaled, self.n_max):
@@ -168,9 +168,9 @@ class Multipoles:
         return np.asarray(-G.value / self.radius * total)
 
     def truncation_bound(self, position: ArrayLike) -> FloatArray:
-        """Largest error that ending the series at n_max can make, m2 s-2.
+        """Bound on the error from truncating the series at n_max, m2 s-2.
 
-        G M/|r - radius| times (the smaller over the larger of the two)^(n_max + 1).
+        The bound is G M/|r - radius| q^(n_max + 1), where q < 1 is the ratio of r and radius.
         """
         _, ratio = self._converging(position)
         scale = G.value * self.mass / self.radius
@@ -179,7 +179,7 @@ class Multipoles:
         return np.asarray(scale * ratio ** (self.n_max + 1) / (1 - ratio))
 
     def _converging(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Position in units of the radius, and the ratio below 1 that the series runs in."""
+        """Position in units of the radius, and the convergence ratio below 1."""
         scaled = vectors("position", position) / self.radius
         r = np.sqrt(np.sum(scaled**2, axis=-1))
         wrong = r <= 1 if self.side == "exterior" else r >= 1
@@ -188,7 +188,7 @@ class Multipoles:
             raise UndefinedError(
                 f"the {self.side} series does not converge at r = "
                 f"{float(r[wrong].flat[0]) * self.radius:.6g} m; it holds {relation} "
-                f"{self.radius:.6g} m; elsewhere add up the masses themselves"
+                f"{self.radius:.6g} m; elsewhere sum over the masses directly"
             )
         return scaled, 1 / r if self.side == "exterior" else r
 
@@ -196,26 +196,27 @@ class Multipoles:
 def exterior_multipoles(
     masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
 ) -> Multipoles:
-    """Moments for the potential outside a body (I.9.20).
+    """Multipole moments for the potential outside a body (I.9.20).
 
     Parameters
     ----------
     masses : array_like, shape (k,)
         kg; for a density see `earthspin.mass.distribution.grid_masses`.
     positions : array_like, shape (k, 3)
-        From the origin of the expansion, m.
+        Positions relative to the origin of the expansion, m.
     n_max : int
         Last degree.
     radius : float, optional
-        Of a sphere about the origin that holds the whole body, m; that of the farthest mass
-        if not given. With point masses that stand for cells, give the farthest corner.
+        Radius of a sphere about the origin that contains the whole body, m. Default: the distance
+        of the farthest mass. For point masses that represent cells, give that of the farthest
+        corner.
     """
     m, r, distance = _sources(masses, positions)
     farthest = float(np.max(distance))
     outer = farthest if radius is None else float(radius)
     if not outer >= farthest or outer == 0:
         raise UndefinedError(
-            f"radius = {outer:g} m does not hold the mass at {farthest:g} m; give that or more"
+            f"radius = {outer:g} m does not contain the mass at {farthest:g} m; give that or more"
         )
     return Multipoles("exterior", _moments(m, r / outer, n_max), outer, float(np.sum(m)))
 
@@ -223,14 +224,14 @@ def exterior_multipoles(
 def interior_multipoles(
     masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
 ) -> Multipoles:
-    """Moments for the potential in the hollow of a body (below I.9.21).
+    """Multipole moments for the potential in the cavity of a body (below I.9.21).
 
     Parameters
     ----------
     masses, positions, n_max
         As for `exterior_multipoles`; no mass may be at the origin.
     radius : float, optional
-        Of an empty sphere about the origin, m; that of the nearest mass if not given.
+        Radius of an empty sphere about the origin, m. Default: the distance of the nearest mass.
     """
     m, r, distance = _sources(masses, positions)
     nearest = float(np.min(distance))
@@ -254,7 +255,7 @@ def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray
 
 
 def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """One body's masses, positions, and distances from the origin."""
+    """Masses, positions, and distances from the origin, of a single body."""
     m, r = point_masses(masses, positions)
     if r.ndim != 2:
         raise UndefinedError(f"positions have the shape {r.shape}; give one body, (k, 3)")
@@ -264,20 +265,20 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance; give also the larger distance and how much larger it is."""
-    one, other = np.broadcast_arrays(vectors("position", position), vectors("source", source))
-    r_one, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (one, other))
+    """Sort two points by distance; return also the larger distance and the difference."""
+    point, other = np.broadcast_arrays(vectors("position", position), vectors("source", source))
+    r_one, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
     if np.any(r_one == r_other):
         r = float(np.asarray(r_one)[r_one == r_other].flat[0])
         raise UndefinedError(
             f"both points are {r:.6g} m from the origin, where the series of 1/R does not "
-            f"converge; move one, or take 1/R itself"
+            f"converge; move one, or compute 1/R directly"
         )
     first = (r_one < r_other)[..., np.newaxis]
-    near, far = np.where(first, one, other), np.where(first, other, one)
+    near, far = np.where(first, point, other), np.where(first, other, point)
     return near, far, np.maximum(r_one, r_other), np.abs(r_one - r_other)
 
 
 def _neumann(m: int) -> int:
-    """Neumann's factor: 1 for m = 0, else 2 (I.9.13)."""
+    """Neumann's factor: 1 for m = 0, otherwise 2 (I.9.13)."""
     return 1 if m == 0 else 2

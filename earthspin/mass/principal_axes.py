@@ -1,8 +1,8 @@
-"""Principal axes and moments, degenerate bodies included (I.3).
+"""Principal axes and moments, including degenerate bodies (I.3).
 
-Where two moments agree, any two axes in their plane serve; where all agree, any three. The
-choice made here is repeatable, and the result says that it was a choice. A regular polygon
-is isotropic in its plane however it is turned: the tilted hexagon of I.6.2 too.
+If two moments are equal, their axes are arbitrary in their plane; if all three are equal, all axes
+are arbitrary. The choice made here is deterministic, and the result marks arbitrary axes. A regular
+polygon is isotropic in its plane at any orientation, including the tilted hexagon of I.6.2.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from earthspin.mass.tensor import check_inertia_tensor
 #: Moments closer than this, as a fraction of the largest, count as equal.
 EQUAL = 1e-13
 
-#: How rounding in a tensor moves its eigenvalues, as a fraction of the largest.
+#: Error of the eigenvalues from rounding of the tensor, as a fraction of the largest.
 _EIGENVALUE_ERROR = 4 * np.finfo(float).eps
 
 
@@ -32,18 +32,18 @@ class PrincipalAxes:
     moments : ndarray, shape (3,)
         A, B, C, kg m2.
     b_minus_a, c_minus_a, c_minus_b : float
-        Differences, from the tensor less its mean moment: they hold more digits than the
-        moments' own, kg m2.
+        Differences, kg m2, computed from the tensor minus its mean moment; more accurate than
+        differences of `moments`.
     axes : ndarray, shape (3, 3)
         Rows: unit vectors of the axes of A, B and C, right-handed. So `axes` is the rotation
         to the principal frame: v' = axes @ v, and axes @ I @ axes.T is diagonal.
     shape : str
         ``"sphere"`` (A = B = C), ``"oblate"`` (A = B), ``"prolate"`` (B = C) or ``"triaxial"``,
-        as the moments have it.
+        according to the moments.
     free : tuple of bool
-        For each axis, whether it is only a choice among equals.
+        For each axis, whether it is an arbitrary choice.
     angle_error : float
-        How far rounding of the tensor may have turned the axes that are not free, rad.
+        Possible rotation of the axes that are not free, due to rounding of the tensor, rad.
     """
 
     moments: FloatArray
@@ -59,9 +59,10 @@ class PrincipalAxes:
 def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
     """Diagonalize an inertia tensor (I.3.1).
 
-    Signs: in each axis the first component above 0.55 in size is positive, and the third axis
-    completes a right-handed set. Free axes: the first coordinate axis that stands well off the
-    fixed one is projected onto the plane; a sphere keeps the axes that the tensor came in.
+    Signs: the first component of each axis that exceeds 0.55 in absolute value is positive, and the
+    third axis completes a right-handed set. Free axes: the first coordinate axis at a large angle
+    to the fixed one is projected onto the plane; for a sphere the axes are those of the tensor's
+    frame.
 
     Parameters
     ----------
@@ -73,13 +74,13 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
     Raises
     ------
     BodyError
-        If no body can have the tensor.
+        If no body can have this tensor.
     """
     values = check_inertia_tensor(tensor)
     if values.ndim != 2:
         raise BodyError("rigid body", "inertia tensor", values.shape, "give one 3 x 3 tensor")
     mean = float(np.trace(values)) / 3
-    # The deviation keeps the digits of the differences of a nearly spherical body.
+    # Subtracting the mean avoids cancellation in the differences of a nearly spherical body.
     deviation, vectors = np.linalg.eigh(values - mean * np.eye(3))
     moments = np.maximum(mean + deviation, 0.0)
     b_minus_a, c_minus_b = (float(gap) for gap in np.diff(deviation))
@@ -101,7 +102,7 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
 def _choose(
     axes: FloatArray, same_ab: bool, same_bc: bool
 ) -> tuple[FloatArray, str, tuple[bool, bool, bool]]:
-    """Fix signs, and choose where the moments leave a choice."""
+    """Choose signs, and the axes that the moments leave arbitrary."""
     if same_ab and same_bc:
         return np.eye(3), "sphere", (True, True, True)
     if same_ab:
@@ -117,13 +118,13 @@ def _choose(
 
 
 def _signed(axis: FloatArray) -> FloatArray:
-    """The axis or its opposite; some component of a unit vector always exceeds 0.577."""
+    """The axis or its opposite, by the sign of its first component above 0.55 in size."""
     leading = axis[np.argmax(np.abs(axis) > 0.55)]
     return np.asarray(axis * np.sign(leading))
 
 
 def _across(pole: FloatArray) -> FloatArray:
-    """Unit vector at right angles to the pole, from a coordinate axis that is far from it."""
+    """Unit vector perpendicular to the pole, from a coordinate axis at a large angle to it."""
     coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
     across = coordinate - pole * np.dot(coordinate, pole)
     return np.asarray(across / np.linalg.norm(across))

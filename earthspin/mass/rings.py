@@ -1,10 +1,10 @@
-"""Toys of a distant mass and a few glued point masses (I.8.1 to I.8.5).
+"""Torque of a distant mass on dumbbells, rings and ellipses of point masses (I.8.1 to I.8.5).
 
-A dumbbell turns towards the distant mass; on a ring the dumbbells cancel, on an ellipse they
-do not. A ring of N masses keeps a torque of its own, N - 2 powers of (radius/distance)
-smaller: only the full circle has none. Angles run from the line to the distant mass to the
-dumbbell (or the first mass, or the long axis), counterclockwise; torques are about the centre,
-counterclockwise positive.
+A dumbbell experiences a torque towards the distant mass. The torques on the dumbbells of a ring
+cancel to leading order; those on an ellipse do not. A ring of N masses has a residual torque,
+smaller by N - 2 powers of (radius/distance); only a continuous circle has none. Angles are
+counter-clockwise from the line to the distant mass to the dumbbell (or first mass, or long axis);
+torques are about the centre, counter-clockwise positive.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from earthspin.mass.distribution import centre_of_mass, point_masses
 def torque_on_masses(
     gm: float, position: ArrayLike, masses: ArrayLike, positions: ArrayLike
 ) -> FloatArray:
-    """Torque of one mass on rigidly joined point masses, about their centre of mass, exact.
+    """Exact torque of one mass on rigidly connected point masses, about their centre of mass.
 
-    With s from the centre of mass to a mass m, d to the one that pulls,
-    N = sum of GM m (s x d)/|d - s|^3. As m s adds up to zero, 1/|d - s|^3 may be replaced by its
-    excess over 1/d3, which keeps the digits when d is larger than the body.
+    With s from the centre of mass to a mass m, and d to the distant mass,
+    N = sum of GM m (s x d)/|d - s|^3. As the sum of m s is zero, 1/|d - s|^3 may be replaced by its
+    excess over 1/d3, which avoids cancellation if d is larger than the body.
 
     Parameters
     ----------
     gm : float
-        Of the mass that pulls, m3 s-2.
+        Gravitational parameter of the distant mass, m3 s-2.
     position : array_like, shape (..., 3)
-        Of the mass that pulls, m.
+        Position of the distant mass, m.
     masses : array_like, shape (k,)
         kg.
     positions : array_like, shape (k, 3)
@@ -47,7 +47,7 @@ def torque_on_masses(
     Raises
     ------
     UndefinedError
-        If the mass that pulls stands on one of the others.
+        If the distant mass coincides with one of the others.
     """
     mu = float(positive("point mass", "gm", gm))
     m, r = point_masses(masses, positions)
@@ -56,7 +56,7 @@ def torque_on_masses(
     apart = np.sqrt(np.sum((d - s) ** 2, axis=-1))
     distance = np.sqrt(np.sum(d * d, axis=-1))
     if np.any(apart == 0):
-        raise UndefinedError("the mass that pulls stands on one of the masses; move it away")
+        raise UndefinedError("the distant mass coincides with one of the masses; move it away")
     outside = distance > np.max(np.sqrt(np.sum(s * s, axis=-1)))
     inverse_cubes = np.where(outside, _inverse_cube_excess(s, d, apart), apart**-3.0)
     weighted = (m * inverse_cubes)[..., np.newaxis] * np.cross(s, d)
@@ -64,7 +64,7 @@ def torque_on_masses(
 
 
 def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
-    """Masses evenly spaced on a circle in the xy plane (I.8.1), shape (count, 3), m.
+    """Positions of masses evenly spaced on a circle in the xy plane (I.8.1), shape (count, 3), m.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
     radius : float
         m.
     angle : float
-        Of the first mass from x, rad.
+        Angle of the first mass from x, rad.
     """
     return ellipse_positions(count, radius, radius, tilt=angle)
 
@@ -81,7 +81,7 @@ def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
 def ellipse_positions(
     count: int, long_axis: float, short_axis: float, tilt: float = 0.0, start: float = 0.0
 ) -> FloatArray:
-    """Masses on an ellipse in the xy plane, evenly spaced in eccentric angle (I.8.4).
+    """Positions of masses on an ellipse in the xy plane, evenly spaced in eccentric angle (I.8.4).
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def ellipse_positions(
     long_axis, short_axis : float
         Semi-axes, m.
     tilt : float
-        Of the first semi-axis from x, rad.
+        Angle of the first semi-axis from x, rad.
     start : float
         Eccentric angle of the first mass, rad.
 
@@ -114,20 +114,20 @@ def dumbbell_torque(
 ) -> FloatArray:
     """Torque on two masses m at +r and -r, to leading order (I.8.2), N m.
 
-    -6 GM m r2/b3 sin(angle) cos(angle). Two dumbbells that mirror each other in the line to
-    the distant mass cancel if their radii agree (I.8.3), and leave
-    6 GM m (r2^2 - r1^2)/b3 sin(angle) cos(angle) if not (I.8.5): add them up.
+    The torque is -6 GM m r2/b3 sin(angle) cos(angle). The torques on two dumbbells that are mirror
+    images in the line to the distant mass cancel if their radii are equal (I.8.3); otherwise their
+    sum is 6 GM m (r2^2 - r1^2)/b3 sin(angle) cos(angle) (I.8.5).
 
     Parameters
     ----------
     gm : float
-        Of the distant mass, m3 s-2.
+        Gravitational parameter of the distant mass, m3 s-2.
     distance : float
-        b, m.
+        Distance b of the distant mass, m.
     mass : float
-        Of each of the two, kg.
+        Mass of each of the two, kg.
     radius : float
-        Of each from the centre, m.
+        Distance of each from the centre, m.
     angle : float
         From the line to the distant mass to the dumbbell, rad.
     """
@@ -144,14 +144,14 @@ def ring_torque(
     count: int,
     angle: ArrayLike,
 ) -> FloatArray:
-    """Torque on N masses evenly spaced on a circle, to its leading order, N m.
+    """Torque on N masses evenly spaced on a circle, to leading order, N m.
 
-    Zero to the order of (I.8.3) if N > 2. Of the potential of degree N one part turns with the
-    ring, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x + ..., hence
+    It is zero to the order of (I.8.3) if N > 2. The leading torque comes from the potential of
+    degree N, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x + ..., and is
 
         -2 N^2 (2N)!/(2^N N!)^2 GM m r^N/b^(N+1) sin(N angle)
 
-    which for N = 2 is the dumbbell's.
+    which for N = 2 is the torque on a dumbbell.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def ellipse_torque(
 ) -> FloatArray:
     """Torque on N masses on an ellipse, evenly spaced in eccentric angle, leading order, N m.
 
-    The dumbbells of (I.8.5) added up: -(3/2) N GM m (p2 - q2)/b3 sin(tilt) cos(tilt), for
+    The sum over the dumbbells of (I.8.5) is -(3/2) N GM m (p2 - q2)/b3 sin(tilt) cos(tilt), for
     semi-axes p and q. It turns the long axis towards the distant mass.
 
     Parameters
@@ -190,7 +190,7 @@ def ellipse_torque(
     long_axis, short_axis : float
         Semi-axes p and q, m.
     count : int
-        N, at least 3: from there on the place of the first mass does not matter.
+        N, at least 3, so that the position of the first mass does not matter.
     tilt : float
         From the line to the distant mass to the first semi-axis, rad.
     """
@@ -203,19 +203,19 @@ def ellipse_torque(
 
 
 def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
-    """GM m of the distant mass and one of the others, N m2."""
+    """Product GM m of the distant mass and one of the others, N m2."""
     mu = positive("point mass", "gm", gm)
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
 def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Distance of the mass that pulls, and the radius as a fraction of it."""
+    """Distance of the distant mass, and the radius divided by it."""
     b = positive("point mass", "distance", distance)
     return b, np.asarray(positive("point masses", "radius", radius) / b)
 
 
 def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
-    """1/|d - s|^3 - 1/d3, without loss when s is small beside d; zero for d = 0."""
+    """Difference 1/|d - s|^3 - 1/d3 without cancellation for small s; zero for d = 0."""
     square = np.sum(d * d, axis=-1)
     inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
     q = np.sum(s * (s - 2 * d), axis=-1) * inverse
@@ -229,6 +229,6 @@ def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> Flo
 
 
 def _check_count(count: int, least: int) -> None:
-    """Refuse too few masses."""
+    """Refuse a number of masses below the minimum."""
     if degree("count", count) < least:
         raise UndefinedError(f"count = {count} masses are too few; give {least} or more")

@@ -1,8 +1,8 @@
-r"""From where mass lies to the numbers of a body: moments, axes, J2 to J4, triaxiality.
+r"""Numbers of a body from its mass distribution: moments, axes, J2 to J4, triaxiality.
 
-Whatever the mass is given by, it comes as points: point masses themselves, Gauss points in the
-cells of a grid, or in the tetrahedra of a mesh. About the centre of mass, along the principal axes
-and with C the polar one,
+Every distribution is represented by points: point masses, or Gauss points in the cells of a grid or
+the tetrahedra of a mesh. About the centre of mass, along the principal axes, with C the polar
+moment,
 
     J_n = -(1/(M a^n)) sum of m r^n P_n(cos theta),    J2 = (C - (A + B)/2)/(M a^2).
 """
@@ -23,7 +23,7 @@ from earthspin.mass.mesh import closed_mesh, solid_points
 from earthspin.mass.principal_axes import PrincipalAxes, principal_axes
 from earthspin.mass.tensor import tensor_of_second_moments
 
-#: Masses and places, piece by piece, for polynomials of a degree.
+#: Function from the degree of the polynomials to integrate, to blocks of masses and positions.
 Pieces = Callable[[int], Iterable[tuple[FloatArray, FloatArray]]]
 #: Gauss points along each edge of a cell: exact up to degree 5.
 POINTS = 3
@@ -31,18 +31,18 @@ POINTS = 3
 
 @dataclass(frozen=True)
 class Shape:
-    """Mass, place and figure of a solid.
+    """Mass, centre of mass and figure of a solid.
 
     Attributes
     ----------
     mass : float
         kg.
     centre : ndarray, shape (3,)
-        Of mass, along the axes of what was given, m.
+        Centre of mass, in the frame of the input, m.
     principal : PrincipalAxes
         Moments A <= B <= C about the centre, kg m2, and their axes.
     radius : float
-        That J2, J3 and J4 refer to, m.
+        Reference radius of J2, J3 and J4, m.
     j2, j3, j4 : float
         Zonal coefficients about the axis of C, unnormalised.
     """
@@ -57,20 +57,20 @@ class Shape:
 
     @property
     def dynamical_flattening(self) -> float:
-        """H = (C - (A + B)/2)/C."""
-        of = self.principal
-        return float((of.c_minus_a + of.c_minus_b) / 2 / of.moments[2])
+        """Dynamical flattening H = (C - (A + B)/2)/C."""
+        principal = self.principal
+        return float((principal.c_minus_a + principal.c_minus_b) / 2 / principal.moments[2])
 
     @property
     def triaxiality(self) -> float:
-        """(B - A)/(M a2)."""
+        """Triaxiality (B - A)/(M a2)."""
         return self.principal.b_minus_a / (self.mass * self.radius**2)
 
     @classmethod
     def of_masses(
         cls, masses: ArrayLike, positions: ArrayLike, radius: float | None = None
     ) -> Self:
-        """Of point masses.
+        """Shape of point masses.
 
         Parameters
         ----------
@@ -79,13 +79,13 @@ class Shape:
         positions : array_like, shape (k, 3)
             m.
         radius : float, optional
-            That coefficients refer to, m; if not given, the distance of the farthest mass from the
-            centre.
+            Reference radius of the coefficients, m. Default: the distance of the farthest mass from
+            the centre.
 
         Raises
         ------
         BodyError, UndefinedError
-            If a mass is not above zero, shapes do not match, or all lie in one point.
+            If a mass is not positive, the shapes do not match, or all masses are at one point.
         """
         m, r = point_masses(masses, positions)
         if r.ndim != 2:
@@ -101,16 +101,16 @@ class Shape:
         z: ArrayLike,
         radius: float | None = None,
     ) -> Self:
-        """Of a density that is constant in each cell of a grid; exact for such cells.
+        """Shape of a density that is constant in each cell of a grid; exact for such cells.
 
         Parameters
         ----------
         density : array_like, shape (nx, ny, nz)
-            kg m-3; empty cells hold zero.
+            kg m-3; zero in empty cells.
         x, y, z : array_like
-            Edges of the cells, rising, m.
+            Edges of the cells in increasing order, m.
         radius : float, optional
-            As for `of_masses`; if not given, that of the farthest corner of a cell with mass.
+            As for `of_masses`. Default: the distance of the farthest corner of a cell with mass.
         """
         m, r = grid_masses(density, x, y, z, points=POINTS)
         edges = (np.asarray(edge, dtype=float) for edge in (x, y, z))
@@ -132,24 +132,24 @@ class Shape:
         mass: float | None = None,
         radius: float | None = None,
     ) -> Self:
-        """Of a homogeneous solid between triangles; exact for flat faces.
+        """Shape of a homogeneous solid bounded by triangles; exact for flat faces.
 
         Parameters
         ----------
         vertices, faces
             As for `earthspin.mass.mesh.closed_mesh`.
         density, mass : float
-            One of them: kg m-3, or kg.
+            Exactly one of the two, kg m-3 or kg.
         radius : float, optional
-            As for `of_masses`; if not given, that of the farthest vertex.
+            As for `of_masses`. Default: the distance of the farthest vertex.
 
         Raises
         ------
         BodyError
-            If the mesh is open, turned inside out, or not one of density and mass is given.
+            If the mesh is open or inside out, or not exactly one of density and mass is given.
         """
         if (density is None) == (mass is None):
-            raise BodyError("mesh", "density", density, "give density or mass, one of the two")
+            raise BodyError("mesh", "density", density, "give either density or mass")
         places, corners = closed_mesh(vertices, faces)
         middle = places.mean(axis=0)
 
@@ -166,19 +166,17 @@ class Shape:
 
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Of points; the outline is what the farthest place is looked for among."""
+        """Shape of weighted points; `outline` has the candidates for the farthest point."""
         try:
             with np.errstate(over="raise", divide="raise", invalid="raise"):
                 return cls._summed(pieces, outline, radius)
         except FloatingPointError as error:
-            words = (
-                f"masses and lengths go beyond what can be computed ({error}); check their sizes"
-            )
+            words = f"masses or lengths are out of a float's range ({error}); check their sizes"
             raise UndefinedError(words) from None
 
     @classmethod
     def _summed(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Add up the moments of points."""
+        """Shape from sums over weighted points."""
         mass = sum(float(np.sum(m)) for m, _ in pieces(0))
         centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
         second = np.zeros((3, 3))

@@ -1,6 +1,6 @@
-"""The homogeneous spheroid, exact: potential, attraction, torque (reader exercise I.9.3).
+"""Exact potential, attraction and torque of a homogeneous spheroid (reader exercise I.9.3).
 
-With the semi-axes a, a, c, let lambda be zero inside and the confocal coordinate outside, the
+With the semi-axes a, a, c, let lambda be zero inside, and outside the confocal coordinate, the
 largest root of
 
     (x2 + y2)/(a2 + lambda) + z2/(c2 + lambda) = 1
@@ -18,8 +18,9 @@ Carlson's functions, and in Gauss's for the difference that drives the torque,
     I0 = 2 R_C(T, U)    A1 = (2/3) R_D(T, U, U)    A3 = (2/3) R_D(U, U, T)
     A3 - A1 = (2/5) E2 T^(-3/2) U^(-1) 2F1(1, 3/2; 7/2; -E2/T)
 
-These hold for oblate (E2 > 0), prolate (E2 < 0) and sphere alike, with no branch between them
-and no subtraction: the textbook arctangents lose all digits of the torque at the Sun's distance.
+These expressions hold for oblate (E2 > 0), prolate (E2 < 0) and spherical bodies, without branches
+and without subtraction; the textbook arctangents lose all digits of the torque at the Sun's
+distance.
 Everything is computed in units of the equatorial radius, from the flattening.
 """
 
@@ -36,25 +37,25 @@ from earthspin.mass._checks import FloatArray, first, positive, vectors
 from earthspin.mass.figure import check_flattening, eccentricity_squared
 
 _BODY = "spheroid"
-#: Farther away, in radii, the fifth power of the distance overflows.
+#: Largest distance, in radii; beyond, the fifth power of the distance overflows.
 _FARTHEST = 1e50
 
-#: Relative error that the closed form keeps away from the focal ring. Measured: 7e-15 on 3000
-#: spheroids, disc to needle.
+#: Bound on the relative error of the closed form away from the focal ring. Measured: 7e-15 for 3000
+#: spheroids from disc to needle.
 CLOSED_FORM_ERROR = 5e-14
 
 
 class AttractionIntegrals(NamedTuple):
-    """The integrals that potential, attraction and torque are made of.
+    """Integrals in the formulas for potential, attraction and torque.
 
     Attributes
     ----------
     i0 : ndarray
-        Of the potential, m-1.
+        Integral I0 of the potential, m-1.
     a1, a3 : ndarray
-        Of the attraction across and along the axis, m-3.
+        Integrals A1 and A3 of the attraction perpendicular to and along the axis, m-3.
     difference : ndarray
-        A3 - A1, formed without subtraction, m-3.
+        A3 - A1, computed without subtraction, m-3.
     """
 
     i0: FloatArray
@@ -64,7 +65,7 @@ class AttractionIntegrals(NamedTuple):
 
 
 def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """U and T: squared semi-axes of the confocal spheroid through a point, at least the body's.
+    """Squared semi-axes U, T of the confocal spheroid through a point; inside, of the body.
 
     Parameters
     ----------
@@ -81,7 +82,7 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
     f = check_flattening(flattening)
     oblate = f >= 0
     focal, p, w = _quadratic(f, np.asarray(position, dtype=float) ** 2)
-    # Either root formula adds equal signs only.
+    # Both root formulas add terms of equal sign.
     q = np.hypot(p, 2 * np.sqrt(w)) + np.abs(p)
     smaller = np.where(p >= 0, q / 2, 2 * w / np.maximum(q, np.finfo(float).tiny))
     # Inside the body lambda stays zero.
@@ -92,7 +93,10 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Squared focal distance, and p and w of s2 - p s - w = 0 for the smaller square s."""
+    """Squared focal distance, and p and w of s2 - p s - w = 0.
+
+    s is the smaller squared semi-axis.
+    """
     focal = np.abs(eccentricity_squared(f))
     p = np.sum(square, axis=-1) - focal
     w = focal * np.where(f >= 0, square[..., 2], square[..., 0] + square[..., 1])
@@ -100,12 +104,12 @@ def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Relative error of potential, attraction and torque, of which rounding is the most.
+    """Bound on the relative error of potential, attraction and torque, mainly from rounding.
 
     Near the focal ring (the rim of a thin disc, the tips of a needle) the confocal coordinate
-    magnifies the rounding of the position: no method can know the field better than that. A unit
-    in the last place moves p by the sum of what it is made of, and the smaller root by that over
-    the square root of its discriminant.
+    amplifies the rounding error of the position, which limits every method. One unit in the last
+    place changes p by the sum of its terms, and the smaller root by that change divided by the
+    square root of the discriminant.
 
     Parameters
     ----------
@@ -117,7 +121,8 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray, shape (...)
-        Measured on 3000 points down to 1e-8 radii from the ring: the error stays below half of it.
+        The bound. Measured errors of 3000 points, down to 1e-8 radii from the ring, are below half
+        of it.
     """
     f = check_flattening(flattening)
     square = np.asarray(position, dtype=float) ** 2
@@ -131,7 +136,7 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
 def attraction_integrals(
     radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> AttractionIntegrals:
-    """I0, A1, A3 and A3 - A1 at a point inside, on or outside the spheroid.
+    """Integrals I0, A1, A3 and A3 - A1 at a point inside, on or outside the spheroid.
 
     Parameters
     ----------
@@ -145,7 +150,7 @@ def attraction_integrals(
     Raises
     ------
     UndefinedError
-        Beyond 10^50 radii, where powers of the distance overflow.
+        If a position is beyond 10^50 radii, where powers of the distance overflow.
     """
     a = positive(_BODY, "radius", radius)
     scaled = vectors("position", position) / a[..., np.newaxis]
@@ -169,12 +174,12 @@ def attraction_integrals(
 def spheroid_potential(
     gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> FloatArray:
-    """Gravitational potential of a homogeneous spheroid, exact, negative.
+    """Exact gravitational potential of a homogeneous spheroid, negative.
 
     Parameters
     ----------
     gm : array_like
-        Of the spheroid, m3 s-2.
+        Gravitational parameter of the spheroid, m3 s-2.
     radius : array_like
         Equatorial radius, m.
     flattening : array_like
@@ -190,7 +195,7 @@ def spheroid_potential(
     Raises
     ------
     BodyError
-        If gm or the radius is not above zero, or the flattening out of range.
+        If gm or the radius is not positive, or the flattening is out of range.
     """
     mu = positive(_BODY, "gm", gm)
     r = vectors("position", position)
@@ -202,7 +207,7 @@ def spheroid_potential(
 def spheroid_attraction(
     gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> FloatArray:
-    """Acceleration that a homogeneous spheroid gives, exact.
+    """Exact gravitational acceleration due to a homogeneous spheroid.
 
     Parameters
     ----------
@@ -228,19 +233,19 @@ def spheroid_torque(
     point_mass: ArrayLike,
     position: ArrayLike,
 ) -> FloatArray:
-    """Torque on a homogeneous spheroid from a point mass, exact, about the spheroid's centre.
+    """Exact torque on a homogeneous spheroid by a point mass, about the spheroid's centre.
 
-    Far away it tends to 3 G m (C - A) z (r x k)/r5 (I.9.34). A mass on the axis, in the plane
-    of the equator or beside a sphere gives exactly zero.
+    At large distance it tends to 3 G m (C - A) z (r x k)/r5 (I.9.34). It is exactly zero for a mass
+    on the axis or in the plane of the equator, and for a sphere.
 
     Parameters
     ----------
     gm, radius, flattening
         Of the spheroid, as for `spheroid_potential`.
     point_mass : array_like
-        The mass that pulls, kg.
+        Mass of the attracting body, kg.
     position : array_like, shape (..., 3)
-        Of that mass, from the centre, z along the axis, m.
+        Position of that mass from the centre, z along the axis, m.
 
     Returns
     -------

@@ -1,8 +1,8 @@
-"""The inertia tensor: built, moved, turned, and what it gives (I.1, I.3).
+"""Inertia tensor: construction, change of origin and frame, and derived quantities (I.1, I.3).
 
     I = sum of m (r2 1 - r r)        (I.1.3, I.1.5)
 
-A density on a grid becomes point masses first, see `earthspin.mass.distribution`.
+For a density on a grid, first compute point masses with `earthspin.mass.distribution`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from earthspin.mass._checks import FloatArray, positive, vectors
 from earthspin.mass.distribution import point_masses
 from earthspin.mass.figure import spheroid_moments
 
-#: What rounding may do to a tensor, as a fraction of its largest component.
+#: Tolerance for rounding errors in a tensor, as a fraction of its largest component.
 ROUNDING = 1e-12
 
 _BODY = "rigid body"
@@ -33,7 +33,7 @@ def inertia_tensor(
     positions : array_like, shape (..., k, 3)
         m.
     about : array_like, shape (3,), optional
-        The point it refers to, m; the origin if not given.
+        Reference point, m; the origin by default.
 
     Returns
     -------
@@ -52,14 +52,14 @@ def spheroid_tensor(
     flattening: ArrayLike,
     about: ArrayLike = (0.0, 0.0, 0.0),
 ) -> FloatArray:
-    """Inertia tensor of a homogeneous spheroid, axis along z, exact.
+    """Exact inertia tensor of a homogeneous spheroid with its axis along z.
 
     Parameters
     ----------
     mass, radius, flattening
         As for `earthspin.mass.figure.spheroid_moments`.
     about : array_like, shape (..., 3)
-        The point it refers to, from the centre of the spheroid, m.
+        Reference point, from the centre of the spheroid, m.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def spheroid_tensor(
 
 
 def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Move a tensor from the centre of mass to another point: the parallel axes.
+    """Move a tensor from the centre of mass to another point, by the parallel axis theorem.
 
     Parameters
     ----------
@@ -88,16 +88,15 @@ def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) ->
 
 
 def tensor_about_centre(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Move a tensor to the centre of mass, the inverse of `tensor_about_point`.
+    """Move a tensor to the centre of mass: inverse of `tensor_about_point`.
 
-    The result is a difference: it keeps the fewer digits, the farther the point lies outside
-    the body.
+    The result is a difference and loses more digits the farther the point is from the body.
     """
     return np.asarray(np.asarray(tensor, dtype=float) - _offset_tensor(mass, offset))
 
 
 def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
-    """L = I omega (I.1.4).
+    """Angular momentum L = I omega (I.1.4).
 
     Parameters
     ----------
@@ -115,7 +114,7 @@ def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
 
 
 def kinetic_energy(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
-    """T = omega . I omega/2 (I.1.7), J; arguments as for `angular_momentum`."""
+    """Kinetic energy T = omega . I omega/2 (I.1.7), J; arguments as for `angular_momentum`."""
     w = np.asarray(omega, dtype=float)
     return np.asarray(np.sum(w * angular_momentum(tensor, w), axis=-1) / 2)
 
@@ -128,7 +127,7 @@ def moment_about_axis(tensor: ArrayLike, axis: ArrayLike) -> FloatArray:
     tensor : array_like, shape (..., 3, 3)
         About a point on the axis, kg m2.
     axis : array_like, shape (..., 3)
-        Direction of the axis, of any length but zero.
+        Direction of the axis, of any nonzero length.
 
     Returns
     -------
@@ -162,7 +161,7 @@ def change_frame(tensor: ArrayLike, rotation: ArrayLike) -> FloatArray:
     departure = float(np.max(np.abs(r @ np.swapaxes(r, -1, -2) - np.eye(3))))
     if not departure <= ROUNDING:
         raise UndefinedError(
-            f"rotation departs from an orthogonal matrix by {departure:.3g}; "
+            f"rotation differs from an orthogonal matrix by {departure:.3g}; "
             f"at most {ROUNDING:g} is allowed"
         )
     turned = r @ np.asarray(tensor, dtype=float) @ np.swapaxes(r, -1, -2)
@@ -170,9 +169,9 @@ def change_frame(tensor: ArrayLike, rotation: ArrayLike) -> FloatArray:
 
 
 def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
-    """Return a tensor that a body can have.
+    """Return an inertia tensor as an array; refuse one that no body can have.
 
-    One moment may be zero: that of a straight line of masses about itself.
+    One moment may be zero, for masses on a straight line.
 
     Parameters
     ----------
@@ -182,8 +181,8 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
     Raises
     ------
     BodyError
-        If it is not symmetric, if a moment is negative or all are zero, or if one moment
-        exceeds the sum of the other two. Each up to rounding, 10^-12 of the largest component.
+        If it is not symmetric, if a moment is negative or all are zero, or if one moment exceeds
+        the sum of the other two, beyond a tolerance of 10^-12 of the largest component.
     """
     values = np.asarray(tensor, dtype=float)
     if values.shape[-2:] != (3, 3) or not np.all(np.isfinite(values)):
@@ -212,21 +211,23 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
     return values
 
 
-def _refuse(wrong: FloatArray, field: str, given: FloatArray, allowed: str) -> None:
-    """Raise for the first body that is wrong."""
+def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> None:
+    """Raise an error for the first invalid body."""
     if np.any(wrong):
-        raise BodyError(_BODY, field, given[wrong][0].tolist(), allowed)
+        raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
 
 
 def _offset_tensor(mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Tensor of the whole mass, gathered at one end of the offset, about the other."""
+    """Inertia tensor of a point mass at one end of the offset, about the other end."""
     m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
     outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
     return tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
 
 
 def tensor_of_second_moments(second: FloatArray) -> FloatArray:
-    """Trace times unit matrix less the second moments, each diagonal term a sum of two squares.
+    """Inertia tensor from second moments: trace times unit matrix minus the moments.
+
+    Each diagonal element is a sum of two squares, without cancellation.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 """Zonal moments of bodies of revolution (I.9.22 to I.9.30).
 
-All of them come from one kind of integral, in kg, with a reference radius s,
+All follow from one kind of integral, in kg, with a reference radius s,
 
     Z_n = integral of rho (r/s)^n P_n(cos theta) dV
 
     source:  J_n = -G s^n Z_n     V = sum of J_n P_n r^(-n-1)                   (I.9.23)
-    geodesy: J_n = -Z_n/M, s = a  V = -GM/r [1 - sum from 1 on of J_n (a/r)^n P_n]
+    geodesy: J_n = -Z_n/M, s = a  V = -GM/r [1 - sum over n >= 1 of J_n (a/r)^n P_n]
 
 The source's J2 is G (C - A), geodesy's (C - A)/(M a2). Z_n of point masses and grids is the
 `zonal` of `earthspin.mass.multipoles.Multipoles`.
@@ -24,7 +24,7 @@ from earthspin.mass._checks import FloatArray, degree, first, positive
 from earthspin.mass.figure import Moments, eccentricity_squared
 from earthspin.mass.legendre import orthonormal_functions
 
-#: Gauss points in the radius and in the cosine that are tried in turn.
+#: Successive numbers of Gauss points in the radius and in the cosine.
 _POINTS = (32, 64, 128, 256)
 
 DensityFunction = Callable[[FloatArray, FloatArray], FloatArray]
@@ -38,22 +38,22 @@ def zonal_integrals(
     radius: float,
     accuracy: float = 1e-12,
 ) -> FloatArray:
-    """Z_n of a star-like body of revolution, n = 0 to n_max, by quadrature (I.9.27).
+    """Integrals Z_n of a star-shaped body of revolution, n = 0 to n_max, by quadrature (I.9.27).
 
     Parameters
     ----------
     density : callable
         rho(r, theta) in kg m-3 from arrays of distances (m) and colatitudes (rad); smooth.
-        A body in layers is better served by `earthspin.mass.figure.layered_moments`.
+        For a layered body use `earthspin.mass.figure.layered_moments`.
     perimeter : callable
-        r(theta), m: where the body ends.
+        Surface of the body, r(theta), m.
     n_max : int
         Last degree.
     radius : float
         Reference radius s, m.
     accuracy : float
-        Half-width that the integrals must reach, as a fraction of the mass (times the largest
-        (r/s)^n in the body).
+        Largest half-width of the integrals, as a fraction of the mass times the largest (r/s)^n in
+        the body.
 
     Returns
     -------
@@ -63,7 +63,8 @@ def zonal_integrals(
     Raises
     ------
     AccuracyError
-        If 256 points each way do not reach the accuracy: the density is not smooth.
+        If 256 points in each dimension do not reach the accuracy, as for a density that is not
+        smooth.
     """
     scale = float(positive("body", "radius", radius))
     degrees = np.arange(degree("n_max", n_max) + 1)[:, np.newaxis, np.newaxis]
@@ -77,9 +78,9 @@ def zonal_integrals(
 def moments_of_density(
     density: DensityFunction, perimeter: PerimeterFunction, accuracy: float = 1e-12
 ) -> Moments:
-    """A, C and C - A of a star-like body of revolution, by quadrature (I.9.28, I.9.29).
+    """Moments A, C and C - A of a star-shaped body of revolution, by quadrature (I.9.28, I.9.29).
 
-    C - A = -integral of rho r2 P2 is an integral of its own, not a difference.
+    C - A = -integral of rho r2 P2 is integrated directly, not computed as a difference.
 
     Parameters
     ----------
@@ -99,21 +100,24 @@ def moments_of_density(
 
 
 def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
-    """The source's J_n = -G s^n Z_n (I.9.23), m^(n+3) s-2; J0 = -GM, J2 = G (C - A)."""
+    """Zonal moments J_n = -G s^n Z_n of the source (I.9.23), m^(n+3) s-2.
+
+    J0 = -GM and J2 = G (C - A).
+    """
     z = np.asarray(integrals, dtype=float)
     return np.asarray(-G.value * float(radius) ** np.arange(z.size) * z)
 
 
 def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
-    """Geodesy's J_n = -Z_n/M, with J0 = -1; J2 = (C - A)/(M s2)."""
+    """Zonal coefficients J_n = -Z_n/M of geodesy, with J0 = -1; J2 = (C - A)/(M s2)."""
     z = np.asarray(integrals, dtype=float)
     return np.asarray(-z / positive("body", "mass", z[0]))
 
 
 def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
-    """Geodesy's J_n of a homogeneous spheroid, exact, s its equatorial radius.
+    """Exact zonal coefficients J_n of a homogeneous spheroid, with s its equatorial radius.
 
-    J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, the odd ones zero.
+    J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, and odd coefficients are zero.
     """
     e2 = float(eccentricity_squared(flattening))
     zonals = np.zeros(degree("n_max", n_max) + 1)
@@ -132,20 +136,20 @@ def zonal_potential(
     integrals : array_like, shape (n_max + 1,)
         Z_n, kg.
     radius : float
-        Their reference radius, of a sphere that holds the body, m.
+        Reference radius, of a sphere that contains the body, m.
     distance, colatitude : array_like
-        Of the points, m and rad; they broadcast.
+        Coordinates of the points, m and rad; they broadcast.
 
     Raises
     ------
     UndefinedError
-        At or below the radius, where the series need not converge.
+        If a distance is at or below the radius, where the series may diverge.
     """
     z = np.asarray(integrals, dtype=float)
     r, theta = np.broadcast_arrays(positive("point", "distance", distance), colatitude)
     if np.any(r <= radius):
         raise UndefinedError(
-            f"the zonal series need not converge at r = {first(r, r <= radius):.6g} m; "
+            f"the zonal series may diverge at r = {first(r, r <= radius):.6g} m; "
             f"give distances beyond {float(radius):.6g} m"
         )
     legendre = np.moveaxis(_polynomials(z.size - 1, np.cos(theta)), 0, -1)
@@ -154,7 +158,7 @@ def zonal_potential(
 
 
 def _polynomials(n_max: int, cosine: FloatArray) -> FloatArray:
-    """P_n for n = 0 to n_max along a new first axis."""
+    """Legendre polynomials P_n for n = 0 to n_max, along a new first axis."""
     functions = orthonormal_functions(n_max, cosine)
     norms = np.sqrt(np.arange(n_max + 1) + 0.5)
     return np.asarray(functions / norms.reshape(-1, *[1] * cosine.ndim))
@@ -166,7 +170,7 @@ def _integrate(
     integrand: Callable[[FloatArray, FloatArray], FloatArray],
     accuracy: float,
 ) -> FloatArray:
-    """Integrate rho times each integrand over the body; double the points until they agree."""
+    """Integrate rho times each integrand over the body, doubling the points until convergence."""
     previous, error, size = None, np.inf, np.inf
     for points in _POINTS:
         node, weight = np.polynomial.legendre.leggauss(points)

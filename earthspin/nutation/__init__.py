@@ -1,1 +1,1 @@
-"""Precession and nutation beside the IAU's: analysis, response, angles, budget."""
+"""Precession and nutation compared with the IAU models: analysis, response, angles, budget."""

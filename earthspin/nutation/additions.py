@@ -1,9 +1,9 @@
-r"""What IAU 2000A adds to a response: at single terms its authors correct the resonance form.
+r"""Terms that IAU 2000A adds to the resonance form of the transfer function.
 
 Mathews, Herring & Buffett (2002) multiply a rigid series by a resonance form (`response`) and add a
-few numbers: what the Sun-synchronous tide of the air does to the prograde year, what is of the
-second order at 18.6 years, and corrections of the form itself, largest beside the resonance of the
-core. A form that is fitted to the sum takes them for a shift of the resonance, or for a loss.
+few terms: the Sun-synchronous atmospheric tide in the prograde annual term, second-order effects at
+18.6 years, and corrections to the form itself, largest near the resonance of the core. If a form is
+fitted to the sum, these terms bias the frequency and the damping of the resonance.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ SOURCE = (
 
 
 class Addition(NamedTuple):
-    """What is added to one circle.
+    """Amplitude added to one circular term.
 
     Attributes
     ----------
     multiples : tuple of int
-        Of l, l', F, D and the node; negated for the circle that turns the other way.
+        Multiples of l, l', F, D and the node; negated for the circular term of opposite sense.
     in_phase, out_of_phase : float
-        uas, as `nutation.phases` has them.
+        Amplitudes in the convention of `circles.phases`, uas.
     """
 
     multiples: tuple[int, int, int, int, int]
@@ -40,7 +40,7 @@ class Addition(NamedTuple):
     out_of_phase: float
 
 
-#: All of a microarcsecond or more among the luni-solar terms that are analysed.
+#: All additions of 1 uas or more to the analysed luni-solar terms.
 ADDITIONS = (
     Addition((0, -1, 0, 0, 0), -86.6, 107.2),
     Addition((0, 1, 0, 0, 0), -9.8, 107.5),
@@ -62,18 +62,18 @@ ADDITIONS = (
 
 
 def added_to(multiples: NDArray[np.int64]) -> ComplexArray:
-    """What IAU 2000A adds to each of some circles; 0 to most.
+    """Amplitudes that IAU 2000A adds to circular terms; zero for most terms.
 
     Parameters
     ----------
     multiples : ndarray, shape (k, 5)
-        Of the Delaunay arguments.
+        Multiples of the Delaunay arguments.
 
     Returns
     -------
     ndarray, shape (k,), complex
         Factor of exp(i phi), rad.
     """
-    of = {one.multiples: complex(one.in_phase, one.out_of_phase) for one in ADDITIONS}
-    found = [of.get(tuple(multiple), 0j) for multiple in multiples.tolist()]
-    return -1j * UAS * np.array(found)
+    by_multiples = {row.multiples: complex(row.in_phase, row.out_of_phase) for row in ADDITIONS}
+    amplitudes = [by_multiples.get(tuple(multiple), 0j) for multiple in multiples.tolist()]
+    return -1j * UAS * np.array(amplitudes)

@@ -1,7 +1,7 @@
-"""One analysis for any pole: what is slow in it, and what circles.
+"""Separation of a pole's motion into a secular part and circular terms.
 
-The same least squares is put to our pole and to the IAU's, so that whatever it
-misses, it misses in both.
+The same least-squares fit is applied to the computed pole and to the IAU pole, so that errors of
+the method affect both equally.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ CENTURY = 100 * JULIAN_YEAR
 
 @dataclass(frozen=True)
 class Secular:
-    """Slow motion on the fixed ecliptic, polynomials in Julian centuries from J2000.0.
+    """Secular motion on the fixed ecliptic, as polynomials in Julian centuries from J2000.0.
 
     Attributes
     ----------
@@ -35,33 +35,33 @@ class Secular:
 
     @property
     def psi_rate(self) -> float:
-        """rad/s at J2000.0."""
+        """Rate of psi at J2000.0, rad/s."""
         return float(self.psi[1]) / CENTURY
 
     @property
     def omega_rate(self) -> float:
-        """rad/s at J2000.0."""
+        """Rate of omega at J2000.0, rad/s."""
         return float(self.omega[1]) / CENTURY
 
     def at(self, centuries: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Mean psi and omega at times in centuries, rad."""
+        """Mean psi and omega at times in Julian centuries from J2000.0, rad."""
         powers = centuries[:, np.newaxis] ** np.arange(len(self.psi))
         return powers @ self.psi, powers @ self.omega
 
 
 class PoleAnalysis:
-    """Analyses poles given at the same times.
+    """Analysis of poles given at one set of times.
 
     Parameters
     ----------
     days : ndarray, shape (t,)
-        From J2000.0.
+        Times, days from J2000.0.
     arguments : ndarray, shape (5, t)
         Delaunay arguments, rad.
     rates : ndarray, shape (5,)
         Their rates at J2000.0, rad/s.
     ecliptic : ndarray, shape (3, 3)
-        From the poles' axes to ecliptic and equinox of J2000.0.
+        Rotation from the frame of the poles to the ecliptic and equinox of J2000.0.
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class PoleAnalysis:
         self._sine = float(np.sin(EPSILON_0.value * ARCSEC))
 
     def secular(self, pole: FloatArray) -> Secular:
-        """Slow part of psi and omega of a pole, shape (t, 3)."""
+        """Secular part of psi and omega of a pole, shape (t, 3)."""
         psi, omega = on_fixed_ecliptic(pole, self.ecliptic).T
         slow = self._least_squares(psi * self._sine + 1j * omega).slow
         return Secular(slow.real / self._sine, slow.imag.copy())
@@ -85,13 +85,14 @@ class PoleAnalysis:
 def shifted_start(
     start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
-    """Axis to start with so that the slow part of our pole meets another's at the start.
+    """Initial axis for which the secular part of the computed pole matches another at the start.
 
     Parameters
     ----------
     start : ndarray, shape (3,)
-        Axis that was started with.
+        Initial axis of the previous integration.
     ours, wanted : Secular
+        Secular motion that `start` led to, and the motion to match.
     ecliptic : ndarray, shape (3, 3)
     epoch : float
         Time of the start, Julian centuries from J2000.0.

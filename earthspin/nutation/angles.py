@@ -1,12 +1,11 @@
-r"""The angles of precession, of any pole: psi_A, omega_A on the fixed ecliptic, and the others.
+r"""Precession angles of a pole: psi_A and omega_A on the fixed ecliptic, eps_A, chi_A and p_A.
 
 With the pole u and the pole e of the moving ecliptic in the axes of ecliptic and equinox of
 J2000.0,
 
     u = (sin(omega) sin(psi), sin(omega) cos(psi), cos(omega)),     cos(eps) = u . e
 
-Torques move u alone. eps_A, chi_A and p_A need the ecliptic of date besides, which comes from
-elsewhere.
+Torques change u only. eps_A, chi_A and p_A also depend on the ecliptic of date, which is an input.
 """
 
 from __future__ import annotations
@@ -16,45 +15,45 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: In the order of `precession_angles`.
+#: Names of the angles, in the order of `precession_angles`.
 ANGLES = ("psi_A", "omega_A", "eps_A", "chi_A", "p_A")
 
 
 def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
-    """Longitude psi and inclination omega of a pole, rad, shape (n, 2).
+    """Longitude psi and inclination omega of a pole on the fixed ecliptic, rad, shape (n, 2).
 
     Parameters
     ----------
     pole : ndarray, shape (n, 3)
         Unit vectors.
     ecliptic : ndarray, shape (3, 3)
-        From their axes to ecliptic and equinox of the epoch.
+        Rotation from the frame of the pole to the ecliptic and equinox of the epoch.
     """
     x, y, z = ecliptic @ pole.T
     return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z)], axis=-1)
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Longitudes with the whole turns that bring them nearest to a guide, rad, one shape."""
+    """Longitudes unwrapped to the turn nearest to a guide, rad, same shape."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
 def pole_from(psi: FloatArray, omega: FloatArray) -> FloatArray:
-    """Unit vector of the pole in the axes of the fixed ecliptic, shape (n, 3)."""
+    """Unit vector of the pole in the frame of the fixed ecliptic, shape (n, 3)."""
     return np.stack(
         [np.sin(omega) * np.sin(psi), np.sin(omega) * np.cos(psi), np.cos(omega)], axis=-1
     )
 
 
 def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
-    """All five angles, rad, shape (n, 5), in the order of `ANGLES`.
+    """Five precession angles, rad, shape (n, 5), in the order of `ANGLES`.
 
     Parameters
     ----------
     psi, omega : ndarray, shape (n,)
-        Of the mean pole on the fixed ecliptic, rad.
+        Angles of the mean pole on the fixed ecliptic, rad.
     ecliptic_pole : ndarray, shape (n, 3)
-        Pole of the moving ecliptic in the axes of the fixed one.
+        Pole of the moving ecliptic in the frame of the fixed one.
     """
     u, e = pole_from(psi, omega), ecliptic_pole
     across = np.cross(u, e)  # towards the equinox of date
@@ -71,25 +70,25 @@ def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArra
     Parameters
     ----------
     pole, ecliptic_pole : ndarray, shape (..., 3)
-        Mean pole and pole of the moving ecliptic in the axes of the fixed one.
+        Mean pole and pole of the moving ecliptic, in the frame of the fixed one.
     """
     return _along_the_moving_ecliptic(np.cross(pole, ecliptic_pole), ecliptic_pole)
 
 
 def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray:
-    """Angle from the equinox of date to the origin, carried along without turning (Lieske 1977)."""
+    """Angle from the equinox of date to the origin, which moves without rotation (Lieske 1977)."""
     x, z = np.eye(3)[[0, 2]]
     origin = x - (e[..., :1] / (1 + e[..., 2:])) * (e + z)
     return _angle_about(e, equinox, origin)
 
 
 def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
-    """Coefficients of angles as polynomials of time, by least squares.
+    """Fit polynomials of time to angles by least squares.
 
     Parameters
     ----------
     t : ndarray, shape (n,)
-        In any unit.
+        Times, in any unit.
     angles : ndarray, shape (n, k)
         rad.
     degree : int
@@ -97,7 +96,7 @@ def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
     Returns
     -------
     ndarray, shape (k, degree + 1)
-        rad over the unit of t to the power of the column.
+        Coefficients; column j is in rad per (unit of t)^j.
     """
     powers = t[:, np.newaxis] ** np.arange(degree + 1)
     return np.asarray(np.linalg.lstsq(powers, angles, rcond=None)[0].T)

@@ -1,4 +1,4 @@
-"""What separates the simplest precession rate from the IAU's, effect by effect."""
+"""Budget of the precession rate: contributions of all effects compared with IAU 2006."""
 
 from __future__ import annotations
 
@@ -31,45 +31,45 @@ def published_effects() -> dict[str, float]:
     Returns
     -------
     dict of str to float
-        By effect; each is absent from the torque of sun and moon on the mean equator.
+        By effect, for effects other than the torque of Sun and Moon on the mean equator.
     """
     by_size = sorted(PUBLISHED_EFFECTS.items(), key=lambda item: -abs(item[1].value))
     return {effect: constant.value * ARCSEC_PER_YEAR for effect, constant in by_size}
 
 
 def closure(rate: Numeric, iau_rate: float) -> Numeric:
-    """What remains of the difference after every published effect is added to our rate.
+    """Closure: computed rate plus all published effects, minus the IAU rate, rad/s.
 
     Parameters
     ----------
     rate : float
-        Ours, rad/s.
+        Computed rate, rad/s.
     iau_rate : float
-        That of psi_A at the same epoch, rad/s.
+        IAU rate of psi_A at the same epoch, rad/s.
     """
     return rate + sum(published_effects().values()) - iau_rate
 
 
-#: Label of what Sun and Moon do on the mean equator, before any effect is switched on.
+#: Label of the contribution of Sun and Moon on the mean equator, without any other effect.
 FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Share of each effect in a rate, measured by switching it off; the first order is the rest.
+    """Contribution of each effect to a rate, from switching it off; the first order is the rest.
 
     Parameters
     ----------
     total : float
-        With everything switched on.
+        Rate with all effects.
     without : mapping of str to float
-        With one effect switched off, by effect.
+        Rate with one effect switched off, by effect.
     """
     shares = {effect: total - rate for effect, rate in without.items()}
     return {FIRST_ORDER: total - sum(shares.values())} | shares
 
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
-    """Published shares of the rate of psi_A at J2000.0, rad/s; 0 for what is not in the table."""
+    """Published contributions to the rate of psi_A at J2000.0, rad/s; 0 if not published."""
     published = published_effects() | {
         FIRST_ORDER: (
             FIRST_ORDER_RATE.value * math.cos(EPSILON_0.value * ARCSEC) + J2_AND_TILT_RATE.value
@@ -80,7 +80,7 @@ def published_contributions(effects: Sequence[str]) -> dict[str, float]:
 
 
 def full_closure(rate: float, iau_rate: float) -> float:
-    """Our rate with all effects, plus the published non-linear term, less the IAU's, rad/s."""
+    """Computed rate with all effects, plus the published non-linear term, minus IAU 2006, rad/s."""
     return rate + published_effects()["nonrigid"] - iau_rate
 
 
@@ -91,29 +91,29 @@ def iau_omega_rate() -> float:
 
 @dataclass(frozen=True)
 class Budget:
-    """Rates of psi_A and omega_A at J2000.0, rad/s, by effect; the first order is the first.
+    """Contributions to the rates of psi_A and omega_A at J2000.0, rad/s, first order first.
 
     Attributes
     ----------
     psi, psi_published, omega : dict of str to float
-        Contributions.
+        Computed and published contributions, by effect.
     psi_error, omega_error : dict of str to float
-        95 % half-widths: by what the analysis misses the rate of a pole whose rate is known, and
-        the uncertainty of H in the first order, which alone is large enough to show it.
+        95 % half-widths: the error of the analysis, from a pole whose rate is known, and for the
+        first order also the uncertainty of H.
     psi_total, omega_total : float
-        Ours.
+        Computed rates.
     psi_total_error, omega_total_error : float
         95 % half-widths.
     psi_iau, omega_iau : float
-        IAU 2006.
+        Rates of IAU 2006.
     closure, omega_closure : float
-        Ours, with the published non-linear term, less the IAU's.
+        Computed rate plus the published non-linear term, minus the IAU rate.
     omega_closure_with_tides : float
-        With the published effect of tides in obliquity as well.
+        Closure including the published effect of tides on the obliquity.
     psi_from_h : float
-        One standard deviation of the rate of psi_A from that of H.
+        Standard deviation of the rate of psi_A due to that of H.
     psi_analysis_error, omega_analysis_error : float
-        By what the analysis misses the rates of the IAU's own pole.
+        Error of the analysis, from applying it to the IAU pole.
     """
 
     psi: dict[str, float]
@@ -143,16 +143,17 @@ def budget_of(
     psi_iau: float,
     u_h: float,
 ) -> Budget:
-    """Rates effect by effect, each measured by switching it off.
+    """Budget of the rates, from solutions with each effect switched off in turn.
 
     Parameters
     ----------
     ours, theirs : Secular
-        Our pole with everything switched on, and the IAU's, analysed alike.
+        Secular motion of the computed pole with all effects, and of the IAU pole, from the same
+        analysis.
     without : mapping of str to Secular
-        Ours with one effect switched off.
+        Computed secular motion with one effect switched off, by effect.
     off : sequence of str
-        Effects that are not switched on, or that do not act on a rate; their share is zero.
+        Effects that are not included or do not affect a rate; their contribution is zero.
     psi_iau : float
         Rate of psi_A at J2000.0 in IAU 2006, rad/s.
     u_h : float

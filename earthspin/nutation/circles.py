@@ -1,12 +1,12 @@
-r"""Nutation, term by term: one frequency analysis for any pole.
+r"""Frequency analysis of nutation into circular terms, for any pole.
 
 With nutation as one complex number, eta = dpsi sin(eps0) + i deps, a pole's motion against
 the mean equator is a sum of circles,
 
     \eta(t) = \sum_k A_k^+ e^{i phi_k} + A_k^- e^{-i phi_k} + slow,
 
-whose arguments phi_k are whole multiples of the five Delaunay arguments. The amplitudes
-follow by least squares, so that two poles analysed alike can be divided term by term.
+whose arguments phi_k are integer combinations of the five Delaunay arguments. The amplitudes follow
+from least squares, so that the amplitudes of two poles can be compared term by term.
 """
 
 from __future__ import annotations
@@ -24,10 +24,11 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 #: Multiples of l, l', F, D and the node: the luni-solar terms of IAU 2000B (McCarthy & Luzum
-#: 2003, Celest. Mech. 85, 37), which are the largest of IAU 2000A. Five are left out, because
-#: centuries do not part them from a larger neighbour (their arguments differ by twice the
+#: 2003, Celest. Mech. 85, 37), which are the largest of IAU 2000A. Five are omitted, because
+#: centuries of data cannot separate them from a larger neighbouring term (the arguments differ by
+#: twice the
 #: longitude of the perihelion, 10,467 years): 0 -2 2 -2 2 and 0 -2 2 -2 1, 0 2 0 0 0,
-#: 0 -1 2 -2 1 and 0 -1 2 -2 2. A neighbour's amplitude holds theirs.
+#: 0 -1 2 -2 1 and 0 -1 2 -2 2. Their amplitudes are included in those of the neighbours.
 _TERMS = """
     0 0 0 0 1 / 0 0 2 -2 2 / 0 0 2 0 2 / 0 0 0 0 2 / 0 1 0 0 0 / 0 1 2 -2 2 / 1 0 0 0 0 /
     0 0 2 0 1 / 1 0 2 0 2 / 0 0 2 -2 1 / -1 0 2 0 2 / -1 0 0 2 0 / 1 0 0 0 1 / -1 0 0 0 1 /
@@ -43,27 +44,27 @@ _TERMS = """
 """
 MULTIPLES = np.array([term.split() for term in _TERMS.split("/")], dtype=int)
 
-#: Those large enough to grow visibly in a century.
+#: Terms whose amplitude changes noticeably in a century.
 _GROWING = ("0 0 0 0 1", "0 0 2 -2 2", "0 0 2 0 2", "0 1 0 0 0", "0 0 0 0 2")
 SLOW_DEGREE = 4
-#: Residual that ends the least squares, over its start.
+#: Convergence tolerance of the least squares, relative to the initial residual.
 NEAR_ENOUGH = 1e-12
 
 
 @dataclass(frozen=True)
 class Circles:
-    """Circular terms of a pole.
+    """Circular terms of a pole's motion.
 
     Attributes
     ----------
     multiples : ndarray, shape (k, 5)
-        Of the Delaunay arguments; negated for the circle that turns the other way.
+        Multiples of the Delaunay arguments; negated for the circular term of opposite sense.
     frequency : ndarray, shape (k,)
-        rad/s at J2000.0, in space; negative if retrograde.
+        Frequency in space at J2000.0, rad/s; negative if retrograde.
     amplitude : ndarray, shape (k,), complex
         Factor of exp(i phi), rad.
     slow : ndarray, shape (SLOW_DEGREE + 1,), complex
-        Polynomial in Julian centuries, rad.
+        Coefficients of the secular polynomial in Julian centuries, rad.
     """
 
     multiples: NDArray[np.int64]
@@ -72,7 +73,7 @@ class Circles:
     slow: ComplexArray
 
     def at(self, arguments: FloatArray) -> ComplexArray:
-        """Sum of the circles, without the slow part.
+        """Sum of the circular terms, without the secular part.
 
         Parameters
         ----------
@@ -86,14 +87,14 @@ class Circles:
 
 
 def term_names(multiples: NDArray[np.int64]) -> list[str]:
-    """Multiples of the Delaunay arguments as text, shape (k, 5)."""
+    """Names of terms from multiples of the Delaunay arguments, shape (k, 5)."""
     return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
 
 
 def responses(
     circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
 ) -> dict[str, ComplexArray]:
-    """Sums of the same circles with other amplitudes, several at once.
+    """Sums of circular terms with their amplitudes multiplied by several sets of factors.
 
     Parameters
     ----------
@@ -101,7 +102,7 @@ def responses(
     arguments : ndarray, shape (5, t)
         Delaunay arguments, rad.
     factors : mapping of str to ndarray, shape (k,), complex
-        Of the amplitudes.
+        Factors of the amplitudes, by name.
 
     Returns
     -------
@@ -110,13 +111,13 @@ def responses(
     """
     sizes = np.array([factor * circles.amplitude for factor in factors.values()])
     total = np.zeros((len(sizes), arguments.shape[1]), dtype=complex)
-    for multiple, of in zip(circles.multiples, sizes.T, strict=True):
-        total += of[:, np.newaxis] * np.exp(1j * (multiple @ arguments))
+    for multiple, amplitude in zip(circles.multiples, sizes.T, strict=True):
+        total += amplitude[:, np.newaxis] * np.exp(1j * (multiple @ arguments))
     return dict(zip(factors, total, strict=True))
 
 
 class FrequencyAnalysis:
-    """Least squares for the amplitudes of all circles at once.
+    """Least-squares fit of the amplitudes of all circular terms together.
 
     Parameters
     ----------
@@ -129,8 +130,8 @@ class FrequencyAnalysis:
     """
 
     def __init__(self, centuries: FloatArray, arguments: FloatArray, rates: FloatArray) -> None:
-        # Plain sums here and below: a BLAS rounds otherwise with another number of threads, and the
-        # same question has the same bits.
+        # No BLAS here and below: its rounding depends on the number of threads, and results must be
+        # reproducible to the bit.
         circles = np.exp(1j * np.einsum("kj,jt->kt", MULTIPLES, arguments))
         growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
         drift = centuries * circles[growing]
@@ -147,43 +148,43 @@ class FrequencyAnalysis:
         self._frequency = self._multiples @ rates
 
     def __call__(self, eta: ComplexArray) -> Circles:
-        """Analyse a pole.
+        """Fit the circular terms of a pole.
 
         Parameters
         ----------
         eta : ndarray, shape (t,), complex
             dpsi sin(eps0) + i deps, rad.
         """
-        found = self._solved(eta)
-        left = eta - np.einsum("it,i->t", self._rows, found)
-        found += self._solved(left)
-        found /= self._scale
+        amplitudes = self._solved(eta)
+        residual = eta - np.einsum("it,i->t", self._rows, amplitudes)
+        amplitudes += self._solved(residual)
+        amplitudes /= self._scale
         count = len(self._multiples)
         return Circles(
             self._multiples,
             self._frequency,
-            found[:count],
-            found[count : count + SLOW_DEGREE + 1],
+            amplitudes[:count],
+            amplitudes[count : count + SLOW_DEGREE + 1],
         )
 
     def _solved(self, eta: ComplexArray) -> ComplexArray:
-        """Least squares for columns of unit length.
+        """Solve the least squares for columns of unit length by conjugate gradients.
 
-        The columns are nearly orthogonal (condition number 20 over 150 years), so that normal
-        equations do, and conjugate gradients end after forty rounds.
+        The columns are nearly orthogonal (condition number 20 over 150 years), so that the normal
+        equations are accurate enough, and conjugate gradients converge in forty iterations.
         """
         right = np.einsum("it,t->i", self._adjoint, eta)
         return np.asarray(cg(self._normal, right, rtol=NEAR_ENOUGH, atol=0.0)[0])
 
 
 def complex_nutation(angles: FloatArray) -> ComplexArray:
-    """Write as dpsi sin(eps0) + i deps the two angles of nutation, shape (t, 2), rad."""
+    """Complex nutation dpsi sin(eps0) + i deps from the two nutation angles, shape (t, 2), rad."""
     sine = np.sin(EPSILON_0.value * ARCSEC)
     return np.asarray(angles[:, 0] * sine + 1j * angles[:, 1])
 
 
 def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
-    """In-phase and out-of-phase amplitudes, as the IERS tabulates them.
+    """In-phase and out-of-phase amplitudes in the convention of the IERS.
 
     eta = -i sum (in + i out) exp(i phi) (Mathews, Herring & Buffett 2002).
     """
@@ -192,7 +193,7 @@ def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
 
 
 def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
-    """A series less the constant and the rate that fit it best; over the first axis."""
+    """Series minus its least-squares linear trend along the first axis."""
     design = np.stack([np.ones_like(centuries), centuries], axis=1)
     fit = np.linalg.lstsq(design, series, rcond=None)[0]
     return np.asarray(series - design @ fit)

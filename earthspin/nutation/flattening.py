@@ -1,7 +1,7 @@
-"""What the IAU's rate of precession says about H and C, and what the Earth's inside says.
+"""Values of H and C implied by the IAU precession rate and by an Earth model.
 
-H is itself inferred from observed precession, so that our rate with that H must come out
-right: closure tests consistency. Only a model of the inside gives C on its own.
+The published H is inferred from the observed precession, so closure of the rate only tests
+consistency. Only an interior model gives an independent C.
 """
 
 from __future__ import annotations
@@ -13,35 +13,35 @@ from earthspin.constants import PREM_MEAN_MOMENT, PREM_RADIUS
 from earthspin.mass.inertia import polar_moment_factor
 from earthspin.nutation.budget import Budget
 
-#: Effects whose published sizes tell how sure our own are.
+#: Effects whose published sizes measure the error of the computed ones.
 COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
 def inferred_h(h: float, torque_rate: float, excess: float) -> float:
-    """H that would bring our rate to the IAU's.
+    """Dynamical flattening H for which the computed rate equals the IAU rate.
 
     Parameters
     ----------
     h : float
-        H that was used.
+        H used in the computation.
     torque_rate : float
-        The part of our rate that grows with H.
+        Part of the computed rate that is proportional to H.
     excess : float
-        Our rate less the IAU's, all effects counted, in the same unit.
+        Computed rate with all effects minus the IAU rate, in the same unit.
     """
     return h * (1 - excess / torque_rate)
 
 
 def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method: float) -> float:
-    """One standard deviation of the inferred H.
+    """Standard deviation of the inferred H.
 
     Parameters
     ----------
     h, torque_rate : float
     effects : float
-        Root sum square of what our effects differ by from the published ones.
+        Root sum square of the differences between the computed and the published effects.
     method : float
-        By what the same analysis misses the rate of a pole whose rate is known.
+        Error of the same analysis for a pole whose rate is known.
     """
     return abs(h / torque_rate) * math.hypot(effects, method)
 
@@ -49,7 +49,7 @@ def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method:
 def polar_moment_from_mean(
     mean_moment: float, mean_radius: float, equatorial_radius: float, j2: float
 ) -> float:
-    """C/(M a2) of a body whose mean moment of inertia a spherical model gives.
+    """Polar moment factor C/(M a2) from the mean moment of a spherical model.
 
     I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
 
@@ -65,12 +65,12 @@ def polar_moment_from_mean(
 
 
 def polar_moment_from_h(j2: float, h: float) -> float:
-    """C/(M a2) from the bulge and the dynamical flattening."""
+    """Polar moment factor C/(M a2) = J2/H."""
     return float(polar_moment_factor(j2, h))
 
 
 class Flattening(NamedTuple):
-    """H and C/(M a2) from one origin, with their standard uncertainties.
+    """Values of H and C/(M a2) from one source, with their standard uncertainties.
 
     Attributes
     ----------
@@ -85,17 +85,17 @@ class Flattening(NamedTuple):
 
 
 def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
-    """H that would close a budget, and its standard uncertainty.
+    """H for which a budget closes, and its standard uncertainty.
 
     Parameters
     ----------
     budget : Budget
     h : float
-        H that it was made with.
+        H used in the budget.
     """
     compared = [effect for effect in budget.psi if effect in COMPARED]
     spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
-    # Geodesic precession alone does not grow with H.
+    # all effects except geodesic precession are proportional to H
     grows = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
     return (
         inferred_h(h, grows, budget.closure),
@@ -106,17 +106,17 @@ def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
 def compared_flattenings(
     budget: Budget, h: float, j2: float, radius: float, *, u_h: float, u_j2: float
 ) -> dict[str, Flattening]:
-    """H and C/(M a2) as published, as the IAU's rate implies them, and of PREM.
+    """Values of H and C/(M a2): published, implied by the IAU rate, and from PREM.
 
     Parameters
     ----------
     budget : Budget
     h, j2 : float
-        That it was made with.
+        Values used in the budget.
     radius : float
-        That `j2` refers to, m.
+        Reference radius of `j2`, m.
     u_h, u_j2 : float
-        Their relative standard uncertainties.
+        Relative standard uncertainties of `h` and `j2`.
     """
 
     def from_h(value: float, uncertainty: float) -> Flattening:
@@ -126,7 +126,7 @@ def compared_flattenings(
         )
 
     prem = polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
-    # PREM is a model: half of its last printed digit is all that is known of its error
+    # PREM states no errors: half a unit of its last printed digit is used
     u_prem = PREM_MEAN_MOMENT.relative_uncertainty
     return {
         "published": from_h(h, u_h * h),

@@ -1,4 +1,4 @@
-r"""What the inside of the body makes of its rigid nutations: the resonance form.
+r"""Transfer function from rigid to non-rigid nutation: the resonance form.
 
 The ratio of the nutation of the real body to that of a rigid one, at frequency sigma in the
 rotating frame (in units of the spin; sigma = -1 is at rest in space), is (Mathews, Herring
@@ -7,10 +7,9 @@ rotating frame (in units of the spin; sigma = -1 is at rest in space), is (Mathe
     T(\sigma) = (e - \sigma)/(e + 1) [1 + (1 + \sigma) (Q_0 + \sum_a Q_a/(\sigma - s_a))]
 
 with e = H/(1 - H) and the free modes s_a: Chandler wobble, free core nutation, free inner-core
-nutation. Where the strengths Q come from must be said: here they are *fitted*, to the ratio of
-IAU 2000A to our own rigid amplitudes, together with the frequency of the free core nutation.
-IAU 2000A is such a response times a rigid series, so that the fit recovers what was
-built into it and measures nothing anew.
+nutation. The strengths Q and the frequency of the free core nutation are *fitted* to the ratio of
+IAU 2000A to the computed rigid amplitudes. IAU 2000A is itself such a response times a rigid
+series, so the fit recovers its parameters and is not an independent measurement.
 """
 
 from __future__ import annotations
@@ -26,22 +25,22 @@ from earthspin.constants import DAY
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-#: Chandler wobble and free inner-core nutation, IERS Conventions (2010), table 6.4; turned
-#: into the sign of this module, where retrograde is negative. They are not fitted.
+#: Chandler wobble and free inner-core nutation, IERS Conventions (2010), table 6.4, in the sign
+#: convention of this module, where retrograde is negative. They are not fitted.
 CHANDLER_WOBBLE = 0.0026010 - 0.0001361j
 INNER_CORE_NUTATION = -0.999026 + 0.000780j
-#: Multiples of the one term left out of the fit, the prograde year: IAU 2000A adds to it 0.11 mas
-#: of an atmospheric tide in step with the Sun (Mathews, Herring & Buffett 2002), which no
-#: response of the body makes.
+#: Multiples of the only term excluded from the fit, the prograde annual term: IAU 2000A adds 0.11
+#: mas from the Sun-synchronous atmospheric tide (Mathews, Herring & Buffett 2002), which is no
+#: response of the body.
 SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
 
-#: Where the search for the free core nutation begins (same table).
+#: Initial estimate of the free core nutation (same table).
 CORE_NUTATION_START = (-1.0023181, 0.000025)
 
-#: By what the fit may miss the core nutation that made a series, s, and its quality factor,
-#: relative. Measured by what is built into IAU 2000A (`interior.published`), with geodesic nutation
-#: and what is added to a response taken away (`additions`): 0.02 d, 0.4 per cent; with the
-#: amplitudes of REN-2000 in the place of ours 0.03 d, 0.3 per cent.
+#: Errors of the fitted period of the free core nutation, s, and of its quality factor, relative.
+#: Measured against the parameters of IAU 2000A (`interior.published`), after subtracting geodesic
+#: nutation and the added terms (`additions`): 0.02 d and 0.4 %; with the amplitudes of REN-2000
+#: instead of the computed ones 0.03 d and 0.3 %.
 PERIOD_ERROR, QUALITY_ERROR = 0.1 * DAY, 0.02
 
 
@@ -56,7 +55,7 @@ class Response:
     spin_rate : float
         rad/s.
     core_nutation : complex
-        s of the free core nutation.
+        Body-fixed frequency s of the free core nutation, turns per turn.
     strengths : ndarray, shape (4,), complex
         Q_0, and Q of Chandler wobble, free core and inner-core nutation.
     """
@@ -87,23 +86,21 @@ class Response:
         return float(abs(self.core_nutation.real / (2 * self.core_nutation.imag)))
 
     def transfer(self, frequency: FloatArray) -> ComplexArray:
-        """T at frequencies in space, rad/s."""
+        """Transfer function T at frequencies in space, rad/s."""
         base, columns = _form(frequency, self.h, self.spin_rate, self.core_nutation)
         return np.asarray(base + columns @ self.strengths)
 
 
 def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexArray) -> FloatArray:
-    """95 % half-width of what a response leaves of a term, rad.
-
-    What the period of its core nutation may be off makes of the term.
+    """Uncertainty (95 % half-width) of a term due to that of the free core nutation period, rad.
 
     Parameters
     ----------
     response : Response
     frequency : ndarray, shape (k,)
-        In space, rad/s.
+        Frequencies in space, rad/s.
     rigid : ndarray, shape (k,), complex
-        Amplitudes, rad.
+        Rigid amplitudes, rad.
     """
     shifted = 2 * np.pi / (response.spin_rate * (response.period + response.period_error))
     moved = replace(response, core_nutation=complex(shifted - 1, response.core_nutation.imag))
@@ -114,7 +111,7 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """T without the resonances, and what multiplies each strength."""
+    """Transfer function T without the resonances, and the factor of each strength."""
     in_space = frequency / spin_rate
     sigma = in_space - 1
     e = h / (1 - h)
@@ -127,14 +124,14 @@ def _form(
 def fit_response(
     frequency: FloatArray, rigid: ComplexArray, real: ComplexArray, h: float, spin_rate: float
 ) -> Response:
-    """Fit strengths and free core nutation to amplitudes of the same terms.
+    """Fit resonance strengths and free core nutation to the amplitudes of two sets of terms.
 
     Parameters
     ----------
     frequency : ndarray, shape (k,)
-        In space, rad/s.
+        Frequencies in space, rad/s.
     rigid, real : ndarray, shape (k,), complex
-        Amplitudes; what is made small is real - T rigid.
+        Amplitudes; the fit minimises real - T rigid.
     h : float
     spin_rate : float
         rad/s.
@@ -143,13 +140,13 @@ def fit_response(
     def solve(mode: complex) -> tuple[ComplexArray, ComplexArray]:
         base, columns = _form(frequency, h, spin_rate, mode)
         weighted = columns * rigid[:, np.newaxis]
-        left = real - base * rigid
-        strengths = np.linalg.lstsq(weighted, left, rcond=None)[0]
-        return np.asarray(strengths), left - weighted @ strengths
+        residual = real - base * rigid
+        strengths = np.linalg.lstsq(weighted, residual, rcond=None)[0]
+        return np.asarray(strengths), residual - weighted @ strengths
 
     def misfit(mode: FloatArray) -> FloatArray:
-        left = solve(complex(*mode))[1] / np.max(np.abs(rigid))
-        return np.concatenate([left.real, left.imag])
+        residual = solve(complex(*mode))[1] / np.max(np.abs(rigid))
+        return np.concatenate([residual.real, residual.imag])
 
     best = least_squares(misfit, CORE_NUTATION_START, x_scale=1e-6, xtol=1e-12, ftol=1e-12)
     mode = complex(*best.x)

@@ -1,9 +1,8 @@
-"""What a rate of precession means in the sky and in the calendar (I.8).
+"""Effects of precession on the sky and the calendar (I.8).
 
-Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic itself.
-The seasons slide by the sum, the general precession. The calendar drifts against the
-*tropical* year, which already contains it: one day in 128 years, where the source text
-has 129.4 and does not say from what.
+Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic. The sum, the
+general precession, shifts the seasons. The calendar drifts relative to the *tropical* year, which
+includes precession, by one day in 128 years; the source text has 129.4 without a derivation.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ GREGORIAN_YEAR = (365 + 97 / 400) * DAY
 
 
 def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Numeric:
-    """General precession in longitude, rad/s: lunisolar precession less the motion of the ecliptic.
+    """General precession in longitude: lunisolar precession minus ecliptic motion, rad/s.
 
     p_A = psi_A - chi_A cos(epsilon), Capitaine et al. 2003, sect. 6.
 
@@ -39,17 +38,17 @@ def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Nume
 
 
 def time_per_degree(rate: Numeric) -> Numeric:
-    """Time in which a rate in rad/s adds up to a degree, s."""
+    """Time in which a rate in rad/s accumulates to one degree, s."""
     return math.radians(1.0) / rate
 
 
 def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
-    """Time from one season to the same season, s.
+    """Length of the tropical year, s.
 
     Parameters
     ----------
     rate : float
-        General precession, rad/s; the equinox comes to meet the Sun.
+        General precession, rad/s; the equinox moves towards the Sun.
     sidereal_year : float
         s.
     """
@@ -57,7 +56,7 @@ def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
 
 
 def time_per_day_of_drift(tropical: Numeric, calendar: float = JULIAN_YEAR) -> Numeric:
-    """Time in which a calendar drifts by one day against the seasons, s.
+    """Time in which a calendar drifts by one day relative to the seasons, s.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""Motion with no torque (I.2, I.4 to I.6)."""
+"""Torque-free rotation of rigid bodies (I.2, I.4 to I.6)."""

@@ -1,13 +1,13 @@
-"""The axisymmetric rotor without torque (I.6).
+"""Torque-free rotation of an axisymmetric body (I.6).
 
-With I1 = I2 across the figure axis and I3 along it, omega circles the figure axis on the *body
-cone* of half-angle alpha, and in space it circles the angular momentum L on the *space cone* of
-half-angle |theta - alpha|, where theta lies between figure axis and L. The three stay in one
-plane. Inertial axes here have L along the third, and the body stands at phi = 0, psi = pi/2
-at t = 0, so that omega starts in the plane of the body's first and third axis.
+With I1 = I2 about transverse axes and I3 about the figure axis, omega moves about the figure axis
+on the *body cone* of half-angle alpha, and in space about the angular momentum L on the *space
+cone* of half-angle |theta - alpha|, where theta is the angle between figure axis and L. The three
+vectors are always coplanar. The third inertial axis is along L, and at t = 0 the attitude is phi =
+0, psi = pi/2, so that omega starts in the plane of the body's first and third axis.
 
-The moment across the axis is given with the difference I3 - I1, of either sign, so that no
-digits are lost: oblate above 0, prolate below.
+The inputs are I1 and the difference I3 - I1, positive for an oblate and negative for a prolate
+body, to avoid cancellation.
 """
 
 from __future__ import annotations
@@ -24,29 +24,29 @@ from earthspin.errors import BodyError, UndefinedError
 Numeric = Any
 FloatArray = NDArray[np.float64]
 
-#: How far rounding may put 2T I3 - L2 beyond 0, relative to L2.
+#: Tolerance for a negative 2T I3 - L2 due to rounding, relative to L2.
 _ROUNDING = 8 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, slots=True)
 class SymmetricRotor:
-    """An axisymmetric body in free rotation.
+    """An axisymmetric body in torque-free rotation.
 
     Attributes
     ----------
     equatorial : float or ndarray, shape (...)
-        Moment I1 = I2 across the figure axis, kg m2.
+        Transverse moment I1 = I2, kg m2.
     difference : float or ndarray, shape (...)
-        I3 - I1, kg m2: from -I1 (a needle) to I1 (a leaf), the first excluded.
+        I3 - I1, kg m2: above -I1 (needle), up to I1 (lamina).
     speed : float or ndarray, shape (...)
-        Length of the angular velocity, rad/s.
+        Magnitude of the angular velocity, rad/s.
     alpha : float or ndarray, shape (...)
         Half-angle of the body cone: between figure axis and angular velocity, rad, 0 to pi.
 
     Raises
     ------
     BodyError
-        For a value outside its range.
+        If a value is out of range.
     """
 
     equatorial: Numeric
@@ -56,41 +56,44 @@ class SymmetricRotor:
 
     def __post_init__(self) -> None:
         i1, difference = self.equatorial, self.difference
-        _require(np.greater(i1, 0), "equatorial", i1, "a principal moment is above zero")
+        _require(np.greater(i1, 0), "equatorial", i1, "a principal moment must be positive")
         _require(
             np.greater(difference, -np.asarray(i1)) & np.less_equal(difference, i1),
             "difference",
             difference,
-            "I3 - I1 lies above -I1 and not above I1",
+            "I3 - I1 must be above -I1, and at most I1",
         )
         _require(np.greater(self.speed, 0), "speed", self.speed, "give |omega| above 0, in rad/s")
         _require(
             np.greater_equal(self.alpha, 0) & np.less_equal(self.alpha, np.pi),
             "alpha",
             self.alpha,
-            "the cone's half-angle lies between 0 and pi rad",
+            "the half-angle of the cone must be 0 to pi rad",
         )
 
     @property
     def polar(self) -> Numeric:
-        """I3, kg m2."""
+        """Moment about the figure axis I3, kg m2."""
         return self.equatorial + self.difference
 
     @property
     def wobble_rate(self) -> Numeric:
-        """Omega' = omega cos(alpha) (I3 - I1)/I1: of omega round the body cone, rad/s (I.6.7)."""
+        """Rate of omega about the figure axis, omega cos(alpha) (I3 - I1)/I1, rad/s (I.6.7)."""
         return self.speed * np.cos(self.alpha) * self.difference / self.equatorial
 
     @property
     def theta(self) -> Numeric:
-        """Between figure axis and angular momentum, rad: tan theta = (I1/I3) tan alpha (I.6.20)."""
+        """Angle from figure axis to angular momentum, rad.
+
+        tan theta = (I1/I3) tan alpha (I.6.20).
+        """
         return np.arctan2(self.equatorial * np.sin(self.alpha), self.polar * np.cos(self.alpha))
 
     @property
     def tilt(self) -> Numeric:
-        """Angle alpha - theta from L to omega, away from the figure axis, rad.
+        """Angle alpha - theta from L to omega, positive away from the figure axis, rad.
 
-        Above 0 for an oblate body with alpha < pi/2. From (I.6.20), without subtracting angles:
+        Positive for an oblate body with alpha < pi/2. From (I.6.20), without subtracting angles:
         tan(alpha - theta) = (I3 - I1) sin cos/(I3 cos^2 + I1 sin^2) of alpha.
         """
         sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
@@ -100,19 +103,19 @@ class SymmetricRotor:
 
     @property
     def space_cone(self) -> Numeric:
-        """Half-angle of the cone that omega runs on in space, |theta - alpha|, rad (I.6.28)."""
+        """Half-angle |theta - alpha| of the space cone, rad (I.6.28)."""
         return np.abs(self.tilt)
 
     @property
     def angular_momentum(self) -> Numeric:
-        """L, kg m2/s (I.6.9)."""
+        """Angular momentum L, kg m2/s (I.6.9)."""
         return self.speed * np.hypot(
             self.equatorial * np.sin(self.alpha), self.polar * np.cos(self.alpha)
         )
 
     @property
     def energy(self) -> Numeric:
-        """T, J (I.6.11)."""
+        """Kinetic energy T, J (I.6.11)."""
         sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
         return self.speed**2 * (self.equatorial * sine**2 + self.polar * cosine**2) / 2
 
@@ -123,10 +126,11 @@ class SymmetricRotor:
 
     @property
     def rolling(self) -> NDArray[np.str_]:
-        """How the body cone rolls on the space cone: ``outside``, ``inside`` or ``not``.
+        """Side on which the body cone rolls on the space cone: ``outside``, ``inside``, ``not``.
 
-        A prolate body rolls on the outside (I.6.30). An oblate one has the space cone inside
-        its own and rolls with the inner face on it (I.6.31). Without a cone nothing rolls.
+        The body cone of a prolate body rolls on the outside of the space cone (I.6.30). That of an
+        oblate body encloses the space cone and rolls on it with its inner surface (I.6.31).
+        ``not``: there is no cone.
         """
         return np.select(
             [self.tilt * np.cos(self.alpha) > 0, self.space_cone > 0], ["inside", "outside"], "not"
@@ -156,7 +160,7 @@ class SymmetricRotor:
         return _on_cone(across, along, self.wobble_rate, times)
 
     def euler_angles(self, times: Numeric) -> FloatArray:
-        """Phi, theta, psi of the body, rad, shape (..., n, 3) (I.6.25).
+        """Euler angles phi, theta, psi of the body, rad, shape (..., n, 3) (I.6.25).
 
         Parameters
         ----------
@@ -191,8 +195,8 @@ class SymmetricRotor:
     def inertia_tensor(self, times: Numeric) -> FloatArray:
         """Inertia tensor along inertial axes, kg m2, shape (..., n, 3, 3) (I.6, reader exercise).
 
-        R I R^T with R = Rz(phi) Rx(theta) Rz(psi) is I1 + (I3 - I1) k k^T, k the figure axis:
-        the turn psi about it leaves no trace.
+        For R = Rz(phi) Rx(theta) Rz(psi), R I R^T = I1 + (I3 - I1) k k^T with the figure axis k; it
+        does not depend on psi.
 
         Parameters
         ----------
@@ -211,7 +215,7 @@ class SymmetricRotor:
     def attitude(self, times: Numeric) -> FloatArray:
         """Unit quaternion w, x, y, z from body to inertial axes, shape (..., n, 4).
 
-        Of Rz(phi) Rx(theta) Rz(psi), with the angles of (I.6.25).
+        It represents Rz(phi) Rx(theta) Rz(psi), with the angles of (I.6.25).
 
         Parameters
         ----------
@@ -232,7 +236,7 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector in the plane of L and figure axis, at an angle from L towards that axis."""
+        """Vector in the plane of L and figure axis, at an angle from L towards the figure axis."""
         phi = np.multiply.outer(self.precession_rate, times)
         across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(
@@ -248,7 +252,8 @@ def speed_and_cone(
 
         tan^2 alpha = (I3/I1) (2T I3 - L2)/(L2 - 2T I1),   omega^2 = [2T (I1 + I3) - L2]/(I1 I3)
 
-    T and L fix alpha poorly near 0 and pi/2, where it is the root of a small difference.
+    T and L determine alpha poorly near 0 and pi/2, where it is the square root of a small
+    difference.
 
     Parameters
     ----------
@@ -267,11 +272,11 @@ def speed_and_cone(
     Raises
     ------
     UndefinedError
-        For a sphere, whose T and L do not tell alpha; or if L2/2T is not between I1 and I3.
+        For a sphere, as its T and L do not determine alpha, or if L2/2T is not between I1 and I3.
     """
     i1, i3 = np.asarray(equatorial), np.asarray(equatorial) + difference
     if np.any(np.equal(difference, 0)):
-        raise UndefinedError("a sphere's T and L do not tell alpha: I3 - I1 = 0; give omega")
+        raise UndefinedError("T and L of a sphere (I3 - I1 = 0) do not determine alpha; give omega")
     sign, l2 = np.sign(difference), np.square(angular_momentum)
     across, along = sign * (2 * energy * i3 - l2), sign * (l2 - 2 * energy * i1)
     outside = (across < -_ROUNDING * l2) | (along < -_ROUNDING * l2)
@@ -288,49 +293,49 @@ def speed_and_cone(
 
 
 def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
-    """Omega' = omega sin(alpha - theta)/sin(theta), rad/s (I.6.27).
+    """Wobble rate from the cones, Omega' = omega sin(alpha - theta)/sin(theta), rad/s (I.6.27).
 
-    The body cone rolls on the space cone without slipping: as much of one rim as of the other
-    passes the line of contact, Omega' sin(alpha) = phi' sin(alpha - theta).
+    The body cone rolls on the space cone without slipping, so equal arc lengths of both rims pass
+    the line of contact: Omega' sin(alpha) = phi' sin(alpha - theta).
 
     Parameters
     ----------
     speed : float or ndarray
         |omega|, rad/s.
     alpha, theta : float or ndarray
-        From the figure axis to omega and to the angular momentum, rad.
+        Angles from the figure axis to omega and to the angular momentum, rad.
 
     Raises
     ------
     UndefinedError
-        If the angular momentum lies along the figure axis: there are no cones.
+        If the angular momentum is along the figure axis, so that there are no cones.
     """
     if np.any(np.sin(theta) == 0):
         raise UndefinedError(
-            "theta = 0 rad: without a cone, its angles do not tell the wobble's rate"
+            "theta = 0 rad: there is no cone, so its angles do not determine the wobble rate"
         )
     return speed * np.sin(np.subtract(alpha, theta)) / np.sin(theta)
 
 
 def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
-    """Period of the body cone of a rotor that spins nearly about its axis (I.6.7), s.
+    """Period of the free wobble of a rotor that spins nearly about its figure axis (I.6.7), s.
 
-    The angular velocity circles the figure axis at Omega' = omega (I3 - I1)/I1; the
-    denominator is the equatorial moment, not the polar one.
+    The angular velocity moves about the figure axis at Omega' = omega (I3 - I1)/I1; the denominator
+    is the equatorial moment, not the polar one.
 
     Parameters
     ----------
     ellipticity : float
-        (C - A)/A; a sphere does not wobble and gives infinity.
+        (C - A)/A; infinity is returned for a sphere, which does not wobble.
     spin_period : float
-        s; the result is in the same unit, and positive whichever way the wobble goes.
+        s; the result is in the same unit, and positive for either sense of the wobble.
     """
     with np.errstate(divide="ignore"):
         return np.abs(np.divide(spin_period, ellipticity))
 
 
 def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
-    """95 % half-width of the wobble's period from the uncertainty of H.
+    """95 % half-width of the free wobble's period, from the uncertainty of H.
 
     Parameters
     ----------
@@ -353,7 +358,7 @@ def _on_cone(across: Numeric, along: Numeric, rate: Numeric, times: Numeric) -> 
     )
 
 
-def _require(holds: Numeric, field: str, given: Numeric, allowed: str) -> None:
+def _require(holds: Numeric, field: str, value: Numeric, allowed: str) -> None:
     if not np.all(holds):
-        worst = np.broadcast_to(given, np.shape(holds))[~np.asarray(holds)]
+        worst = np.broadcast_to(value, np.shape(holds))[~np.asarray(holds)]
         raise BodyError("rotor", field, worst.flat[0].item(), allowed)

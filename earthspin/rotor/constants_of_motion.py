@@ -1,25 +1,26 @@
-r"""What stays the same in a free rotation: the numbers of Jacobi's closed form.
+r"""Constants of a torque-free rotation in Jacobi's closed form.
 
-Number the principal axes so that the angular momentum m circles axis 3 and axis 2 has the
-middle moment; point them so that m1, m3 >= 0 at the start and 1, 2, 3 are right-handed. Then
+The principal axes are numbered so that the angular momentum m moves about axis 3 and axis 2 has the
+intermediate moment, and directed so that m1, m3 >= 0 at the start and 1, 2, 3 are right-handed.
+Then
 
     omega = (a1 cn u, a2 sn u, a3 dn u),        u = lambda t + u0
 
-solves Euler's equations (I.4.4). What else moves is one angle about the angular momentum,
+solves Euler's equations (I.4.4). The remaining variable is one angle about the angular momentum,
 
     psi' = G/I3 + D3 (I3 - I1)/(I3 (G + m3)),
 
-that follows the shortest turn from m to the angular momentum; m3 stays above 0, so there is
-no singular place. With
+which follows the shortest rotation from m to the angular momentum; m3 remains positive, so there is
+no singularity. With
 
     r = (I3 - I2)/(I3 - I1),             s = (I2 - I1)/(I3 - I1)
     D1 = s m2^2/I2 + m3^2/I3,            D3 = m1^2/I1 + r m2^2/I2
     k'^2 = (r m3^2/I3 - s m1^2/I1)/(r D1),      lambda = |I3 - I1| sqrt(r D1/(I1 I2 I3))
     a1^2 = D3/I1,        a2^2 = D3/(r I2),      a3^2 = D1/I3
 
-(G^2 - 2T I1 is D1 (I3 - I1), and 2T I3 - G^2 is D3 (I3 - I1).) Only k'^2 takes a
-difference, which is small near the separatrix; all constants are therefore formed with
-twice the digits, from inputs taken as exact.
+(G^2 - 2T I1 is D1 (I3 - I1), and 2T I3 - G^2 is D3 (I3 - I1).) Only k'^2 contains a difference,
+which is small near the separatrix; therefore all constants are computed in double-double precision,
+from inputs treated as exact.
 
 Sources: Jacobi 1850, J. reine angew. Math. 39, 293; Whittaker, Analytical Dynamics, sect. 69.
 """
@@ -40,19 +41,19 @@ from earthspin.rotor.moments import Moments, PrincipalMoments, finite, principal
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
-#: A component of omega this far below the largest counts as zero: its square would underflow.
+#: Relative size below which a component of omega counts as zero; its square would underflow.
 _NEGLIGIBLE = 2.0**-450
-#: Below this the power of two that takes differences to order one has no inverse.
+#: Smallest difference of moments whose scaling power of two has an inverse.
 _LEAST_CONTRAST = 2.0**-1000
-#: A slower rate, rad/s, has a period that no float can hold.
+#: Smallest rate, rad/s, whose period is within a float's range.
 _SLOWEST = 1e-280
-#: Powers of two between which energies, J, keep all their digits.
+#: Range of binary exponents of energies, J, that are represented with full precision.
 _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Precession:
-    """How the angle psi about the angular momentum runs: a mean rate and a periodic part.
+    """Angle psi about the angular momentum: its mean rate and periodic part.
 
     Attributes
     ----------
@@ -72,26 +73,26 @@ class Precession:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JacobiMotion:
-    """The constants of one free motion, or of many along the leading axes.
+    """Constants of one torque-free motion, or of many along the leading axes.
 
     Attributes
     ----------
     moments : PrincipalMoments
-        Of the body, in its own order of axes.
+        Moments of the body, in the original order of axes.
     axes : ndarray of int, shape (..., 3)
-        Which of the body's axes are 1, 2, 3 of the closed form.
+        Indices of the body axes that are axes 1, 2, 3 of the closed form.
     signs : ndarray, shape (..., 3)
-        Which way along them 1, 2, 3 point.
+        Signs of axes 1, 2, 3 along the body axes.
     amplitudes : ndarray, shape (..., 3)
-        Of cn, sn and dn in omega along 1, 2, 3, rad/s; the second carries a sign.
+        Amplitudes of cn, sn and dn in omega along 1, 2, 3, rad/s; the second is signed.
     cosines : ndarray, shape (..., 3)
-        The same of the angular momentum over its length.
+        Amplitudes of the direction cosines of the angular momentum.
     angular_momentum, twice_energy : ndarray, shape (...)
         G, kg m2/s, and 2T, J.
     sense : ndarray, shape (...)
         1 if axis 3 has the largest moment, -1 if the smallest, 0 for a sphere.
     rate : DoubleDouble, shape (...)
-        lambda, rad/s; 0 if the moments make omega stand still in the body.
+        lambda, rad/s; 0 if omega is constant in the body.
     start : ndarray, shape (...)
         u0, the argument at t = 0; infinite for a rotation about the middle axis.
     start_angle : ndarray, shape (...)
@@ -99,9 +100,9 @@ class JacobiMotion:
     complementary_modulus : ndarray, shape (...)
         k': 0 on the separatrix, 1 for circular cones.
     descent : LandenDescent
-        From k'.
+        Landen sequence that starts from k'.
     precession : Precession
-        Of psi.
+        Motion of psi.
     """
 
     moments: PrincipalMoments
@@ -121,20 +122,20 @@ class JacobiMotion:
 
     @property
     def exact_period(self) -> DoubleDouble:
-        """Time in which omega comes back in the body, 4K/lambda, s; 0 if it never does."""
+        """Period of omega in the body, 4K/lambda, s; 0 if it is not periodic."""
         quarter = self.descent.quarter_period
         moves = self.rate.hi > _SLOWEST
         return where(moves, quarter.scaled(4.0) / where(moves, self.rate, 1.0), 0.0)
 
     @property
     def period(self) -> FloatArray:
-        """Time in which omega comes back in the body, s; infinite if it never does."""
+        """Period of omega in the body, s; infinite if it is not periodic."""
         period = np.asarray(self.exact_period.hi)
         return np.where(period > 0, period, np.inf)
 
 
 class _Start(NamedTuple):
-    """Body and start along the axes 1, 2, 3, in units that make them of order one."""
+    """Moments and initial state along axes 1, 2, 3, scaled to order one."""
 
     axes: IntArray
     signs: FloatArray
@@ -151,7 +152,7 @@ class _Start(NamedTuple):
 
 
 def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
-    """Form the constants of a free motion from the body and its start.
+    """Compute the constants of a torque-free motion from the moments and the initial omega.
 
     Parameters
     ----------
@@ -164,12 +165,12 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     Raises
     ------
     BodyError
-        For moments that no body has, and for numbers that are not finite.
+        If no body can have the moments, or a number is not finite.
     UndefinedError
-        For a start without angular momentum, or with an energy out of the range of floats.
+        If the angular momentum is zero, or the energy is out of a float's range.
     """
     body, spin = _broadcast(principal_moments(moments), _read_omega(omega))
-    # Dividing by powers of two is exact, and makes every number one of order one.
+    # Division by powers of two is exact and scales all numbers to order one.
     size, speed = _power_of_two(body.values), _power_of_two(spin)
     _refuse_range(size, speed)
     unit = PrincipalMoments(
@@ -186,14 +187,14 @@ def _constants(
 ) -> JacobiMotion:
     i1, i2, i3 = _components(start.moment)
     r, d1, d3 = start.r, start.d1, start.d3
-    # With no cone, or no difference of moments, anything circular will do.
+    # Without a cone, or with equal moments, any circular motion is valid.
     circular = (d1.hi == 0) | (start.span.hi == 0)
     k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1))
     k_complementary = k2_complementary.sqrt()
     descent = landen_descent(k_complementary)
 
     sense = np.sign(start.span.hi)
-    towards = np.where(sense < 0, -1.0, 1.0)  # the sign of sn that lambda above 0 needs
+    towards = np.where(sense < 0, -1.0, 1.0)  # sign of sn for positive lambda
     rate = start.span.scaled(towards) * (r * d1 / (i1 * i2 * i3)).sqrt()
     amplitudes = stack((d3 / i1).sqrt(), (d3 / (r * i2)).sqrt() * towards, (d1 / i3).sqrt())
     sine, cosine = _start_angle(amplitudes.hi, start.spin)
@@ -220,12 +221,12 @@ def _precession(
 ) -> Precession:
     """Integrate psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
 
-    One step down Landen's descent, to k1 = (1 - k')/(1 + k') and v = (1 + k')u/2,
+    After one Landen step, to k1 = (1 - k')/(1 + k') and v = (1 + k')u/2,
 
         1/(1 + b dn u) = [1 + 2 b k1/(1 + b) sn^2 v/(1 + n sn^2 v)]/(1 + b)
 
-    with n = k1 (1 - b)/(1 + b): all terms are positive and 1 + n needs no care, while the
-    usual form divides by 1 - b^2 dn^2, which vanishes with the cone.
+    with n = k1 (1 - b)/(1 + b). All terms are positive, and 1 + n is computed without cancellation;
+    the usual form divides by 1 - b^2 dn^2, which vanishes for a narrow cone.
     """
     i1, i2, i3 = _components(start.moment)
     g, d3 = start.g, start.d3
@@ -246,16 +247,16 @@ def _precession(
 
 
 def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
-    """Number the axes: 3 is the one that m circles, 2 has the middle moment."""
+    """Number the axes: m moves about axis 3, and axis 2 has the intermediate moment."""
     c_b, a_c, b_a = np.moveaxis(unit.difference.hi, -1, 0)
-    # How many of the others each moment exceeds; their differences alone tell them apart.
+    # Rank of each moment, from the differences because nearly equal moments may be equal as floats.
     rank = np.stack(
         [(b_a < 0) * 1 + (a_c > 0), (b_a >= 0) * 1 + (c_b < 0), (a_c <= 0) * 1 + (c_b >= 0)],
         axis=-1,
     )
     ascending = np.argsort(rank, axis=-1)
     start = _along(unit, spin, ascending)
-    # On the separatrix either end will do, unless two moments are equal: then the other one.
+    # On the separatrix either extreme axis is valid, unless two moments are equal: then the third.
     smallest = (start.side.hi < 0) | ((start.side.hi == 0) & (start.r.hi < start.s.hi))
     if not np.any(smallest):
         return start
@@ -263,7 +264,7 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
 
 
 def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
-    """Take body and start to axes 1, 2, 3 and form what they are combined to."""
+    """Transform moments and initial state to axes 1, 2, 3 and form their combinations."""
     parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
     moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
     signs = np.where(spin < 0, -1.0, 1.0)
@@ -286,7 +287,7 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
         g=(m1 + m2 + m3).sqrt(),
         twice_energy=x1 + x2 + x3,
         span=-i13.scaled(contrast),
-        # The quotient last: a start in whole numbers is on the separatrix exactly.
+        # Divide last, so that integer starts on the separatrix give exactly zero.
         side=(i32 * x3 - i21 * x1) / i31,
         r=r,
         s=s,
@@ -334,7 +335,7 @@ def _broadcast(body: PrincipalMoments, spin: FloatArray) -> tuple[PrincipalMomen
         )
     except ValueError:
         raise BodyError(
-            "rotor", "shape of omega", spin.shape, f"it must go with the moments' {moment.hi.shape}"
+            "rotor", "shape of omega", spin.shape, f"it must broadcast with {moment.hi.shape}"
         ) from None
     return PrincipalMoments(DoubleDouble(a, b), DoubleDouble(c, d)), spin
 

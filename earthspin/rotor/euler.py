@@ -1,4 +1,4 @@
-"""Euler's equations: what a rigid body's angular velocity does, with torque or without (I.4).
+"""Euler's equations of rigid-body rotation, with and without torque (I.4).
 
 In the body's principal axes (I.4.3)
 
@@ -6,8 +6,8 @@ In the body's principal axes (I.4.3)
     B wy' = Ny - (A - C) wz wx
     C wz' = Nz - (B - A) wx wy
 
-Without torque 2T = sum I w^2 and L2 = sum (I w)^2 stay as they are. The integrator here
-knows nothing of the closed forms; it is what they are checked against.
+Without torque 2T = sum I w^2 and L2 = sum (I w)^2 are constant. The integrator here is independent
+of the closed forms and serves to check them.
 """
 
 from __future__ import annotations
@@ -25,21 +25,22 @@ from earthspin.numerics import quaternion
 from earthspin.rotor.moments import Moments, finite, principal_moments
 
 FloatArray = NDArray[np.float64]
-#: Torque along the principal axes, N m, from time (s), omega (rad/s) and attitude.
+#: Function of time (s), omega (rad/s) and attitude that returns the torque along the principal
+#: axes, N m.
 Torque = Callable[[float, FloatArray, FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisStability:
-    """What becomes of a small disturbance of the rotation about each principal axis.
+    """Stability of the rotation about each principal axis.
 
     Attributes
     ----------
     frequency : ndarray, shape (..., 3)
-        Angular frequency of the small cone about a stable axis, else 0, rad/s.
+        Angular frequency of a small disturbance about a stable axis, otherwise 0, rad/s.
     growth_rate : ndarray, shape (..., 3)
-        Of the disturbance of an unstable axis (the middle one), else 0, 1/s. Where both
-        are 0 an adjacent moment is equal: the disturbance grows at most in proportion to t.
+        Growth rate of a disturbance about the unstable intermediate axis, otherwise 0, 1/s. Both
+        are 0 if another moment is equal; the disturbance then grows at most linearly.
     """
 
     frequency: FloatArray
@@ -48,7 +49,7 @@ class AxisStability:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IntegratedRotation:
-    """A rotation found step by step.
+    """A numerically integrated rotation.
 
     Attributes
     ----------
@@ -60,7 +61,7 @@ class IntegratedRotation:
         Quaternion w, x, y, z from body to inertial axes, of unit length within the
         tolerance; 1, 0, 0, 0 at t = 0.
     evaluations : int
-        How often the equations were evaluated.
+        Number of evaluations of the equations.
     """
 
     times: FloatArray
@@ -87,7 +88,7 @@ def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
 
 
 def twice_energy(moments: Moments, omega: Any) -> FloatArray:
-    """2T = sum of I w^2, J: the first invariant (I.5.1).
+    """First invariant, 2T = sum of I w^2, J (I.5.1).
 
     Parameters
     ----------
@@ -98,7 +99,7 @@ def twice_energy(moments: Moments, omega: Any) -> FloatArray:
 
 
 def angular_momentum_squared(moments: Moments, omega: Any) -> FloatArray:
-    """L2 = sum of (I w)^2, kg2 m4/s2: the second invariant (I.5.1).
+    """Second invariant, L2 = sum of (I w)^2, kg2 m4/s2 (I.5.1).
 
     Parameters
     ----------
@@ -123,9 +124,9 @@ def axis_stability(moments: Moments, speed: Any) -> AxisStability:
         Angular velocity about the axis, rad/s.
     """
     body = principal_moments(moments)
-    own, d = body.values, body.difference.hi  # d = (C - B, A - C, B - A)
+    abc, d = body.values, body.difference.hi  # d = (C - B, A - C, B - A)
     # Ii - Ij = d_k and Ii - Ik = -d_j, with i, j, k in cyclic order.
-    square = -d[..., [2, 0, 1]] * d[..., [1, 2, 0]] / (own[..., [1, 2, 0]] * own[..., [2, 0, 1]])
+    square = -d[..., [2, 0, 1]] * d[..., [1, 2, 0]] / (abc[..., [1, 2, 0]] * abc[..., [2, 0, 1]])
     rate = np.sqrt(np.abs(square)) * np.abs(np.asarray(speed, dtype=np.float64))[..., np.newaxis]
     return AxisStability(np.where(square > 0, rate, 0.0), np.where(square < 0, rate, 0.0))
 
@@ -140,7 +141,7 @@ def integrate_rotation(
     rtol: float = 1e-13,
     atol: float = 1e-15,
 ) -> IntegratedRotation:
-    """Integrate Euler's equations and the attitude step by step (I.4.3).
+    """Integrate Euler's equations and the attitude numerically (I.4.3).
 
     Parameters
     ----------
@@ -153,14 +154,14 @@ def integrate_rotation(
     torque : callable, optional
         Torque along the principal axes, N m, given time, omega and attitude.
     method : str
-        Any that `scipy.integrate.solve_ivp` has.
+        Any method of `scipy.integrate.solve_ivp`.
     rtol, atol : float
-        Tolerances; `atol` is relative to the start's |omega| for omega.
+        Tolerances; for omega, `atol` is relative to the initial |omega|.
 
     Raises
     ------
     EarthspinError
-        If the integrator gives up.
+        If the integrator fails.
     """
     body, t = principal_moments(moments), finite(times, "times", "s")
     start = finite(omega, "omega", "rad/s")

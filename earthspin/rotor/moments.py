@@ -1,13 +1,13 @@
-"""Principal moments of a rotor, kept with their differences.
+"""Principal moments of a rotor, stored with their differences.
 
-A free motion hangs on the differences of the moments. To form them from rounded moments
-costs the Earth five of its sixteen digits, so they may be given:
+A torque-free motion depends on the differences of the moments. Computed from rounded moments, they
+lose five of sixteen digits for the Earth, so they may be given directly:
 
     [A, B, C]                                 three numbers, in any order of size
-    {"A": ..., "B-A": ..., "C-A": ...}        no digits lost
+    {"A": ..., "B-A": ..., "C-A": ...}        full precision
 
-A, B and C belong to the x, y and z axes of the body; none needs to be the largest. For a
-body that is close to axisymmetric let A be one of the two close ones.
+A, B and C belong to the x, y and z axes of the body, in any order of size. For a nearly
+axisymmetric body, A should be one of the two nearly equal moments.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ from earthspin.errors import BodyError
 from earthspin.numerics.double_double import DoubleDouble, as_double_double, stack, two_sum
 
 FloatArray = NDArray[np.float64]
-#: Three numbers, a mapping with the keys of `KEYS`, or what `principal_moments` made of them.
+#: Three numbers, a mapping with the keys of `KEYS`, or a `PrincipalMoments`.
 Moments = Any
 
 KEYS = ("A", "B-A", "C-A")
-#: A lamina has C = A + B; rounding may put it this far beyond, relative to C.
+#: Tolerance of C <= A + B for rounding errors, relative to C; a lamina has C = A + B.
 _LAMINA = 4 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PrincipalMoments:
-    """Principal moments and their differences, each exact as given or derived.
+    """Principal moments and their differences, each as exact as the input.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ def principal_moments(given: Moments) -> PrincipalMoments:
     Raises
     ------
     BodyError
-        For a moment that is not above zero, or that exceeds the sum of the other two.
+        If a moment is not positive, or exceeds the sum of the other two.
     """
     if isinstance(given, PrincipalMoments):
         return given
@@ -117,7 +117,7 @@ def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
         a, b_a, c_a = np.broadcast_arrays(*parts)
     except ValueError:
         shapes = [part.shape for part in parts]
-        rule = "A, B-A and C-A must have shapes that go together"
+        rule = "A, B-A and C-A must have shapes that broadcast together"
         raise BodyError("rotor", "shape of moments", shapes, rule) from None
     zero = np.zeros_like(a)
     first, towards_b, towards_c = (DoubleDouble(x, zero) for x in (a, b_a, c_a))
@@ -141,28 +141,30 @@ def _from_three(given: Any) -> PrincipalMoments:
 def _check(moments: PrincipalMoments) -> None:
     values = moments.values
     for axis, name in enumerate("ABC"):
-        own = values[..., axis]
-        if not np.all(own > 0):
-            raise BodyError("rotor", name, float(np.min(own)), "a principal moment is above zero")
+        moment = values[..., axis]
+        if not np.all(moment > 0):
+            raise BodyError(
+                "rotor", name, float(np.min(moment)), "a principal moment must be positive"
+            )
     for axis, name in enumerate("ABC"):
-        own = values[..., axis]
-        # Ij + Ik - Ii, the difference Ij - Ii taken as it was given.
+        moment = values[..., axis]
+        # Ij + Ik - Ii, with the original difference Ij - Ii
         room = values[..., axis - 1] + moments.difference.hi[..., axis - 1]
-        if np.any(room < -_LAMINA * own):
-            at = np.unravel_index(np.argmin(room / own), own.shape)
+        if np.any(room < -_LAMINA * moment):
+            at = np.unravel_index(np.argmin(room / moment), moment.shape)
             others = " + ".join(f"{values[(*at, i)]:.16g}" for i in range(3) if i != axis)
-            rule = f"no principal moment exceeds the sum of the other two, here {others}"
-            raise BodyError("rotor", name, float(own[at]), rule)
+            rule = f"no principal moment may exceed the sum of the other two, here {others}"
+            raise BodyError("rotor", name, float(moment[at]), rule)
 
 
 def finite(given: Any, name: str, unit: str) -> FloatArray:
-    """Read an array of floats, none of them infinite or missing.
+    """Read an array of floats; refuse infinite and missing values.
 
     Parameters
     ----------
     given : array_like
     name, unit : str
-        What it is called, and measured in, for the error.
+        Name and unit of the input, for messages.
     """
     try:
         numbers = np.asarray(given, dtype=np.float64)

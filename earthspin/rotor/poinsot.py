@@ -1,13 +1,13 @@
-"""Poinsot's picture of free rotation: an ellipsoid that rolls on a plane (I.5).
+"""Poinsot's construction: the inertia ellipsoid rolls on the invariable plane (I.5).
 
-The angular velocity runs along the *polhode*, where two ellipsoids fixed in the body meet
+The angular velocity moves along the *polhode*, the intersection of two ellipsoids fixed in the body
 (I.5.1),
 
     2T = sum I w^2,        L2 = sum (I w)^2
 
-and along the *herpolhode* in the invariable plane, which stands across the angular momentum
-at 2T/L from the centre (I.5.7). The polhode closes; the herpolhode does if a period of the
-polhode turns it by a rational part of a whole turn.
+and along the *herpolhode* in the invariable plane, which is perpendicular to the angular momentum
+at 2T/L from the centre (I.5.7). The polhode is closed; the herpolhode is closed if it advances by a
+rational fraction of a turn per polhode period.
 """
 
 from __future__ import annotations
@@ -31,19 +31,19 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Polhode:
-    """The path of the angular velocity in the body.
+    """Path of the angular velocity in the body.
 
     Attributes
     ----------
     omega : ndarray, shape (..., n, 3)
-        Points of the path along the principal axes, rad/s, evenly spread over the amplitude
-        of the elliptic functions.
+        Points of the path along the principal axes, rad/s, evenly spaced in the amplitude of the
+        elliptic functions.
     closed : ndarray of bool, shape (...)
-        True if the last point repeats the first, the start; about an axis all are the same.
-        On the separatrix the path is open: from one end of the middle axis to the other,
-        neither of which it reaches in a finite time.
+        True if the last point equals the first; for rotation about an axis all points are equal. On
+        the separatrix the path is open, and connects the two ends of the intermediate axis, which
+        are reached only asymptotically.
     period : ndarray, shape (...)
-        Time of one round, s; infinite if there is none.
+        Period of the path, s; infinite if it is open.
     """
 
     omega: FloatArray
@@ -52,14 +52,14 @@ class Polhode:
 
 
 class Closure(NamedTuple):
-    """How nearly a herpolhode closes.
+    """Best approximate closure of a herpolhode.
 
     Attributes
     ----------
     turns, periods : int
-        Whole turns after so many whole periods of the polhode.
+        Whole turns of the herpolhode and whole periods of the polhode at closure.
     gap : float
-        Angle by which it then misses, rad.
+        Remaining angle at closure, rad.
     """
 
     turns: int
@@ -89,7 +89,7 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
 def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
     """Semi-axes of the inertia ellipsoid of rho = omega/sqrt(2T), 1/sqrt(I), kg-1/2 m-1 (I.5.1).
 
-    Goldstein's form, rho . I rho = 1: it belongs to the body alone, whatever its motion.
+    Goldstein's form, rho . I rho = 1, depends only on the body and not on its motion.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
 
 
 def momentum_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
-    """Semi-axes of the L-ellipsoid in omega space, L/I, rad/s (I.5.1).
+    """Semi-axes of the angular momentum ellipsoid in omega space, L/I, rad/s (I.5.1).
 
     Parameters and result as for `inertia_ellipsoid`.
     """
@@ -123,14 +123,14 @@ def invariable_plane_distance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
-    """The closed curve that the angular velocity runs along in the body (I.5.6).
+    """Points of the polhode, the path of the angular velocity in the body (I.5.6).
 
     Parameters
     ----------
     moments, omega
         As for `inertia_ellipsoid`.
     n : int
-        Number of points; the last of a closed curve repeats the first.
+        Number of points; the last point of a closed curve equals the first.
     """
     motion = jacobi_motion(moments, omega)
     point = np.isinf(motion.start)  # the middle axis itself
@@ -149,7 +149,7 @@ def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
 
 
 def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
-    """Path of the angular velocity in the invariable plane, about the plane's foot (I.5.9).
+    """Path of the angular velocity in the invariable plane, relative to the foot of L (I.5.9).
 
     Parameters
     ----------
@@ -161,13 +161,12 @@ def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
     Returns
     -------
     ndarray, shape (..., n, 2)
-        rad/s, as seen from the tip of the angular momentum; the point of t = 0 lies on the
-        first axis.
+        rad/s, seen from the tip of the angular momentum; the point at t = 0 is on the first axis.
     """
     motion = jacobi_motion(moments, omega)
     phase = phase_at(motion, np.concatenate([[0.0], finite(times, "times", "s")]))
     across = quaternion.rotate(momentum_frame(motion, phase), _across(motion, phase))
-    # A quarter turn from the path itself, which turning the start to the first axis undoes.
+    # Rotated by a quarter turn; moving the first point to the first axis removes the rotation.
     x, y = across[..., 0], across[..., 1]
     size = np.hypot(x[..., :1], y[..., :1])
     divisor = np.where(size > 0, size, 1.0)
@@ -176,9 +175,9 @@ def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
 
 
 def herpolhode_radii(moments: Moments, omega: Any) -> FloatArray:
-    """The two circles between which the herpolhode runs, rad/s (I.5.9).
+    """Radii of the two circles between which the herpolhode lies, rad/s (I.5.9).
 
-    The smaller radius is 0 on the separatrix, where the path winds in to the centre.
+    The smaller radius is 0 on the separatrix, where the path spirals to the centre.
 
     Parameters
     ----------
@@ -193,16 +192,16 @@ def herpolhode_radii(moments: Moments, omega: Any) -> FloatArray:
     motion = jacobi_motion(moments, omega)
     to_2, to_1, _ = np.moveaxis(np.abs(_differences(motion)), -1, 0)
     a1, a2, a3 = np.moveaxis(np.abs(motion.amplitudes), -1, 0)
-    # omega is furthest from the angular momentum, or nearest, where sn or cn vanish.
+    # omega is farthest from or nearest to the angular momentum where sn or cn vanishes.
     ends = np.stack([a1 * a3 * to_1, a2 * a3 * motion.complementary_modulus * to_2], axis=-1)
     ends = np.where(np.isinf(motion.start)[..., np.newaxis], 0.0, ends)  # the middle axis
     return np.sort(ends / motion.angular_momentum[..., np.newaxis], axis=-1)
 
 
 def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
-    """Angle about the angular momentum that one period of the polhode turns the herpolhode.
+    """Angle by which the herpolhode advances in one period of the polhode.
 
-    The figure axis that the angular momentum circles advances by as much.
+    The principal axis about which the angular momentum moves advances by the same angle.
 
     Parameters
     ----------
@@ -212,13 +211,13 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
     Returns
     -------
     ndarray, shape (...)
-        rad, above 0.
+        Advance, positive, rad.
 
     Raises
     ------
     UndefinedError
-        Where the polhode has no period: on the separatrix, and if omega stands still because
-        moments are equal.
+        If the polhode has no period: on the separatrix, or if omega is constant because moments are
+        equal.
     """
     motion = jacobi_motion(moments, omega)
     if not np.all(np.isfinite(motion.period)):
@@ -226,23 +225,23 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
             "the polhode has no period, so its herpolhode has no advance: the start is on the "
             "separatrix, or equal moments let omega stand still; move the start"
         )
-    # psi counts the turns of the body too, one per period about the axis that is circled.
+    # psi includes one turn of the body per period about this axis.
     advance = motion.precession.rate * motion.exact_period + TWO_PI * motion.sense
     return np.asarray(advance.hi)
 
 
 def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """The rational part of a turn that an advance is nearest to.
+    """Rational fraction of a turn nearest to an advance.
 
-    The herpolhode closes if its advance is a rational multiple of 2 pi. No float says which
-    numbers are rational; the gap says how far the path is from closing.
+    The herpolhode is closed if its advance is a rational multiple of 2 pi. As floats cannot decide
+    this, the gap measures the deviation from closure.
 
     Parameters
     ----------
     advance : float
-        As `herpolhode_advance` gives it, rad.
+        Output of `herpolhode_advance`, rad.
     most_periods : int
-        Largest denominator to try.
+        Largest denominator to test.
     """
     part = Fraction(advance / (2 * np.pi)).limit_denominator(most_periods)
     gap = advance * part.denominator - 2 * np.pi * part.numerator
@@ -250,13 +249,13 @@ def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
 
 
 def _across(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Omega x (angular momentum/G) along 1, 2, 3, from the differences of the moments."""
+    """Vector omega x (angular momentum/G) along 1, 2, 3, from the differences of moments."""
     w = phase.along(motion.amplitudes)
     factor = _differences(motion) * [1.0, -1.0, 1.0] / motion.angular_momentum[..., np.newaxis]
     return np.asarray(w[..., [1, 2, 0]] * w[..., [2, 0, 1]] * factor[..., np.newaxis, :])
 
 
 def _differences(motion: JacobiMotion) -> FloatArray:
-    """I3 - I2, I3 - I1, I2 - I1, which are of one sign."""
+    """Differences I3 - I2, I3 - I1, I2 - I1, which have one sign."""
     sizes = np.abs(np.take_along_axis(motion.moments.difference.hi, motion.axes, -1))
     return np.asarray(motion.sense[..., np.newaxis] * sizes)

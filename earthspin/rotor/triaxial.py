@@ -1,7 +1,7 @@
-"""Free rotation of any body from any start: Jacobi's closed form in time (I.4.4, I.5).
+"""Torque-free rotation of any rigid body: Jacobi's closed form in time (I.4.4, I.5).
 
-The constants are those of `constants_of_motion`, where the formulas stand. Phases are
-reduced with 32 digits, so that the errors do not grow with time.
+The formulas and constants are in `constants_of_motion`. Phases are reduced with 32 digits, so that
+the error does not grow with time.
 """
 
 from __future__ import annotations
@@ -21,14 +21,15 @@ from earthspin.rotor.moments import Moments, finite
 
 FloatArray = NDArray[np.float64]
 
-#: What the closed form keeps, inputs taken as exact: relative to the largest angular velocity, and
-#: of the elements of the attitude. Measured: 2e-14 (`python -m tests.rotor.accuracy 600`).
+#: Error bound of the closed form for exact inputs: relative to the largest angular velocity, and
+#: absolute for the elements of the attitude. Measured: 2e-14 (`python -m tests.rotor.accuracy
+#: 600`).
 CLOSED_FORM_ERROR = 1e-13
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FreeRotation:
-    """How a body turns without torque.
+    """Torque-free rotation of a body over time.
 
     The inertial axes are those of the body at t = 0.
 
@@ -58,10 +59,10 @@ class FreeRotation:
 
 
 def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
-    """Rotate a body without torque, in closed form (I.4.4, I.5).
+    """Compute the torque-free rotation of a body, in closed form (I.4.4, I.5).
 
-    Inputs are taken as exact; what the last digit of one of them does to a late attitude is
-    the motion's own doing, not an error of the method.
+    Inputs are treated as exact. A change in the last digit of an input may change a late attitude
+    noticeably; this is a property of the motion, not an error of the method.
 
     Parameters
     ----------
@@ -80,15 +81,17 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
     Raises
     ------
     BodyError
-        For moments that no body has, and for numbers that are not finite.
+        If no body can have the moments, or a number is not finite.
     UndefinedError
-        For a start without angular momentum.
+        If the angular momentum is zero.
     """
     t = finite(times, "times", "s")
     if t.ndim != 1:
-        raise BodyError("rotor", "shape of times", t.shape, "give one row of times, in s")
+        raise BodyError(
+            "rotor", "shape of times", t.shape, "give a one-dimensional array of times, in s"
+        )
     motion = jacobi_motion(moments, omega)
-    # The start goes in front, because psi counts from there.
+    # t = 0 is the first time, because psi is measured from it.
     phase = phase_at(motion, np.concatenate([[0.0], t]))
     omega_body = to_body(motion, phase.along(motion.amplitudes))[..., 1:, :]
     momentum = omega_body * motion.moments.values[..., np.newaxis, :]
@@ -105,18 +108,18 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Where a motion stands in its period.
+    """Phase of a motion within its period.
 
     Attributes
     ----------
     times : ndarray, shape (n,)
         s.
     u : ndarray, shape (..., n)
-        Argument of the elliptic functions, less whole half periods: from -K to K.
+        Argument of the elliptic functions, reduced by whole half periods to -K to K.
     turned : ndarray, shape (..., n)
-        -1 after an odd number of half periods, else 1.
+        -1 after an odd number of half periods, otherwise 1.
     upper, lower : Jacobi
-        Functions of u, and of what it becomes one step down Landen's descent.
+        Elliptic functions of u, and of the argument after one Landen step.
     """
 
     times: FloatArray
@@ -126,7 +129,7 @@ class Phase:
     lower: Jacobi
 
     def along(self, amplitudes: FloatArray) -> FloatArray:
-        """Vector with these amplitudes of cn, sn, dn, shape (..., n, 3)."""
+        """Vector with given amplitudes of cn, sn, dn, shape (..., n, 3)."""
         sn, cn, dn = self.upper
         return np.stack([self.turned * cn, self.turned * sn, dn], -1) * amplitudes[..., None, :]
 
@@ -143,7 +146,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
     half_period = motion.descent.quarter_period.scaled(2.0)[..., np.newaxis]
     start = motion.start[..., np.newaxis]
     run = motion.rate[..., np.newaxis] * times
-    periodic = half_period.hi > 0  # else on the separatrix, where u may be infinite
+    periodic = half_period.hi > 0  # otherwise on the separatrix, where u may be infinite
     halves = np.rint(
         np.where(periodic, run.hi + start, 0.0) / np.where(periodic, half_period.hi, 1)
     )
@@ -153,7 +156,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
 
 
 def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
-    """Take components along 1, 2, 3 to the body's own axes.
+    """Transform components along axes 1, 2, 3 to the body axes.
 
     Parameters
     ----------
@@ -171,7 +174,7 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
     ----------
     motion : JacobiMotion
     phase : Phase
-        Psi counts from the first of its times.
+        Phases; psi is measured from the first time.
     """
     return quaternion.multiply(
         quaternion.turn_about_z(_half_psi(motion, phase)),
@@ -180,14 +183,14 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Quaternion since the first of the times, along the body's own axes."""
+    """Attitude quaternion relative to the first of the times, along the body axes."""
     frame = momentum_frame(motion, phase)
     turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
     return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)
 
 
 def _shortest_turn(cosines: FloatArray) -> FloatArray:
-    """Quaternion that takes a unit vector with third component >= 0 to the third axis."""
+    """Quaternion of the shortest rotation from a unit vector (third component >= 0) to axis 3."""
     x, y, z = np.moveaxis(cosines, -1, 0)
     turn = np.stack([1 + z, y, -x, np.zeros_like(z)], axis=-1)
     return np.asarray(turn / np.sqrt(np.sum(turn * turn, axis=-1, keepdims=True)))

@@ -1,1 +1,1 @@
-"""The axis over millennia to millions of years: averaged torques on a changing orbit."""
+"""Spin axis over millennia to millions of years: averaged torques on a changing orbit."""

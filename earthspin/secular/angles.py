@@ -1,13 +1,13 @@
-r"""What people read off an axis s and an orbit (normal n, eccentricity vector e).
+r"""Obliquity and precession parameters of an axis s and an orbit (normal n, eccentricity vector e).
 
 The equinox of date lies along s x n, where the Sun crosses the equator northward. The obliquity is
-the angle from n to s; the longitude of perihelion is counted along the orbit from the equinox of
-date, and with it
+the angle from n to s; the longitude of perihelion is measured along the orbit from the equinox of
+date. Climatic precession and coprecession,
 
     e sin(longitude) = (e.s)/sin(obliquity),     e cos(longitude) = e.(s x n)/sin(obliquity),
 
-climatic precession and coprecession, without a trigonometric function of it. It is where the *body*
-is closest to the Sun; seen from the Earth, the Sun then stands 180 degrees away.
+thus need no trigonometric function. Perihelion is where the *body* is closest to the Sun; seen from
+the body, the Sun is then in the opposite direction.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Numeric = float | FloatArray
 
 
 class Seasons(NamedTuple):
-    """Obliquity, and what depends on where the equinox is; shape (n,) each.
+    """Obliquity and quantities that depend on the equinox; shape (n,) each.
 
     Attributes
     ----------
@@ -75,17 +75,17 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 def leaning(axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric) -> FloatArray:
-    """An axis leant further from the normal of an orbit, and turned about that.
+    """Axis with increments of its obliquity and longitude.
 
     Parameters
     ----------
     axis, normal : ndarray, shape (3,)
         Unit vectors.
     more : float or ndarray, shape (...)
-        What is added to the obliquity, rad; an axis that is leant past the normal leans to its
-        other side.
+        Increment of the obliquity, rad; if the obliquity becomes negative, the axis is on the other
+        side of the normal.
     turned : float or ndarray, shape (...)
-        What is added to the longitude, in the sense of the motion, rad.
+        Increment of the longitude, in the sense of the orbital motion, rad.
 
     Returns
     -------
@@ -107,5 +107,5 @@ def leaning(axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
 
 
 def beside(axis: FloatArray, vector: FloatArray) -> FloatArray:
-    """A vector of the orbit, shape (3, n), with room for the members that the axis has."""
+    """Reshape an orbital vector, shape (3, n), to broadcast with the members of an axis array."""
     return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

@@ -1,10 +1,9 @@
-"""How wrong the axis may be far from the present, cause by cause.
+"""Error budget of the axis far from the present, by cause.
 
-Each cause is a change of what the solution stands on, by its 95 % half-width; the solution is made
-again with it, and how far it then lies away is the share of that cause. Up to a few thousand years
-the constant of precession and the rate of J2 count; beyond ten thousand years what counts is the
-Earth itself: how its tides and its figure were in the past. Where that makes changes large, all
-causes are changed at once (`sample`).
+Each cause is an input changed by its 95 % half-width; the solution is repeated with the change, and
+its difference is the contribution of that cause. Up to a few thousand years the constant of
+precession and the rate of J2 dominate; beyond ten thousand years the past tides and figure of the
+Earth. If the changes become large, all causes are varied together (`sample`).
 """
 
 from __future__ import annotations
@@ -27,26 +26,27 @@ FloatArray = NDArray[np.float64]
 #: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
 HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"
 
-#: Share of today's tides by which their mean over the past may differ: an assumption. People sweep
-#: factors of 0 to 1.2; 0.2 is the distance of today's from that end.
+#: Relative half-width of the mean tidal dissipation in the past: an assumption. Published studies
+#: vary the factor from 0 to 1.2; 0.2 is the distance of the present value from 1.2.
 TIDES_SHARE = 0.2
 #: Drift of the mean dynamical ellipticity by mantle convection, relative, s-1: an assumption.
-#: People sweep factors of 0.998 to 1.012; half of that width is reached in ten million years.
+#: Published studies vary the factor from 0.998 to 1.012; half of that width is reached in ten
+#: million years.
 ELLIPTICITY_DRIFT = 0.007 / (10e6 * JULIAN_YEAR)
-#: Causes that are known of the Earth alone.
+#: Causes that apply only to the Earth.
 OF_THE_EARTH = ("J2 rate", "tides", "ellipticity")
 
 
 @dataclass(frozen=True)
 class Setting:
-    """All that a solution stands on.
+    """Inputs of a solution.
 
     Attributes
     ----------
     strength : Strength
     orbit : Orbit
     start : ndarray, shape (3,) or (3, ...)
-        Unit vector of the axis at J2000.0, or of the axes of members.
+        Unit vector of the axis at J2000.0, or of the axes of all members.
     """
 
     strength: Strength
@@ -56,19 +56,19 @@ class Setting:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """95 % half-widths of what a solution stands on, each of one cause.
+    """95 % half-widths of the inputs of a solution, by cause.
 
     Attributes
     ----------
     constant : float
-        Relative, of the constant of precession.
+        Relative half-width of the constant of precession.
     orbit : callable
-        Of the orbit's normal (rad) and eccentricity vector at times, s, shape (2, n).
+        Half-widths of the orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
     earth : bool
-        Whether tides and ellipticity are those of the Earth, and uncertain as hers are.
+        Whether tides and ellipticity are those of the Earth, with their uncertainties.
     start : tuple of float
-        Of the axis at J2000.0, rad: towards the normal of the orbit, and across if there are two;
-        empty if the start is no cause.
+        Half-widths of the axis at J2000.0, rad: towards the normal of the orbit, and, if there are
+        two, perpendicular to that; empty if the start is not a cause.
     """
 
     constant: Numeric
@@ -78,14 +78,14 @@ class Uncertainty:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Causes, each as often as there are ways to move what it changes."""
+        """Names of the causes; a cause with several independent directions is repeated."""
         moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
         return moved + OF_THE_EARTH if self.earth else moved
 
 
 @dataclass(frozen=True)
 class Solved:
-    """The axis in time, and in time again with each cause changed.
+    """The axis in time, and its solutions with each cause changed.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Solved:
     setting : Setting
     uncertainty : Uncertainty
     others : tuple of (str, Trajectory, Setting)
-        By cause: the trajectory with that cause changed, and the setting it belongs to.
+        By cause: the trajectory with that cause changed, and its setting.
     """
 
     path: Trajectory
@@ -103,12 +103,14 @@ class Solved:
 
     @property
     def steps(self) -> int:
-        """Newton steps of all."""
+        """Total number of Newton steps."""
         return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
 
 def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
-    """Follow the axis, with each cause changed, and for the method with windows twice as long.
+    """Solve for the axis, also with each cause changed, and with doubled windows.
+
+    The doubled windows give the error of the method.
 
     Parameters
     ----------
@@ -124,21 +126,31 @@ def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty
         setting,
         uncertainty,
         tuple(
-            (name, solve(of.strength, of.orbit, of.start, span, near=path), of)
-            for name, of in others
+            (
+                name,
+                solve(
+                    changed_setting.strength,
+                    changed_setting.orbit,
+                    changed_setting.start,
+                    span,
+                    near=path,
+                ),
+                changed_setting,
+            )
+            for name, changed_setting in others
         ),
     )
 
 
 def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Changed:
-    """An orbit tilted and drawn out by multiples of its half-widths.
+    """Orbit whose normal and eccentricity vector are shifted by multiples of their half-widths.
 
     Parameters
     ----------
     orbit : Orbit
     error : callable
     ways : sequence of float
-        By how many half-widths, towards each of two directions across the normal of J2000.0.
+        Shifts in half-widths along each of two directions perpendicular to the normal of J2000.0.
     """
     directions = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[:2]
 
@@ -157,13 +169,13 @@ def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Changed:
 
 
 def leaning(setting: Setting, angles: Sequence[float]) -> FloatArray:
-    """Return the start moved by small angles, same shape.
+    """Initial axis rotated by small angles, same shape.
 
     Parameters
     ----------
     setting : Setting
     angles : sequence of float
-        Towards the normal of the orbit or away from it, and across if there are two, rad.
+        Angles towards the normal of the orbit and, if there are two, perpendicular to that, rad.
     """
     start = setting.start.reshape(3, -1)
     across = cross(setting.orbit.at(np.zeros(1))[0], start)
@@ -174,7 +186,7 @@ def leaning(setting: Setting, angles: Sequence[float]) -> FloatArray:
 
 
 def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
-    """What each cause makes of a setting by its half-width; the orbit is moved two ways."""
+    """Settings with each cause changed by its half-width; the orbit in two directions."""
     causes = uncertainty.causes
     return tuple(
         (cause, changed(setting, uncertainty, amounts))
@@ -183,20 +195,20 @@ def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Sett
 
 
 def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
-    """A setting with all its causes changed at once.
+    """Setting with all its causes changed.
 
     Parameters
     ----------
     setting : Setting
     uncertainty : Uncertainty
     amounts : ndarray, shape (k,)
-        By how many half-widths, in the order of `Uncertainty.causes`.
+        Changes in half-widths, in the order of `Uncertainty.causes`.
     """
-    given = iter(float(amount) for amount in amounts)
-    constant = next(given)
-    angles = [next(given) * half_width for half_width in uncertainty.start]
-    ways = [next(given), next(given)]
-    j2, tides, drift = given if uncertainty.earth else (0.0, 0.0, 0.0)
+    remaining = iter(float(amount) for amount in amounts)
+    constant = next(remaining)
+    angles = [next(remaining) * half_width for half_width in uncertainty.start]
+    ways = [next(remaining), next(remaining)]
+    j2, tides, drift = remaining if uncertainty.earth else (0.0, 0.0, 0.0)
     strength, start, orbit = setting.strength, setting.start, setting.orbit
     if any(angles):
         start = leaning(setting, angles)

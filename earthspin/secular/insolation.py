@@ -1,15 +1,17 @@
-r"""Sunlight at the top of an atmosphere, averaged over a day, from orbit and obliquity.
+r"""Daily mean insolation at the top of an atmosphere, from orbit and obliquity.
 
-The Sun's longitude L is seen from the body, along the orbit from the moving equinox: 0 at the March
-equinox, 90 degrees at the June solstice. The *body's* perihelion has the longitude w, so that the
-Sun, then nearest, stands at w + 180 degrees, and the true anomaly is v = L - w - 180 degrees. Of a
-solar constant S at the mean distance a comes, on a day with the Sun's declination d, on average
+The Sun's longitude L is seen from the body and measured along the orbit from the moving equinox: 0
+at the March equinox, 90 degrees at the June solstice. The *body's* perihelion has the longitude w,
+so at perihelion the Sun is at w + 180 degrees, and the true anomaly is v = L - w - 180 degrees. For
+a solar constant S at the mean distance a, the daily mean insolation on a day with the Sun's
+declination d is
 
     W = (S/pi) (a/r)^2 (H sin(phi) sin(d) + cos(phi) cos(d) sin(H)),   cos(H) = -tan(phi) tan(d),
     sin(d) = sin(eps) sin(L),   a/r = (1 + e cos v)/(1 - e^2)
 
 (Berger 1978, J. Atmos. Sci. 35, 2362; the same in Laskar et al. 2004, A&A 428, 261). A *mean*
-longitude grows evenly with time and is that of the true Sun at the March equinox, after Berger.
+longitude increases uniformly with time and equals that of the true Sun at the March equinox, after
+Berger.
 """
 
 from __future__ import annotations
@@ -23,13 +25,13 @@ from earthspin.numerics.kepler import mean_anomaly, true_anomaly
 
 FloatArray = NDArray[np.float64]
 
-#: Nodes of Gauss and Legendre over a window of days; where a polar night begins inside it the
-#: integrand has a kink, of which so many leave some 1e-5.
+#: Gauss-Legendre nodes over a window of days; if a polar night begins inside the window, the kink
+#: of the integrand causes an error of about 1e-5.
 NODES = 48
 
 
 class Season(NamedTuple):
-    """What insolation hangs on; arrays that broadcast against one another.
+    """Orbital inputs of the insolation; arrays that broadcast together.
 
     Attributes
     ----------
@@ -46,7 +48,7 @@ class Season(NamedTuple):
 
 
 def daily(season: Season, latitude: FloatArray, longitude: FloatArray) -> FloatArray:
-    """Mean over a day, as a share of the solar constant at the mean distance.
+    """Daily mean insolation, as a fraction of the solar constant at the mean distance.
 
     Parameters
     ----------
@@ -60,13 +62,13 @@ def daily(season: Season, latitude: FloatArray, longitude: FloatArray) -> FloatA
     nearness = (1 + e * np.cos(longitude - season.perihelion - np.pi)) / (1 - e * e)
     sine = np.sin(season.obliquity) * np.sin(longitude)
     high, level = np.sin(latitude) * sine, np.cos(latitude) * np.sqrt(1 - sine * sine)
-    # where the Sun does not set, or not rise, half the day is half a turn, or nothing
+    # half the length of daylight is pi during a polar day and 0 during a polar night
     half_day = np.arccos(np.clip(-high / np.maximum(level, 1e-300), -1.0, 1.0))
     return np.asarray(nearness**2 * (half_day * high + level * np.sin(half_day)) / np.pi)
 
 
 def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
-    """True longitude of the Sun at a mean longitude, rad; the two agree at the March equinox."""
+    """True longitude of the Sun at a mean longitude, rad; both agree at the March equinox."""
     e = season.eccentricity
     at_equinox = mean_anomaly(-season.perihelion - np.pi, e)
     anomaly = true_anomaly(at_equinox + mean, e)
@@ -82,15 +84,15 @@ def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
 def over_days(
     season: Season, latitude: FloatArray, longitude: FloatArray, days: float
 ) -> FloatArray:
-    """Mean over a window of time about the instant at which the Sun has a longitude.
+    """Mean insolation over a time window centred where the Sun has a given longitude.
 
     Parameters
     ----------
     season : Season
     latitude, longitude : ndarray
-        rad; the longitude is a true one.
+        rad; the longitude is a true longitude.
     days : float
-        Length of the window as a share of the year.
+        Length of the window as a fraction of the year.
     """
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
     middle = mean_longitude(season, longitude)

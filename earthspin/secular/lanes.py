@@ -1,12 +1,11 @@
-r"""Many axes over millions of years, side by side: a Runge-Kutta method in a frame that turns.
+r"""Integration of many axes over millions of years: a Runge-Kutta method in a precessing frame.
 
-Seen from axes that turn about the mean normal as fast as the spin axis precesses, the axis hardly
-moves: steps of four thousand years then do. Members stand
-side by side in one array, and every stage of the method of Dormand and Prince (order 8, scipy's
-`DOP853`) is a few operations on whole rows. An orbit is common to all members; constants, tides,
-figures and starts are their own.
+In a frame that rotates about the mean normal at the precession rate, the axis hardly moves, so
+steps of four thousand years suffice. All members are in one array, and every stage of the method of
+Dormand and Prince (order 8, scipy's `DOP853`) is a few operations on whole rows. All members have
+the same orbit, but individual constants, tides, figures and starts.
 
-Method and frame are others than those of `trajectory`: each is the other's check.
+Method and frame differ from those of `trajectory`, so each checks the other.
 """
 
 from __future__ import annotations
@@ -26,14 +25,15 @@ from earthspin.secular.strength import Strength, Tides
 
 FloatArray = NDArray[np.float64]
 
-#: Step, s: this keeps 0.03 arcsec over a million years (docs/long_term.md).
+#: Step, s: the error is 0.03 arcsec over a million years (docs/long_term.md).
 STEP = 4000 * JULIAN_YEAR
-#: Members are padded to a multiple of this, so that sums do not hang on how many there are.
+#: Members are padded to a multiple of this, so that rounding does not depend on their number.
 PAD = 64
 _STAGES = 12
-#: By what share of a step its ends are taken from inside it: there a series of the orbit may end.
+#: Fraction of a step by which its ends are shifted inwards, because a series of the orbit may end
+#: there.
 INSIDE = 1e-9
-#: By how much members may differ in their precession from that of the frame, as a share.
+#: Largest relative difference between the precession of a member and that of the frame.
 SPREAD = 0.3
 
 
@@ -44,7 +44,7 @@ def solve_many(
     times: FloatArray,
     step: float = STEP,
 ) -> FloatArray:
-    """Follow the axes of many members from J2000.0.
+    """Integrate the axes of many members from J2000.0.
 
     Parameters
     ----------
@@ -64,24 +64,24 @@ def solve_many(
         Unit vectors, GCRS.
     """
     members = starts.shape[1]
-    found = np.empty((3, times.size, members))
+    axes = np.empty((3, times.size, members))
     width = -(-members // PAD) * PAD
     padded = np.concatenate([starts, np.repeat(starts[:, -1:], width - members, axis=1)], axis=1)
     lanes = _Lanes(_padded(strength, width, members), orbit, padded, times)
     for wanted in (times[times < 0][::-1], times[times >= 0]):
         places = np.searchsorted(times, wanted)
         for place, axis in zip(places, lanes.run(wanted, step), strict=True):
-            found[:, place] = axis[:, :members]
-    return found
+            axes[:, place] = axis[:, :members]
+    return axes
 
 
 def _mean(values: FloatArray) -> float:
-    """Mean of all members; of equal ones the very value, however many there are."""
+    """Mean of all members; exact if all are equal."""
     return float(values[0] + np.mean(values - values[0]))
 
 
 def _padded(strength: Strength, width: int, members: int) -> Strength:
-    """The same with every array as long as there are lanes."""
+    """Strength with every array padded to the number of lanes."""
 
     def long(value: FloatArray | float) -> FloatArray:
         row = np.broadcast_to(np.asarray(value, dtype=float), (members,))
@@ -99,14 +99,15 @@ def _padded(strength: Strength, width: int, members: int) -> Strength:
 
 
 class _Lanes:
-    """Members in a frame that turns with their mean precession."""
+    """Members in a frame that rotates at their mean precession."""
 
     def __init__(
         self, strength: Strength, orbit: Orbit, starts: FloatArray, times: FloatArray
     ) -> None:
         self.strength, self.orbit = strength, orbit
         sampled = np.linspace(min(times[0], 0.0), max(times[-1], 0.0), 101)
-        # what the Moon lags behind is the same for all: an arcsecond, times the share of the Moon
+        # one lag of the Moon's plane is used for all members: it is an arcsecond, times the Moon's
+        # share
         self.mean = replace(
             strength,
             sun=_mean(strength.sun),
@@ -123,12 +124,12 @@ class _Lanes:
         self.turn = _mean(turning)
         if np.max(np.abs(turning - self.turn)) > SPREAD * np.max(np.abs(turning)):
             raise UndefinedError(
-                "members precess at rates too far apart to be followed side by side; put those of "
-                "like obliquity together"
+                "members precess at rates too different for one integration; group "
+                "members of similar obliquity"
             )
 
     def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
-        """Axes at times that lead away from J2000.0, shape (3, lanes) each, GCRS."""
+        """Axes at times in order away from J2000.0, shape (3, lanes) each, GCRS."""
         if not times.size or times[-1] == 0.0:
             yield from (self.axes.T @ self.start for _ in times)
             return
@@ -165,12 +166,12 @@ class _Lanes:
             state = state + change
 
     def _still(self, u: FloatArray, time: float) -> FloatArray:
-        """From the turning frame to the GCRS."""
+        """Transform axes from the rotating frame to the GCRS."""
         c, s = math.cos(self.turn * time), math.sin(self.turn * time)
         return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
 
     def _slopes(self, times: FloatArray) -> Callable[[int, FloatArray], FloatArray]:
-        """Rates in the turning frame at some times, as a function of which of them and the axes."""
+        """Function of a time index and the axes that returns the rates in the rotating frame."""
         normal, eccentricity, turning = self.orbit.at(times)
         e2 = np.sum(eccentricity**2, axis=0)
         constant = self.strength.constant(times[:, np.newaxis], e2[:, np.newaxis])
@@ -200,7 +201,7 @@ def _crossing(vector: FloatArray) -> FloatArray:
 
 
 def _between(x: float, terms: Sequence[FloatArray]) -> FloatArray:
-    """Interpolation of order 7, at a share of the step (Hairer, Norsett & Wanner 1993, II.6)."""
+    """Interpolation of order 7 within a step (Hairer, Norsett & Wanner 1993, II.6)."""
     u = np.zeros_like(terms[0])
     for number, term in enumerate(reversed(terms)):
         u += term

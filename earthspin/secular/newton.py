@@ -1,12 +1,12 @@
-r"""Newton's method in time: the equation of an axis at nodes, and a step towards what solves it.
+r"""Newton's method in time for the equation of an axis at collocation nodes.
 
-Longitude phi of the spin axis about a fixed axis N and height Z = s.N are canonical: with the
-lift L = m.s of the axis m of the torque, and a turn g,
+The longitude phi of the spin axis about a fixed axis N and the height Z = s.N are canonical
+variables: with the projection L = m.s on the axis m of the torque, and a rotation g,
 
     F = g.s - (a/2) L^2,    phi' = dF/dZ,    Z' = -dF/dphi.
 
-What lies across N is written as one complex number, seen from the longitude of s: its real part
-points where s leans, its imaginary part beside it.
+Components perpendicular to N are combined in one complex number relative to the longitude of s: the
+real part is along the projection of s, the imaginary part perpendicular to it.
 """
 
 from __future__ import annotations
@@ -23,21 +23,22 @@ from earthspin.torque.quadrupole import dot
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-#: Sweeps that solve the linear equations of windows, and the size at which they will not.
+#: Largest number of sweeps for the linear equations of windows, and the size that counts as
+#: divergence.
 MOST_SWEEPS, DIVERGED = 40, 1e6
-#: Change that is taken for nothing at all would leave to divide by.
+#: Smallest change used as a divisor.
 TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """What turns an axis at the nodes of windows, along axes of which the third is N.
+    """Rates and axes of the torque at the nodes of windows, in a frame whose third axis is N.
 
     Attributes
     ----------
     axis, drift : ndarray of complex, shape (..., w, n)
-        Across N: the axis m of the torque, and the turn g (rad/s).
+        Components perpendicular to N of the axis m of the torque, and of the rotation g (rad/s).
     axis_height, drift_height : ndarray, shape (..., w, n)
-        Their components along N.
+        Components of m and g along N.
     constant : ndarray, shape (..., w, n)
         a, rad/s.
     """
@@ -50,7 +51,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Seen along axes, whose last is N."""
+        """Transform the averaged torque to a frame whose last axis is N."""
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
@@ -67,10 +68,11 @@ class Slope(NamedTuple):
     Attributes
     ----------
     rates : ndarray, shape (2, ..., w, n)
-        Of longitude and height.
+        Rates of longitude and height.
     mixed, by_height, by_longitude : ndarray
-        Derivatives of the rate of longitude by longitude (of the rate of height by height it is
-        minus that), of the rate of longitude by height, and of the rate of height by longitude.
+        Derivatives of the rate of longitude by longitude (the negative is that of the rate of
+        height by height), of the rate of longitude by height, and of the rate of height by
+        longitude.
     """
 
     rates: FloatArray
@@ -109,9 +111,11 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def moved(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrals from the start of each window to its nodes; where windows start, and the last ends.
+    """Integrals from window starts to nodes, states at window starts, and the final state.
 
-    Of shape (2, ..., w, n), (2, ..., w) and (2, ...).
+    The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
+
+    The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
     """
     inside, across = windows.integral(rates)
     ends = np.cumsum(np.concatenate([state[..., np.newaxis], across], axis=-1), axis=-1)
@@ -124,9 +128,8 @@ def step(
     """One step of Newton's method: new values at the nodes, and the largest change of each axis.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
-    starts at b solve y = b + S f(y). Linearised about what there is, the change is d = c + S J d,
-    with the defect c for the start as it was; a start that moves adds what S J makes of a unit
-    step.
+    starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
+    d, with the defect c for an unchanged start; a changed start adds S J times a unit step.
 
     Parameters
     ----------
@@ -135,15 +138,15 @@ def step(
     values : ndarray, shape (2, ..., w, n)
         Longitude and height.
     state : ndarray, shape (2, ...)
-        At the start of the first window.
+        Values at the start of the first window.
     left : ndarray, shape (...)
-        Share of the change that may be left to the next step.
+        Fraction of the change that may remain for the next step.
 
     Returns
     -------
     values : ndarray, shape (2, ..., w, n)
     change : ndarray, shape (...)
-        Infinity where the linear equations could not be solved.
+        Largest change; infinity if the linear equations could not be solved.
     """
     at = slope(on, *values)
     inside, starts, _ = moved(windows, at.rates, state)
@@ -159,16 +162,16 @@ def step(
 def _linear(
     windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Solve d = c + S J d in every window for several c at once, shape (2, k, ..., w, n).
+    """Solve d = c + S J d in every window for several c, shape (2, k, ..., w, n).
 
-    By sweeps: height first, then longitude with it; what turns longitude into height is small, so
-    that a sweep leaves little. Also what a window adds by its end, shape (2, k, ..., w), and which
-    axes the sweeps settled for: each has as many sweeps as it would alone.
+    Each sweep solves for the height and then for the longitude; the coupling of longitude to height
+    is small, so the residual decreases fast. Returns also the change over each window, shape (2, k,
+    ..., w), and which axes converged; each axis has as many sweeps as it would alone.
     """
     gauss = rule(windows.order)
-    jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: to broadcast takes longer
-    for wide, of in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
-        wide[:] = of * windows.half
+    jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: broadcasting is slower
+    for wide, derivative in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
+        wide[:] = derivative * windows.half
     mixed, by_z, by_phi = jacobian
     phi, z = sides
     settled = np.zeros(sides.shape[2:-2], dtype=bool)
@@ -186,24 +189,24 @@ def _linear(
         if settled.all() or size.max() > DIVERGED:
             break
         before = np.maximum(change, TINY)
-    ends = [of @ gauss.weights for of in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
+    ends = [rate @ gauss.weights for rate in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
     return np.array([phi, z]), np.array(ends), settled
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """How far each window's start moves, shape (2, ..., w), from what windows do to their ends.
+    """Change of each window's start, shape (2, ..., w), from the changes over all windows.
 
     Parameters
     ----------
     ends : ndarray, shape (2, 3, ..., w)
-        Change between start and end by the defect, and by unit steps of either component at the
-        start.
+        Change between start and end due to the defect, and due to unit changes of each component at
+        the start.
     """
     alone = ends.ndim == 3
     rows = ends.transpose(-1, *range(ends.ndim - 1))
     phi = z = 0.0 if alone else np.zeros(ends.shape[2:-1])
-    found = []
+    shifts = []
     for (d0, d00, d01), (d1, d10, d11) in rows.tolist() if alone else rows:
-        found.append((phi, z))
+        shifts.append((phi, z))
         phi, z = phi + d0 + d00 * phi + d01 * z, z + d1 + d10 * phi + d11 * z
-    return np.moveaxis(np.array(found), 0, -1)
+    return np.moveaxis(np.array(shifts), 0, -1)

@@ -1,4 +1,4 @@
-"""An orbit that changes over millennia, as what turns an axis needs it."""
+"""Orbits that change over millennia, and the averaged torque on a spin axis."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from earthspin.torque.quadrupole import cross, dot
 
 FloatArray = NDArray[np.float64]
 
-#: Of an orbit at some times: unit normal in the sense of the motion, vector to the pericentre as
-#: long as the eccentricity, and rate of the normal (s-1); each of shape (3, n), along the GCRS.
+#: Orbit at some times: unit normal in the sense of the motion, eccentricity vector (towards the
+#: pericentre), and rate of the normal (s-1); each of shape (3, n), in the GCRS.
 Shape: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
 
 
 class Orbit(Protocol):
-    """Whatever gives an orbit at any time that it covers."""
+    """Protocol of an orbit that can be evaluated at any time within its coverage."""
 
     @property
     def coverage(self) -> tuple[float, float]:
@@ -28,21 +28,21 @@ class Orbit(Protocol):
 
     @property
     def edges(self) -> FloatArray:
-        """Where its pieces meet, s, ascending, J2000.0 among them: smooth in between."""
+        """Times where smooth pieces of the orbit meet, including J2000.0, s, ascending."""
 
     def at(self, times: FloatArray) -> Shape:
-        """The orbit at times, s from J2000.0 TDB."""
+        """Shape of the orbit at times in s from J2000.0 TDB."""
 
 
 @dataclass(frozen=True)
 class Changed:
-    """An orbit that is another one, changed at every time.
+    """An orbit derived from another by a change at every time.
 
     Attributes
     ----------
     orbit : Orbit
     change : callable
-        Takes times (s) and the shape then, and gives the shape it is changed to.
+        Function of times (s) and the shape at these times that returns the changed shape.
     """
 
     orbit: Orbit
@@ -50,21 +50,21 @@ class Changed:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """That of the other orbit."""
+        """Coverage of the original orbit."""
         return self.orbit.coverage
 
     @property
     def edges(self) -> FloatArray:
-        """Those of the other orbit."""
+        """Edges of the original orbit."""
         return self.orbit.edges
 
     def at(self, times: FloatArray) -> Shape:
-        """The orbit, changed."""
+        """Changed shape of the orbit at times in s from J2000.0 TDB."""
         return self.change(times, self.orbit.at(times))
 
 
 def reference_axes(normal: FloatArray) -> FloatArray:
-    """Right-handed unit vectors, as rows: two across a normal, and the normal."""
+    """Right-handed unit vectors, as rows: two perpendicular to a normal, and the normal."""
     third = normal[:, np.newaxis] / np.linalg.norm(normal)
     first = cross(third, np.eye(3)[:, [np.argmin(np.abs(normal))]])
     first /= np.linalg.norm(first)
@@ -72,12 +72,12 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """What turns an axis s at some times: ds/dt = (g n - a (m.s) m) x s.
+    """Averaged torque on an axis s at some times: ds/dt = (g n - a (m.s) m) x s.
 
     Attributes
     ----------
     axis : ndarray, shape (3, n)
-        m: the normal, and a little of what the Moon lags behind it.
+        m: the normal, with a small correction for the lag of the Moon's plane.
     constant : ndarray, shape (n,)
         a, rad/s.
     geodesic : ndarray, shape (3, n)
@@ -92,9 +92,9 @@ class Pull(NamedTuple):
 def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
     """Averaged torque of Sun and Moon on an axis.
 
-    The node of the Moon regresses about an orbit that moves; its mean torque acts about
-    n + (n x dn/dt)/|node rate|, 1.4 arcsec aside for the Earth. To first order in that, the two
-    together act about one axis with the Moon's share of it.
+    The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x
+    dn/dt)/|node rate|, which differs from n by 1.4 arcsec for the Earth. To first order the total
+    torque of Sun and Moon acts about one axis, with this difference times the Moon's share.
     """
     normal, eccentricity, turning = shape
     e2 = dot(eccentricity, eccentricity)
@@ -107,14 +107,16 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
 
 
 def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
-    """Rate in longitude by the Moon over her constant of precession, shape (..., n).
+    """Precession rate in longitude due to the Moon, divided by its constant of precession.
 
-    It is the cosine of the obliquity, but for the lag of the Moon's plane.
+    The shape is (..., n).
+
+    The result is the cosine of the obliquity, apart from the lag of the Moon's plane.
 
     Parameters
     ----------
     shape : Shape
-        Of arrays that broadcast against the axis.
+        Orbit, with arrays that broadcast against the axis.
     axis : ndarray, shape (3, ..., n)
         Unit vector of the spin axis.
     node_rate : float

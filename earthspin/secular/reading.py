@@ -1,8 +1,8 @@
-"""What is read off a solution: angles, precession and rates, and how far causes move them.
+"""Angles, precession and rates derived from a solution, and their errors by cause.
 
-Longitudes are to go on without jumps, and epochs may lie ages apart: between two of them precession
-is followed along the nodes of the solution, and the perihelion, which turns fast where an orbit is
-all but round, along looks at the orbit alone.
+Longitudes are unwrapped, although epochs may be far apart: between two epochs precession is
+followed along the nodes of the solution, and the perihelion, which moves fast for a nearly circular
+orbit, along samples of the orbit.
 """
 
 from __future__ import annotations
@@ -26,23 +26,25 @@ from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 
-#: Time between two looks at a perihelion, s: it turns fast where an orbit is all but round, by 1.2
-#: rad in 200 years where the Earth's eccentricity is 1.6e-4.
+#: Sampling interval of the perihelion, s: it moves fast for a nearly circular orbit, by 1.2 rad in
+#: 200 years at the Earth's eccentricity of 1.6e-4.
 LOOK = 200 * JULIAN_YEAR
 #: Sine of the obliquity below which there is no equinox.
 NO_EQUINOX = 1e-9
-#: Phase error, rad, up to which causes are changed one at a time, and from which on half-widths are
-#: quantiles over a sample; in between, weighted means of the two. A million years of the Earth stay
-#: below.
+#: Phase errors, rad: up to the first, causes are changed one at a time; from the second,
+#: half-widths are quantiles of a sample; in between, weighted means of both. The Earth stays below
+#: the first for a million years.
 LINEAR_TO, SAMPLED_FROM = 0.09, 0.1
-#: What depends on the orbit alone, whose changes are small throughout.
+#: Quantities that depend only on the orbit, whose changes are always small.
 OF_THE_ORBIT = ("eccentricity",)
 _TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
 class Read:
-    """What is read off one trajectory, or off those of members, which stand before the times.
+    """Quantities derived from one trajectory, or from those of members.
+
+    Axes of members precede the time axis.
 
     Attributes
     ----------
@@ -52,7 +54,7 @@ class Read:
     pole : ndarray, shape (3, ..., n)
         Unit vector of the spin axis, GCRS.
     normal : ndarray, shape (3, n)
-        That of the orbit, which all members share.
+        Normal of the orbit, common to all members.
     """
 
     values: dict[str, FloatArray]
@@ -62,18 +64,18 @@ class Read:
 
 @dataclass(frozen=True)
 class Readings:
-    """What is read off the answer, and off it with each cause of an error changed.
+    """Quantities derived from the solution, and from the solutions with each cause changed.
 
     Attributes
     ----------
     mine : Read
     moved : tuple of (str, Read)
-        By cause; a cause may stand there more than once, in independent directions.
+        By cause; a cause with independent directions occurs more than once.
     weight : ndarray, shape (..., n)
         Weight of the sampled half-widths, from 0 to 1.
     sampled : dict of str to ndarray, shape (..., n)
-        Half-widths by name, and that of the `pole` (rad), as quantiles over a sample; empty where
-        the weight is 0 throughout.
+        Half-widths by name, and that of the `pole` (rad), as quantiles of a sample; empty if all
+        weights are 0.
     """
 
     mine: Read
@@ -95,22 +97,26 @@ class Readings:
         return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
-        """By cause, how far a value of the answer is moved."""
-        return _by_cause((cause, moved_by(of, self.mine, name)) for cause, of in self.moved)
+        """Change of a value by each cause."""
+        return _by_cause(
+            (cause, moved_by(changed, self.mine, name)) for cause, changed in self.moved
+        )
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """By cause, how far the pole, or the normal of the orbit, is moved, rad."""
+        """Change in direction of the pole, or of the normal of the orbit, by each cause, rad."""
         mine = getattr(self.mine, which)
-        return _by_cause((cause, angle(getattr(of, which), mine)) for cause, of in self.moved)
+        return _by_cause(
+            (cause, angle(getattr(changed, which), mine)) for cause, changed in self.moved
+        )
 
 
 def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
-    """How far a value lies from that of the answer."""
+    """Difference of a value from the nominal solution."""
     moved = of.values[name] - mine.values[name]
     if name != "longitude_of_perihelion":
         return moved
-    # an orbit that is all but round may pass on the other side of a circle: of how far its
-    # perihelion itself is moved, whole turns say nothing
+    # the perihelion of a nearly circular orbit may differ by whole turns between solutions, which
+    # is no physical change
     by_axis = of.values["general_precession"] - mine.values["general_precession"]
     by_orbit = moved - by_axis
     return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
@@ -123,20 +129,20 @@ def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Shares of like cause as the root of their sum of squares."""
-    found: dict[str, FloatArray] = {}
+    """Root sum square of the changes of each cause."""
+    totals: dict[str, FloatArray] = {}
     for cause, share in shares:
-        found[cause] = np.hypot(found.get(cause, 0.0), share)
-    return found
+        totals[cause] = np.hypot(totals.get(cause, 0.0), share)
+    return totals
 
 
 def together(shares: dict[str, FloatArray]) -> FloatArray:
-    """Root of the sum of squares of all causes."""
+    """Root sum square of contributions from all causes."""
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
 def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
-    """Read the answer and each of its changed solutions.
+    """Derive the quantities of the solution and of each changed solution.
 
     Parameters
     ----------
@@ -149,8 +155,8 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
     Raises
     ------
     UndefinedError
-        If the axis stands upright on the orbit at one of the times; an ApartError if that of a
-        member does.
+        If the axis is normal to the orbit at one of the times; an ApartError if that of a member
+        is.
     """
     setting = solved.setting
     perihelion = followed_perihelion(setting.orbit, np.append(times, 0.0), fixed)
@@ -159,7 +165,8 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
     linear = Readings(
         mine,
         tuple(
-            (cause, read(path, of, times, fixed, perihelion)) for cause, path, of in solved.others
+            (cause, read(path, changed_setting, times, fixed, perihelion))
+            for cause, path, changed_setting in solved.others
         ),
     )
     phase = phase_error(solved, times)
@@ -172,8 +179,9 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
 def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
     """Largest phase error between J2000.0 and some times, rad, shape (..., n).
 
-    It is the half-width of the axis over the sine of its obliquity. It may shrink again, as that of
-    Mars does, but changes are no longer proportional to their causes after it was large.
+    It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
+    each time is used, because after a large phase error changes are no longer proportional to their
+    causes, even if the phase error decreases, as for Mars.
     """
     edges = solved.path.windows.edges
     axis = solved.path.at(edges)
@@ -193,13 +201,13 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
 def _sampled(
     solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
 ) -> dict[str, FloatArray]:
-    """95 % quantiles of the distances of a sample from the answer, by name, and of the pole's."""
+    """95 % quantiles of the deviations of a sample from the solution, by name and for the pole."""
     names = [name for name in mine.values if name not in OF_THE_ORBIT]
     span, quantiles = (float(times.min()), float(times.max())), Quantiles()
     for amounts in draws(len(solved.uncertainty.causes)):
-        of = changed(solved.setting, solved.uncertainty, amounts)
-        path = solve(of.strength, of.orbit, of.start, span)
-        member = read(path, of, times, fixed, perihelion)
+        member_setting = changed(solved.setting, solved.uncertainty, amounts)
+        path = solve(member_setting.strength, member_setting.orbit, member_setting.start, span)
+        member = read(path, member_setting, times, fixed, perihelion)
         distances = {name: moved_by(member, mine, name) for name in names}
         quantiles.add(distances | {"pole": angle(member.pole, mine.pole)})
     return quantiles.at_probability()
@@ -208,30 +216,30 @@ def _sampled(
 def read(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
 ) -> Read:
-    """Angles, precession and rates at some times.
+    """Angles, precession and rates of a trajectory at given times.
 
     Parameters
     ----------
     path : Trajectory
     setting : Setting
-        That it was solved with.
+        Setting of the trajectory.
     times : ndarray, shape (n,)
         s.
     fixed : ndarray, shape (3, 3)
         Orbit and equinox of J2000.0 in the GCRS.
     orbits : ndarray, shape (n + 1,)
-        Longitude of perihelion in those axes at the times and at J2000.0, rad, without jumps: that
-        of the orbit, or of the one that it was moved from.
+        Unwrapped longitude of perihelion in these axes at the times and at J2000.0, rad, of the
+        nominal orbit.
     """
     with_now = np.append(times, 0.0)
     axis = path.at(with_now)
     shape = setting.orbit.at(with_now)
     normal, eccentricity, _ = shape
-    n, e, turning = (beside(axis, of) for of in shape)
-    of = seasons(axis, n, e)
+    n, e, turning = (beside(axis, vector) for vector in shape)
+    season = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
-    # perihelion from the moving equinox is that of the orbit and precession, but for its tilt
-    perihelion = np.arctan2(of.climatic_precession, of.coprecession)
+    # perihelion from the moving equinox is orbital perihelion plus precession, apart from the tilt
+    perihelion = np.arctan2(season.climatic_precession, season.coprecession)
     perihelion = followed(perihelion, orbits + general)
     perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
     e2 = np.sum(eccentricity**2, axis=0)
@@ -241,27 +249,27 @@ def read(
     sun = by_sun * dot(n, axis)
     moon = by_moon * moons_height((n, e, turning), axis, strength.node_rate)
     values = {
-        "obliquity": of.obliquity,
+        "obliquity": season.obliquity,
         "longitude_of_perihelion": perihelion,
         "general_precession": general,
         "psi_A": psi,
         "omega_A": np.arccos(np.clip(dot(fixed[2], axis), -1.0, 1.0)),
         "eccentricity": np.sqrt(e2),
-        "climatic_precession": of.climatic_precession,
-        "coprecession": of.coprecession,
+        "climatic_precession": season.climatic_precession,
+        "coprecession": season.coprecession,
         "sun": sun,
         "moon": moon,
         "total": sun + moon - strength.geodesic_rate(e2),
     }
-    told = {name: of[..., :-1] for name, of in values.items()}
-    return Read(told, axis[..., :-1], normal[:, :-1])
+    at_times = {name: value[..., :-1] for name, value in values.items()}
+    return Read(at_times, axis[..., :-1], normal[:, :-1])
 
 
 def _followed_precession(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
 ) -> FloatArray:
-    """p_A and psi_A at times without jumps, rad, from J2000.0 on."""
-    # along the nodes, which are close enough to follow precession from one to the next
+    """Unwrapped p_A and psi_A at times, rad, zero at J2000.0."""
+    # along the nodes, which are close enough to unwrap precession
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
     coarse = np.unwrap(_turns(axis, beside(axis, setting.orbit.at(nodes)[0]), fixed))
@@ -272,14 +280,14 @@ def _followed_precession(
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
-    """p_A and psi_A in any turn, rad, shape (2, ..., n)."""
-    pole, ecliptic = (np.stack([dot(row, of) for row in fixed], axis=-1) for of in (axis, normal))
+    """Values of p_A and psi_A modulo whole turns, rad, shape (2, ..., n)."""
+    pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])
 
 
 def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Longitude of perihelion in fixed axes without jumps, rad, of the orbit alone."""
+    """Unwrapped longitude of perihelion of the orbit in fixed axes, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
     looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
@@ -288,7 +296,7 @@ def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> F
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:
-    """Without an equinox there is no longitude."""
+    """Refuse an axis normal to the orbit: without an equinox longitudes are undefined."""
     sines = np.sin(obliquity)
     if sines.ndim > 1 and not np.all(sines > NO_EQUINOX):
         raise ApartError("the axis of a member stands upright on the orbit")

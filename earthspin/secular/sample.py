@@ -1,14 +1,14 @@
-"""Solutions with all causes of error changed at once, and quantiles over them.
+"""Solutions with all causes of error varied together, and quantiles of their deviations.
 
-Where the phase of precession is uncertain by a good part of a turn, a solution with one cause
-changed may come back to the answer, so that its distance is no half-width. There the half-width is
-a quantile of the distances of many solutions, each with every cause drawn anew.
+If the phase of precession is uncertain by a large fraction of a turn, a solution with one cause
+changed may coincide with the nominal one, so its deviation is no half-width. Then the half-width is
+a quantile of the deviations of many solutions, each with all causes drawn independently.
 
-The draws are a lattice of rank 1: member m has cause k in stratum (m A^k + k B) mod N of N strata
-of equal probability, at its median. N is prime, so that each cause has one member in each stratum.
+The draws are a rank-1 lattice: member m has cause k at the median of stratum (m A^k + k B) mod N,
+of N strata of equal probability. N is prime, so that each cause has one member in each stratum.
 A and B were chosen by the scatter of the 95 % quantile of weighted sums of up to seven normal
-causes: 6 % (rms) with weights of all kinds, and 1.4 % where one cause outweighs the others, as far
-from the present.
+causes: 6 % (rms) with arbitrary weights, and 1.4 % if one cause dominates, as it does far from the
+present.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Half-widths by which each member has each cause changed, shape (MEMBERS, causes)."""
-    from scipy.special import ndtri  # 0.1 s, which spans without a sample need not wait for
+    """Multiples of the half-widths for each member and cause, shape (MEMBERS, causes)."""
+    from scipy.special import ndtri  # imported here because it takes 0.1 s
 
     member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)
     factors = np.array([pow(FACTOR, int(k), MEMBERS) for k in cause])
@@ -40,10 +40,10 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantiles of distances of members that come one after another; the largest alone are stored.
+    """Quantiles of deviations of members added one at a time; only the largest are stored.
 
-    The k-th smallest of N stands for the probability (k - 1/2)/N, and values in between are
-    interpolated, as in numpy's method "hazen".
+    The k-th smallest of N has the probability (k - 1/2)/N, with linear interpolation in between, as
+    in numpy's method "hazen".
     """
 
     def __init__(self) -> None:
@@ -53,16 +53,16 @@ class Quantiles:
         self._largest: dict[str, FloatArray] = {}
 
     def add(self, distances: Mapping[str, FloatArray]) -> None:
-        """Take the distances of a member by name, each of any shape."""
+        """Add the deviations of a member by name, each of any shape."""
         for name, distance in distances.items():
             if name not in self._largest:
                 self._largest[name] = np.zeros((self._count + 1, *distance.shape))
-            # the smallest stands first, and gives way
+            # the smallest is first and is replaced
             self._largest[name][0] = np.abs(distance)
             self._largest[name].sort(axis=0)
 
     def at_probability(self) -> dict[str, FloatArray]:
-        """Quantiles by name, once all members were added."""
+        """Quantiles by name, after all members have been added."""
         return {
             name: largest[1] + self._share * (largest[2] - largest[1])
             for name, largest in self._largest.items()

@@ -1,12 +1,13 @@
-r"""How strongly Sun and Moon turn an axis, as orbit, Moon, day and figure change.
+r"""Torque of Sun and Moon on an axis, for changing orbit, Moon, rotation and figure.
 
 Averaged over orbits, a torque turns the spin axis s about the normal n of an orbit,
 
     ds/dt = a (n.s) (s x n),
 
-with the constant of precession a (the rate over the cosine of the obliquity). Of the Earth's, the
-Sun's share goes with (1 - e^2)^(-3/2), the Moon's with the square of its mean motion, and both with
-the dynamical ellipticity H and the spin, because H itself grows with the square of the spin:
+with the constant of precession a (the rate divided by the cosine of the obliquity). For the Earth,
+the Sun's share is proportional to (1 - e^2)^(-3/2), the Moon's to the square of its mean motion,
+and both to the dynamical ellipticity H divided by the spin; as H is proportional to the square of
+the spin and a factor H/H0,
 
     a(t) = a0 (omega/omega0) (H/H0) [share_sun (1 - e^2)^(-3/2)/f0 + share_moon (n_moon/n_moon0)^2]
 
@@ -31,23 +32,23 @@ Numeric = Any
 
 QTD91 = "Quinn, Tremaine & Duncan 1991, AJ 101, 2287"
 _QTD91_READ = "constants of snvecR (japhir/snvecR), which cites eq. 3 and 11 of the paper"
-#: Relative rate of the Moon's mean motion by tides (lunar laser ranging gives -4.7e-18).
+#: Relative rate of the Moon's mean motion due to tides (lunar laser ranging: -4.7e-18).
 MOON_SLOWS = Constant(-4.6e-18, "s-1", None, QTD91, _QTD91_READ)
-#: What that takes of the spin: omega'/omega over n'/n is this times n/omega.
+#: Ratio of spin deceleration to lunar deceleration: (omega'/omega)/(n'/n) is this times n/omega.
 SPIN_OVER_MOON = Constant(51.0, "", None, QTD91, _QTD91_READ)
 
-#: How far the present rate of J2 is taken at its word, and where nothing of it is left, s.
-#: In between it fades as a cosine: the rebound of the mantle decays within some thousand years.
+#: Times from J2000.0, s, up to which the present rate of J2 applies, and beyond which its effect is
+#: zero, with a cosine taper between: postglacial rebound decays within some thousand years.
 FADES_FROM, FADES_TO = 2000 * JULIAN_YEAR, 10_000 * JULIAN_YEAR
 
-#: Share of today's rate of J2 that is uncertain, 95 %: an assumption, of the size by which
-#: solutions from satellites differ.
+#: Relative half-width of the present rate of J2, 95 %: an assumption, from the scatter of satellite
+#: solutions.
 J2_SHARE = 0.2
 
 
 @dataclass(frozen=True)
 class Tides:
-    """What tides do to Moon and spin, linear in time.
+    """Tidal changes of Moon and spin, linear in time.
 
     Attributes
     ----------
@@ -62,12 +63,12 @@ class Tides:
 
     @classmethod
     def of_the_earth(cls, factor: Numeric, spin_rate: float, moon_motion: float) -> Tides:
-        """Those of today times a factor.
+        """Present tidal rates times a factor.
 
         Parameters
         ----------
         factor : float
-            1 for today's, 0 for none.
+            1 for the present rates, 0 for none.
         spin_rate, moon_motion : float
             rad/s.
         """
@@ -77,27 +78,27 @@ class Tides:
 
 @dataclass(frozen=True)
 class Strength:
-    """The constant of precession in time.
+    """Constant of precession as a function of time.
 
     Attributes
     ----------
     sun, moon : float
-        Its shares at J2000.0, rad/s; `moon` is 0 without one.
+        Contributions of Sun and Moon at J2000.0, rad/s; `moon` is 0 without a moon.
     eccentricity : float
-        Of the orbit at J2000.0, to which `sun` refers.
+        Eccentricity of the orbit at J2000.0, to which `sun` refers.
     geodesic : float
         Rate of geodesic precession about the normal at that eccentricity, rad/s.
     ellipticity : float
         Factor on the dynamical ellipticity.
     ellipticity_drift : float
-        Relative rate at which the ellipticity drifts from there, s-1.
+        Relative rate of change of the ellipticity, s-1.
     tides : Tides
     j2_rate : float
-        Relative rate of J2 at J2000.0, s-1; it fades, see `faded`.
+        Relative rate of J2 at J2000.0, s-1; for its decay see `faded`.
     j2_band : float
-        How much of what is unknown of J2 is added, 1 for a 95 % half-width; see `band`.
+        Multiple of the half-width of J2 to add, 1 for a 95 % half-width; see `band`.
     node_rate : float
-        How fast the node of the Moon regresses, rad/s; infinite without one.
+        Rate of regression of the Moon's node, rad/s; infinite without a moon.
     """
 
     sun: Numeric
@@ -112,24 +113,24 @@ class Strength:
     node_rate: Numeric = math.inf
 
     def constant(self, times: FloatArray, e2: FloatArray) -> FloatArray:
-        """The constant of precession, rad/s.
+        """Constant of precession at given times, rad/s.
 
         Parameters
         ----------
         times : ndarray
             s from J2000.0.
         e2 : ndarray
-            Squared eccentricity then.
+            Squared eccentricity at these times.
 
         Raises
         ------
         UndefinedError
-            If tides, taken as linear, would have stopped the spin or the Moon by then.
+            If linear tides would have changed the spin or the Moon's motion too much.
         """
         spin, moon = 1 + self.tides.spin * times, 1 + self.tides.moon * times
         if np.any(spin <= 0.5) or np.any(moon <= 0.5):
             raise UndefinedError(
-                "tides that go on as today would have changed the spin or the Moon's motion by "
+                "tides at the present rate would have changed the spin or the Moon's motion by "
                 "half; give a smaller factor or a shorter span"
             )
         of_sun = self.sun * ((1 - self.eccentricity**2) / (1 - e2)) ** 1.5
@@ -138,25 +139,25 @@ class Strength:
         return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
-        """Geodesic precession about the normal, rad/s: as 1/(1 - e^2)."""
+        """Rate of geodesic precession about the normal, rad/s, proportional to 1/(1 - e^2)."""
         return np.asarray(self.geodesic * (1 - self.eccentricity**2) / (1 - e2))
 
     @property
     def moons_share(self) -> Numeric:
-        """Share of the Moon at J2000.0."""
+        """Fraction of the constant of precession due to the Moon at J2000.0."""
         return self.moon / (self.sun + self.moon)
 
 
 def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
-    """Rate of geodesic precession on an orbit, 3/2 G M n/(c^2 a (1 - e^2)), rad/s.
+    """Rate of geodesic precession in an orbit, 3/2 G M n/(c^2 a (1 - e^2)), rad/s.
 
-    It turns an axis about the normal in the sense of the motion (de Sitter 1916, MNRAS 77, 155).
-    What a moon adds (2.6e-4 of it by the Earth's) is left out.
+    It rotates an axis about the normal in the sense of the motion (de Sitter 1916, MNRAS 77, 155).
+    The contribution of a moon is neglected (2.6e-4 of the rate for the Earth).
 
     Parameters
     ----------
     gm : float
-        G M of what the orbit goes about, m3/s2.
+        G M of the central body, m3/s2.
     motion : float
         Mean motion, rad/s.
     eccentricity : float
@@ -166,26 +167,27 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Time by which a rate that fades has acted, s: t within `FADES_FROM`, 0 beyond `FADES_TO`.
+    """Effective time for which a decaying rate has acted, s.
 
-    The *change* is taken back between the two: over ice ages J2 swings about a mean, and its
-    present rate says nothing of that.
+    It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
+
+    The *change* itself returns to zero in between: over ice ages J2 oscillates about a mean, which
+    does not depend on its present rate.
     """
     return np.asarray(times * _falling(times, FADES_FROM, FADES_TO))
 
 
 def band(times: FloatArray) -> FloatArray:
-    """By how much that time may be off, s: a share today, later all that has faded.
+    """Half-width of the effective time of `faded`, s: a fraction at present, later the whole.
 
-    Beyond twice `FADES_TO`, J2 is taken to be what it is today but for a drift of the mean (see
-    `budget`).
+    Beyond twice `FADES_TO`, J2 has its present value apart from a drift of the mean (see `budget`).
     """
-    known = faded(times)
-    gone = (times - known) * _falling(times, FADES_TO, 2 * FADES_TO)
-    return np.asarray(J2_SHARE * known + gone)
+    nominal = faded(times)
+    gone = (times - nominal) * _falling(times, FADES_TO, 2 * FADES_TO)
+    return np.asarray(J2_SHARE * nominal + gone)
 
 
 def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
-    """A cosine that falls from 1 at one distance from J2000.0 to 0 at another."""
+    """Cosine taper from 1 at one distance from J2000.0 to 0 at another."""
     phase = np.clip((np.abs(times) - start) / (end - start), 0.0, 1.0)
     return np.asarray(0.5 * (1 + np.cos(np.pi * phase)))

@@ -1,12 +1,12 @@
-r"""An axis over millions of years, or many, by Newton's method in time.
+r"""One axis or several over millions of years, by Newton's method in time.
 
 About a fixed axis N near the mean normal of the orbit, a spin axis s has a longitude phi and a
 height Z = s.N. Both are polynomials in windows of twenty thousand years, through values at
-Gauss-Legendre nodes; the equation is to hold at every node of every window at once (collocation).
-Newton's method solves that for all windows of a block together (`newton`).
+Gauss-Legendre nodes, and the equation is satisfied at every node (collocation). Newton's method
+solves for all windows of a block together (`newton`).
 
-phi turns once in 26,000 years and Z hardly moves, so plain iteration (Picard) diverges over a
-million years, while Newton's method, started from uniform precession, settles in a few steps.
+phi has a period of 26,000 years and Z hardly changes. Picard iteration diverges over a million
+years, while Newton's method, started from uniform precession, converges in a few steps.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ from earthspin.torque.quadrupole import dot
 
 FloatArray = NDArray[np.float64]
 
-#: Nodes in a window of the orbit.
+#: Number of nodes per window of the orbit.
 ORDER = 16
-#: Windows solved at once: a million years.
+#: Number of windows per block: a million years.
 BLOCK = 50
-#: When a block is solved, rad: a step of Newton's method from there is expected to change it by
-#: less, by the share that sweeps leave or that by which the last step was less than the one before.
+#: Convergence tolerance of a block, rad: stop when the predicted next Newton step is smaller. The
+#: prediction uses the residual of the sweeps and the ratio of the last two steps.
 SETTLED = 1e-9
 MOST_STEPS, DIVERGES = 25, 10.0
-#: Share of a step that sweeps may leave to the next, for each radian of the step before.
+#: Fraction of a step that sweeps may leave for the next step, per radian of the previous step.
 SWEPT = 0.1
-#: Height above which longitude about an axis is of no use: 8 degrees from it.
+#: Largest height |Z| at which the longitude is well conditioned: 8 degrees from the axis.
 TOO_NEAR = 0.99
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A spin axis in time, or those of many members, as polynomials.
+    """Spin axis in time, or those of many members, as piecewise polynomials.
 
     Attributes
     ----------
@@ -51,9 +51,9 @@ class Trajectory:
     coefficients : ndarray, shape (2, ..., w, n + 1)
         Legendre coefficients of longitude and height about `axes`; members before the windows.
     axes : ndarray, shape (3, 3)
-        Rows: two directions across the reference axis, and that axis.
+        Rows: two directions perpendicular to the reference axis, and that axis.
     steps : int
-        Newton steps that all blocks took.
+        Total number of Newton steps of all blocks.
     """
 
     windows: Windows
@@ -65,15 +65,15 @@ class Trajectory:
         """Longitude and height about the reference axis, shape (2, ..., n), at times in s."""
         series = self.coefficients
         rows = series.reshape(-1, *series.shape[-2:])
-        found = self.windows.evaluate(rows, np.asarray(times, dtype=float))
-        return found.reshape(*series.shape[:-2], -1)
+        series_values = self.windows.evaluate(rows, np.asarray(times, dtype=float))
+        return series_values.reshape(*series.shape[:-2], -1)
 
     def at(self, times: FloatArray) -> FloatArray:
         """Unit vectors of the axis, shape (3, ..., n), at times in s."""
         phi, z = self.about(times)
         across = np.sqrt(1 - z * z)
-        own = np.array([across * np.cos(phi), across * np.sin(phi), z])
-        return np.stack([dot(column, own) for column in self.axes.T])
+        components = np.array([across * np.cos(phi), across * np.sin(phi), z])
+        return np.stack([dot(column, components) for column in self.axes.T])
 
 
 def solve(
@@ -85,49 +85,50 @@ def solve(
     pieces: int = 1,
     near: Trajectory | None = None,
 ) -> Trajectory:
-    """Follow a spin axis from J2000.0 both ways, or many side by side.
+    """Integrate a spin axis from J2000.0 in both directions, or several together.
 
     Parameters
     ----------
     strength : Strength
-        For many: its arrays of shape (..., 1).
+        Torque; for several axes, its arrays have shape (..., 1).
     orbit : Orbit
-        Common to all.
+        Orbit, common to all axes.
     start : ndarray, shape (3,) or (3, ...)
         Unit vector of the axis at J2000.0, GCRS.
     span : tuple of float
-        First and last time that will be asked for, s; J2000.0 need not lie between.
+        First and last time, s; J2000.0 need not be between them.
     order : int
-        Nodes in a window.
+        Number of nodes per window.
     pieces : int
-        Into how many windows each of the orbit's is cut.
+        Number of windows per window of the orbit.
     near : Trajectory, optional
-        A first guess: that of a setting which is hardly another, over the same span.
+        Initial guess: the trajectory of a similar setting over the same span.
 
     Raises
     ------
     UndefinedError
-        If Newton's method does not settle.
+        If Newton's method does not converge.
     ApartError
-        If it does not settle for all of many at once, or they need other reference axes.
+        If Newton's method does not converge for all of several axes, or they need different
+        reference axes.
     """
     axes = _axes(orbit, start, span) if near is None else near.axes
     x, y, z = (dot(row, start) for row in axes)
     state = np.array([np.arctan2(y, x), z])
-    way = _Way(strength, orbit, axes, order, near)
-    past, future = (way.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
-    # the past was followed from J2000.0 backwards: put it in order again
+    solver = _Way(strength, orbit, axes, order, near)
+    past, future = (solver.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
+    # the past was integrated backwards: restore ascending order
     turned = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
     windows = Windows(np.concatenate([past[0][::-1], future[0][1:]]), order)
-    return Trajectory(windows, np.concatenate([turned, future[1]], axis=-2), axes, way.steps)
+    return Trajectory(windows, np.concatenate([turned, future[1]], axis=-2), axes, solver.steps)
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
-    """Windows from J2000.0 back to before the span, and on to after it."""
+    """Edges of windows from J2000.0 back to before the span, and on to after it."""
     middle = int(np.searchsorted(edges, 0.0))
     first = int(np.searchsorted(edges, min(span[0], 0.0), side="right")) - 1
     last = int(np.searchsorted(edges, max(span[1], 0.0)))
-    if first == last:  # J2000.0 alone: some window it must be
+    if first == last:  # J2000.0 only: any window will do
         first, last = max(first - 1, 0), min(last + 1, len(edges) - 1)
     past, future = edges[max(first, 0) : middle + 1], edges[middle : last + 1]
     return [_cut(past[::-1], pieces), _cut(future, pieces)]
@@ -141,7 +142,7 @@ def _cut(edges: FloatArray, pieces: int) -> FloatArray:
 
 
 def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatArray:
-    """Axes about the mean normal, or across it where the spin axis is too near to that."""
+    """Reference axes about the mean normal, or perpendicular to it if the spin axis is near it."""
     times = np.linspace(min(span[0], 0.0), max(span[1], 0.0), 101)
     first, second, normal = reference_axes(np.mean(orbit.at(times)[0], axis=1))
     near = np.abs(dot(normal, start)) >= TOO_NEAR
@@ -153,7 +154,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
 
 
 class _Way:
-    """Windows one after another in one direction of time, in blocks."""
+    """Solver of successive blocks of windows in one direction of time."""
 
     def __init__(
         self,
@@ -168,14 +169,17 @@ class _Way:
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Edges, and Legendre series of longitude and height, shape (2, ..., w, order + 1)."""
-        found = [np.empty((*state.shape, 0, self.order + 1))]
+        """Window edges, and Legendre series of longitude and height.
+
+        The series have the shape (2, ..., w, order + 1).
+        """
+        blocks = [np.empty((*state.shape, 0, self.order + 1))]
         first, size = 0, BLOCK
         while first < len(edges) - 1:
             windows = Windows(edges[first : first + size + 1], self.order)
             settled = self._block(windows, state)
             if settled is None and state.ndim > 1:
-                raise ApartError("Newton's method in time does not settle for all at once")
+                raise ApartError("Newton's method in time does not converge for all axes")
             if settled is None and size == 1:
                 raise UndefinedError(
                     "the axis cannot be followed: Newton's method in time does not settle; it may "
@@ -185,25 +189,25 @@ class _Way:
                 self.near, size = None, max(size // 4, 1)
                 continue
             series, state = settled
-            found.append(series)
+            blocks.append(series)
             first += len(windows.half)
-        return edges, np.concatenate(found, axis=-2)
+        return edges, np.concatenate(blocks, axis=-2)
 
     def _block(self, windows: Windows, state: FloatArray) -> tuple[FloatArray, FloatArray] | None:
-        """Series of a block and its end, or nothing if Newton's method does not settle for all."""
+        """Series of a block and its final state; None if Newton's method does not converge."""
         on = Turn.of(self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows)
         values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
             self.steps += 1
-            left = SWEPT * np.minimum(before, 1.0)
-            new, change = step(windows, on, values, state, left)
+            residual_share = SWEPT * np.minimum(before, 1.0)
+            new, change = step(windows, on, values, state, residual_share)
             if settled.any():
                 new = np.where(settled[..., np.newaxis, np.newaxis], values, new)
             values = new
             if not (np.all(change < DIVERGES) and np.abs(values[1]).max() < 1):
                 return None
-            settled = settled | (change * np.maximum(change / before, left) < SETTLED)
+            settled = settled | (change * np.maximum(change / before, residual_share) < SETTLED)
             if settled.all():
                 self.height = values[1].mean(axis=(-2, -1))
                 rates = slope(on, *values).rates
@@ -213,12 +217,12 @@ class _Way:
         return None
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
-        """What turns the axis, or the axes of members, which stand before the times."""
-        normal, eccentricity, turning = (beside(state, of) for of in self.orbit.at(times))
+        """Torque on the axis, or on the axes of members, whose dimensions precede the times."""
+        normal, eccentricity, turning = (beside(state, vector) for vector in self.orbit.at(times))
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Another trajectory from where this one stands, or precession at one height."""
+        """Initial values: another trajectory shifted to the state, or uniform precession."""
         if self.near is None:
             return self._at_one_height(windows, on, state)
         times = np.append(windows.times, windows.edges[0])
@@ -227,7 +231,7 @@ class _Way:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Precession at the height of the start, or the mean one so far."""
+        """Uniform precession at the height of the start, or at the mean height so far."""
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]

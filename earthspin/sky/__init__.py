@@ -1,1 +1,1 @@
-"""What others have computed or observed: kernels, IAU models, standstills of the Moon."""
+"""Kernels, IAU models, observed Earth rotation, orbit tables, and lunar standstills."""

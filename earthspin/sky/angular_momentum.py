@@ -1,8 +1,8 @@
-"""Effective angular momentum functions of air, sea and land, from one file or many.
+"""Effective angular momentum functions of atmosphere, ocean and land water, from files.
 
 The layout is the common one: year, month, day, hour, MJD, then chi1, chi2, chi3 of the mass term
 and, if there is one, of the motion term, as pure numbers (Dobslaw & Dill 2018, GFZ, user's guide).
-They come as a file for each year and component, and the years may overlap.
+There is one file for each year and component, and the years may overlap.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from earthspin.sky.columns import check_calendar, lines_of, numbers, refuse_text
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-#: Components by the word that names of files hold.
+#: Components, by the word in the file name.
 COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "sea level"}
-#: Both ways in which a component excites the pole.
+#: Mass and motion terms, by which a component excites polar motion.
 TERMS = ("mass", "motion")
-#: What no component has ever reached, rad: 20 arcseconds.
+#: Plausibility bound, rad: 20 arcsec, more than any observed value.
 LARGEST = 1e-4
-#: Dates that are closer than this are the same, d.
+#: Tolerance for equal dates, d.
 SAME_TIME = 1e-6
 
 
@@ -39,9 +39,9 @@ class AngularMomentum:
     Attributes
     ----------
     mjd : array, shape (n,)
-        Evenly spaced.
+        Modified Julian dates, evenly spaced.
     mass, motion : complex array, shape (n,)
-        chi1 + i chi2 of the two terms, rad.
+        Mass and motion terms, chi1 + i chi2, rad.
     """
 
     mjd: Array
@@ -50,13 +50,13 @@ class AngularMomentum:
 
     @property
     def chi(self) -> Complex:
-        """Both terms together."""
+        """Sum of both terms, rad."""
         return self.mass + self.motion
 
     def daily(self) -> AngularMomentum:
-        """Means over days from 0h to 0h, dated at noon; values between samples lie on lines.
+        """Means over days from 0h to 0h, dated at noon, with linear interpolation between samples.
 
-        Daily values at noon are taken for the means that they are.
+        Daily values at noon are treated as daily means.
 
         Raises
         ------
@@ -68,13 +68,13 @@ class AngularMomentum:
             return self
         edges = np.arange(np.ceil(self.mjd[0] - SAME_TIME), self.mjd[-1] + SAME_TIME)
         if edges.size < 2:
-            raise SeriesError("excitation", "it covers no whole day", "leave out daily")
+            raise SeriesError("excitation", "it covers no whole day", "omit daily")
         edges[[0, -1]] = np.clip(edges[[0, -1]], self.mjd[0], self.mjd[-1])
 
         def means(values: Complex) -> Complex:
             pieces = np.diff(self.mjd) * (values[1:] + values[:-1]) / 2
             total = np.concatenate([[0], np.cumsum(pieces)])
-            # Within a piece the integral of a line is a parabola.
+            # The integral of a linear piece is a parabola.
             at = np.clip(np.searchsorted(self.mjd, edges, side="right") - 1, 0, pieces.size - 1)
             into = edges - self.mjd[at]
             slope = np.diff(values)[at] / np.diff(self.mjd)[at]
@@ -86,7 +86,7 @@ class AngularMomentum:
 
 @dataclass(frozen=True)
 class _Row:
-    """A line as read."""
+    """One row of a file."""
 
     file: Path
     line: int
@@ -101,22 +101,23 @@ def read_angular_momentum(
     *,
     daily: bool = False,
 ) -> AngularMomentum:
-    """Read effective angular momentum functions: join the files of each component, and sum these.
+    """Read effective angular momentum functions: join the files of each component, and add them.
 
     Parameters
     ----------
     paths : str, Path or sequence of them
-        Files, or folders of them. The component of a file is told from ``AAM``, ``OAM``, ``HAM`` or
+        Files or folders of files. The component of a file follows from ``AAM``, ``OAM``, ``HAM`` or
         ``SLAM`` in its name.
     components : iterable of str, optional
-        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``; all that are there by default.
+        A selection of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``; by default all components in the
+        files.
     daily : bool
-        Whether to average to days. Components with different dates cannot be summed without.
+        Whether to compute daily means, which is necessary if the components have different dates.
 
     Raises
     ------
     SeriesError
-        If a file cannot be used; it names the line.
+        If a file is invalid; the message gives the line.
     """
     files = _files(paths, components)
     joined = [_joined(group) for group in files.values()]
@@ -147,14 +148,14 @@ def _files(
     for path in map(Path, folders):
         # os.path.isdir is false for a name that is too long, where Path.is_dir raises an error
         for file in sorted(path.iterdir()) if os.path.isdir(path) else [path]:
-            # SLAM holds no other; AAM is looked for in the name alone, not in the folder's.
+            # No word contains another; only the file name is searched, not the folder.
             name = next((word for word in COMPONENTS if word in file.name.upper()), "")
             files.setdefault(name, []).append(file)
     if not files:
         raise SeriesError(names, "there is no file")
     if components is None:
         if len(files) > 1 and "" in files:
-            problem = "its name does not tell its component"
+            problem = "its name does not contain its component"
             raise SeriesError(files[""][0], problem, f"names hold one of {', '.join(COMPONENTS)}")
         return files
     chosen = list(components)
@@ -163,13 +164,15 @@ def _files(
         raise SeriesError(names, "no component is named", remedy)
     for word in chosen:
         if word not in files:
-            remedy = nearest(word, files) if any(files) else "names of files do not tell components"
+            remedy = (
+                nearest(word, files) if any(files) else "the file names do not contain components"
+            )
             raise SeriesError(names, f"there is no component {word!r}", remedy)
     return {word: files[word] for word in chosen}
 
 
 def _joined(files: list[Path]) -> AngularMomentum:
-    """All rows of one component, sorted; an epoch that stands twice counts once."""
+    """All rows of one component, sorted; equal rows of the same date are merged."""
     rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
@@ -197,7 +200,7 @@ def _joined(files: list[Path]) -> AngularMomentum:
 
 
 def _rows(file: Path) -> Iterable[_Row]:
-    """Rows of one file; lines above them that do not start with a number are comments."""
+    """Rows of one file; header lines that do not start with a number are ignored."""
     last, lines = -math.inf, lines_of(file)
     refuse_text_between(file, lines)
     for number, words in rows_of(lines):
@@ -215,5 +218,5 @@ def _rows(file: Path) -> Iterable[_Row]:
         for chi in (mass, motion):
             if not abs(chi) <= LARGEST:
                 problem = f"excitation {chi:.3g} is no such number"
-                raise SeriesError(file, problem, "radians are wanted", line=number)
+                raise SeriesError(file, problem, "give radians", line=number)
         yield _Row(file, number, mjd, mass, motion)

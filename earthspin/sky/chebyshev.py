@@ -1,15 +1,15 @@
-"""Sums of Chebyshev series: positions from the records of a kernel.
+"""Evaluation of Chebyshev series: positions from the records of a kernel.
 
-A segment of a kernel is a table of records of equal length in time, each with a series for x, y
-and z. Two ways of laying them out give the same bits, because each time sees the same products in
-the same order:
+A segment of a kernel is a table of records of equal length in time, each with a series for x, y and
+z. Two memory layouts give identical bits, because the operations for each time are the same:
 
-- times in order, several to a record: the coefficients of a record stand at the side of its times;
-- any other times: each is given the coefficients of its record.
+- times in order, several per record: the coefficients of a record broadcast over its times;
+- any other times: the coefficients are copied for each time.
 
-The sums are Clenshaw's, in arrays that stay in the processor's cache. Against jplephem, which gives
-coefficients to each time and keeps what a velocity would need, the same positions to rounding take
-a quarter of the time in order, and a third out of it (`tests/benchmarks/chebyshev.py`).
+Clenshaw's algorithm is used on arrays that fit in the processor's cache. Compared with jplephem,
+which copies coefficients for each time and stores the terms for velocities, the same positions (to
+rounding) take a quarter of the time for ordered times, and a third otherwise
+(`tests/benchmarks/chebyshev.py`).
 """
 
 from __future__ import annotations
@@ -24,26 +24,26 @@ from earthspin.constants import DAY
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: Times summed at once: their arrays stay in the processor's cache.
+#: Number of times per block, so that the arrays fit in the processor's cache.
 BLOCK = 1 << 13
 
-#: The same where each has coefficients of its own.
+#: Number of times per block if each has its own coefficients.
 _BLOCK_OF_ANY = 1 << 11
 
-#: Times to a record below which coefficients are given to each time.
+#: Mean number of times per record below which coefficients are copied for each time.
 _FEWEST_TO_A_RECORD = 2
 
-#: How much longer than the mean the fullest record may be: rows are as long as it.
+#: Largest ratio of the fullest record to the mean, as rows have the length of the fullest.
 _UNEVEN = 1.5
 
 
 class Grid(NamedTuple):
-    """Records of equal length, one after another.
+    """Consecutive records of equal length in time.
 
     Attributes
     ----------
     start, length : float
-        Seconds from J2000.0 at which the first record begins, and seconds to a record.
+        Start of the first record in seconds from J2000.0, and length of a record in seconds.
     records : int
     """
 
@@ -52,11 +52,11 @@ class Grid(NamedTuple):
     records: int
 
     def places(self, days: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Record of each time, and where in it the time stands, from -1 to 1."""
+        """Record of each time, and the position in the record, from -1 to 1."""
         seconds = days * DAY
         record = ((seconds - self.start) / self.length).astype(np.int64)
         np.clip(record, 0, self.records - 1, out=record)
-        # What is subtracted is a whole number of seconds, so that no digit is lost again.
+        # The subtracted value is a whole number of seconds, so the subtraction is exact.
         seconds -= self.start + record * self.length
         seconds *= 2 / self.length
         seconds -= 1
@@ -71,7 +71,7 @@ class Table(NamedTuple):
     series : ndarray, shape (records, 3 terms)
         Coefficients of x, then y, then z; the constant first.
     start, length : float
-        Seconds from J2000.0 at which the first record begins, and seconds to a record.
+        Start of the first record in seconds from J2000.0, and length of a record in seconds.
     """
 
     series: FloatArray
@@ -80,16 +80,16 @@ class Table(NamedTuple):
 
     @property
     def grid(self) -> Grid:
-        """Its records in time."""
+        """Time grid of the records."""
         return Grid(self.start, self.length, len(self.series))
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Sum the series at given times.
+        """Evaluate the series at given times.
 
         Parameters
         ----------
         days : ndarray, shape (n,)
-            From J2000.0 TDB, within the records; an end belongs to the last one.
+            Days from J2000.0 TDB, within the records; the end belongs to the last record.
 
         Returns
         -------
@@ -103,17 +103,17 @@ class Table(NamedTuple):
         return sums
 
     def at(self, epochs: Epochs) -> FloatArray:
-        """Sum the series at times that other tables are summed at as well, shape (3, n)."""
+        """Evaluate the series at times shared with other tables, shape (3, n)."""
         return epochs.on(self.grid).sums(self.series)
 
 
 class Epochs:
-    """Times that several tables are summed at; how they lie on a grid of records is found once.
+    """Times at which several tables are evaluated; their layout on a grid is cached.
 
     Parameters
     ----------
     days : ndarray, shape (n,)
-        From J2000.0 TDB; not many more than `BLOCK`.
+        Days from J2000.0 TDB; not many more than `BLOCK`.
     """
 
     def __init__(self, days: FloatArray) -> None:
@@ -121,14 +121,14 @@ class Epochs:
         self._layouts: dict[Grid, _InOrder | _InAnyOrder] = {}
 
     def on(self, grid: Grid) -> _InOrder | _InAnyOrder:
-        """How the times lie on a grid."""
+        """Layout of the times on a grid."""
         if grid not in self._layouts:
             self._layouts[grid] = _laid_out(*grid.places(self.days))
         return self._layouts[grid]
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """In rows, if times are in order and stand so close that the rows are nearly full."""
+    """Row layout if times are in order and fill the rows nearly; otherwise one row per time."""
     if place.size >= _FEWEST_TO_A_RECORD:
         low, high = int(record[0]), int(record[-1])
         if (high - low) * _FEWEST_TO_A_RECORD < place.size and np.all(np.diff(record) >= 0):
@@ -139,21 +139,21 @@ def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
 
 
 class _InOrder(NamedTuple):
-    """Times in order, in rows as long as the fullest record, coefficients at the side.
+    """Ordered times, in rows as long as the fullest record, with coefficients that broadcast.
 
-    Many times to a record: the rows are records. Few: the rows are the first times of all
-    records, the second ones, and so on; long rows are what numpy is fast on.
+    If there are many times per record, the rows are records. Otherwise the rows are the first times
+    of all records, the second times, and so on, because numpy is fast on long rows.
 
     Attributes
     ----------
     records : slice
-        Those that have times.
+        Records that contain times.
     rows : ndarray
-        Places in the records.
+        Positions in the records.
     own : ndarray, shape (n,)
-        Where in the rows each time stands.
+        Index of each time in the rows.
     side : int
-        Axis of the rows along which a coefficient is the same.
+        Axis of the rows along which a coefficient is constant.
     """
 
     records: slice
@@ -163,7 +163,7 @@ class _InOrder(NamedTuple):
 
     @classmethod
     def of(cls, record: IntArray, counts: IntArray, place: FloatArray) -> _InOrder:
-        """Lay times out by their records and how many each of these has."""
+        """Arrange times by record, given the number of times in each record."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
         within = np.arange(place.size) - starts[record - low]
@@ -176,19 +176,19 @@ class _InOrder(NamedTuple):
         return cls(slice(low, low + counts.size), rows, own, side)
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Sums of the series of records, shape (3, n)."""
+        """Evaluate the series of the records, shape (3, n)."""
         coefficients = np.expand_dims(_coefficients(series[self.records]), self.side)
         return np.take(_clenshaw(coefficients, self.rows).reshape(3, -1), self.own, axis=1)
 
 
 class _InAnyOrder(NamedTuple):
-    """Any times: the coefficients of its record to each, in blocks that the cache holds."""
+    """Times in any order, with copied coefficients, in blocks that fit in the cache."""
 
     record: IntArray
     place: FloatArray
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Sums of the series of records, shape (3, n)."""
+        """Evaluate the series of the records, shape (3, n)."""
         sums = np.empty((3, self.place.size))
         for first in range(0, self.place.size, _BLOCK_OF_ANY):
             some = slice(first, first + _BLOCK_OF_ANY)
@@ -198,25 +198,25 @@ class _InAnyOrder(NamedTuple):
 
 
 def _coefficients(series: FloatArray) -> FloatArray:
-    """From (n, 3 terms) to (terms, 3, n), side by side in memory."""
+    """Reorder coefficients from (n, 3 terms) to contiguous (terms, 3, n)."""
     return np.ascontiguousarray(series.reshape(len(series), 3, -1).transpose(2, 1, 0))
 
 
 def _clenshaw(series: FloatArray, place: FloatArray) -> FloatArray:
-    """Sum of series[k] T_k(place), over the first axis of the series."""
+    """Sum of series[k] T_k(place) over the first axis of the series, by Clenshaw's algorithm."""
     twice = 2 * place
     last = np.zeros((3, *place.shape))
-    now = np.empty_like(last)
-    now[...] = series[-1]
+    current = np.empty_like(last)
+    current[...] = series[-1]
     if len(series) == 1:
-        return now
+        return current
     spare = np.empty_like(last)
     for coefficients in series[-2:0:-1]:
-        np.multiply(twice, now, out=spare)
+        np.multiply(twice, current, out=spare)
         spare -= last
         spare += coefficients
-        last, now, spare = now, spare, last
-    np.multiply(place, now, out=spare)
+        last, current, spare = current, spare, last
+    np.multiply(place, current, out=spare)
     spare -= last
     spare += series[0]
     return spare

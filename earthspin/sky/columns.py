@@ -1,4 +1,4 @@
-"""Lines and numbers of tables in text, refused by line where they are wrong."""
+"""Rows and numbers of text tables, with errors that give the line."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
 
-#: Letter of an exponent as Fortran writes it: 1.5D-03.
+#: Exponent letter of Fortran: 1.5D-03.
 FORTRAN = re.compile(r"(?<=\d)[dD](?=[-+]?\d)")
-#: First characters of lines that hold no row.
+#: First characters of comment lines.
 COMMENTS = "#%!*"
 #: Proleptic day number of the modified Julian date 0, 1858 November 17.
 _FIRST_DAY = datetime.date(1858, 11, 17).toordinal()
-#: How far a modified Julian date may be from the calendar's beside it: what rounding does, d.
+#: Tolerance between a modified Julian date and the calendar date in its row, for rounding, d.
 _SAME_DATE = 2e-3
 
 
 def lines_of(file: Path) -> list[str]:
-    """All lines.
+    """Read all lines of a file.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def lines_of(file: Path) -> list[str]:
 
 
 def is_table(head: bytes) -> bool:
-    """Whether a file can be a table: it begins with text, and a line of that with a number.
+    """Whether a file may be a table: it starts with text that includes a line with a number.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def is_table(head: bytes) -> bool:
 
 
 def checksum(file: Path) -> str:
-    """SHA-256 of a file that was read, by which an answer knows it again."""
+    """SHA-256 of an input file, stored in answers to identify it."""
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
@@ -63,7 +63,7 @@ def is_number(word: str) -> bool:
 
 
 def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
-    """Lines that begin with a number: which line, from 1, and its words."""
+    """Lines that begin with a number: line number from 1, and words."""
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if words and is_number(words[0]):
@@ -77,7 +77,7 @@ def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
     ----------
     lines : list of str
     is_row : callable
-        Whether a line is a row of the table.
+        Function that tests whether a line is a row of the table.
     """
     below, text = False, []
     for number, line in enumerate(lines, start=1):
@@ -89,7 +89,7 @@ def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
 
 
 def starts_with_number(line: str) -> bool:
-    """Whether the first word of a line is a number; commas divide words, too."""
+    """Whether the first word of a line is a number; commas also separate words."""
     words = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)
     return is_number(FORTRAN.sub("e", words[0]))
 
@@ -100,7 +100,7 @@ def refuse_text_between(file: Path, lines: list[str]) -> None:
     Raises
     ------
     SeriesError
-        If there are any; it gives their count and the first one.
+        If there are any; the message gives their count and the first one.
     """
     text = text_between(lines, starts_with_number)
     if text:
@@ -110,12 +110,12 @@ def refuse_text_between(file: Path, lines: list[str]) -> None:
 
 
 def numbers(file: Path, line: int, words: list[str]) -> list[float]:
-    """Numbers of a line.
+    """Convert the words of a line to numbers.
 
     Raises
     ------
     SeriesError
-        If a word is none.
+        If a word is not a number.
     """
     try:
         return [float(word) for word in words]
@@ -124,7 +124,7 @@ def numbers(file: Path, line: int, words: list[str]) -> list[float]:
 
 
 def check_calendar(file: Path, line: int, calendar: list[float], mjd: float) -> None:
-    """Refuse a modified Julian date that is not the day of the calendar beside it.
+    """Refuse a modified Julian date that differs from the calendar date in its row.
 
     Parameters
     ----------
@@ -147,5 +147,5 @@ def check_calendar(file: Path, line: int, calendar: list[float], mjd: float) -> 
         raise SeriesError(file, problem, "is a column lost?", line) from None
     expected = first + hour / 24
     if not abs(mjd - expected) <= _SAME_DATE:
-        problem = f"MJD {mjd:.2f} stands beside the calendar's date of MJD {expected:.2f}"
+        problem = f"MJD {mjd:.2f} differs from the calendar date, MJD {expected:.2f}"
         raise SeriesError(file, problem, "the two must agree; is a column lost?", line)

@@ -1,7 +1,7 @@
-"""Orbits by their elements: places without a kernel.
+"""Positions from Keplerian elements, without a kernel.
 
-An ellipse whose node and pericentre turn at even rates, solved by Kepler's equation. Whatever is
-placed by such ellipses alone has errors of rounding: the elements are the orbit.
+Orbits are ellipses whose node and pericentre precess at constant rates. The elements define the
+orbit, so the only errors are those of rounding.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
 FloatArray = NDArray[np.float64]
 
-#: Roundings in a direction, of all angles together; measured: 0.73 at most, over 301 days of two
-#: centuries at e up to 0.99, against 50 digits.
+#: Bound on the error of a direction in units of the rounding of all angles; measured: 0.73 at most,
+#: for 301 days in two centuries at e up to 0.99, against 50-digit arithmetic.
 ROUNDINGS = 2
 
 #: Code of the spinning body in `Elements`.
 CENTRE = 0
-#: Days each way from J2000.0 that are searched or averaged over where no span is given.
+#: Default span for searches and averages: days before and after J2000.0.
 USUAL_REACH = 0.75 * DAYS_PER_CENTURY
 
 _EPS = float(np.finfo(float).eps)
@@ -37,27 +37,27 @@ _EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Plane:
-    """What the angles of an orbit are counted from.
+    """Reference plane of the angles of an orbit.
 
     Attributes
     ----------
     axes : tuple of float
-        Nine numbers, row by row: unit vectors to where longitudes begin, a quarter turn on, and
-        to the pole, along the ICRF.
+        Nine numbers, row by row: unit vectors towards longitude 0, longitude 90 degrees and the
+        pole, in the ICRF.
     """
 
     axes: tuple[float, ...]
 
     @classmethod
     def of(cls, word: str, pole: Pole | None, orbit: Direction | None) -> Self:
-        """Make a plane from its word.
+        """Reference plane from its name.
 
         Parameters
         ----------
         word : str
             ``"ecliptic"``, ``"equator"``, ``"orbit"`` or ``"icrf"``.
         pole : Pole or None
-            Of the spinning body, at J2000.0.
+            Pole of the spinning body, at J2000.0.
         orbit : Direction or None
             Normal of the spinning body's orbit.
 
@@ -84,23 +84,23 @@ class Plane:
 
     @property
     def matrix(self) -> FloatArray:
-        """From the ICRF to the plane, shape (3, 3)."""
+        """Rotation from the ICRF to the plane, shape (3, 3)."""
         return np.array(self.axes).reshape(3, 3)
 
     def normal(self, i: float, node: float) -> FloatArray:
-        """Unit normal of an orbit along the ICRF, shape (3,)."""
+        """Unit normal of an orbit in the ICRF, shape (3,)."""
         tilted = [math.sin(i) * math.sin(node), -math.sin(i) * math.cos(node), math.cos(i)]
         return np.asarray(np.array(tilted) @ self.matrix)
 
     def mean_normal(self, i: float, node: float, node_period: float | None) -> Direction:
-        """Where the normal of an orbit points; of one whose node turns, the plane's own."""
+        """Direction of the normal of an orbit; for a precessing node, of the plane's pole."""
         x, y, z = self.normal(0.0 if node_period is not None else i, node)
         return Direction(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 
 
 @dataclass(frozen=True)
 class Ellipse:
-    """An ellipse that turns: the orbit of one body about another, in SI and radians.
+    """Precessing ellipse: the orbit of one body about another, in SI units and radians.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class Ellipse:
 
     @property
     def normal(self) -> FloatArray:
-        """Unit normal at the epoch along the ICRF, shape (3,)."""
+        """Unit normal at the epoch in the ICRF, shape (3,)."""
         return self.plane.normal(self.i, self.node)
 
     @property
@@ -136,7 +136,7 @@ class Ellipse:
         return self.motion + self.node_rate + self.pericentre_rate
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions about the focus in metres along the ICRF, shape (n, 3).
+        """Positions relative to the focus, m, in the ICRF, shape (n, 3).
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class Ellipse:
         """
         time = (days - self.epoch) * DAY
         anomaly = eccentric_anomaly(self.mean_anomaly + self.motion * time, np.asarray(self.e))
-        # from the focus, x to the pericentre; (1 - e) stands apart, so that nothing cancels there
+        # from the focus, with x towards the pericentre; (1 - e) is separate to avoid cancellation
         x = self.a * ((1 - self.e) - 2 * np.sin(anomaly / 2) ** 2)
         y = self.a * math.sqrt((1 - self.e) * (1 + self.e)) * np.sin(anomaly)
         along = self.pericentre + self.pericentre_rate * time  # from the node
@@ -158,9 +158,9 @@ class Ellipse:
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:
-        """What rounding does to a direction (rad) and a distance (m) on a day.
+        """Rounding errors of direction (rad) and distance (m) on a day.
 
-        A mean anomaly that is off turns the body by sqrt(1 + e)/(1 - e)^(3/2) of it at most.
+        An error of the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
         """
         time = abs(day - self.epoch) * DAY
         angles = abs(self.mean_anomaly) + abs(self.node) + abs(self.pericentre)
@@ -170,7 +170,7 @@ class Ellipse:
         return angle, self.a * (1 + self.e) * angle
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tide that has the effect of rounding on a day.
+        """Relative change of the tide equivalent to the rounding error on a day.
 
         Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
         """
@@ -180,14 +180,15 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class ByElements:
-    """A body placed by ellipses that follow one another: a trajectory.
+    """Position of a body as a chain of ellipses: a trajectory.
 
     Attributes
     ----------
     ellipses : tuple of (Ellipse, int)
-        From the centre outwards; the number is 1, or -1 where an ellipse is gone back.
+        Chain from the centre to the body; the number is 1, or -1 if the vector of an ellipse is
+        subtracted.
     centre : int
-        NAIF code of where the first one starts.
+        NAIF code of the start of the chain.
     """
 
     ellipses: tuple[tuple[Ellipse, int], ...]
@@ -195,11 +196,11 @@ class ByElements:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """Always."""
+        """First and last day: unlimited."""
         return -math.inf, math.inf
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions in metres along the ICRF, shape (n, 3)."""
+        """Positions in the ICRF, m, shape (n, 3)."""
         first, sign = self.ellipses[0]
         total = sign * first.positions(days)
         for ellipse, sign in self.ellipses[1:]:
@@ -207,12 +208,12 @@ class ByElements:
         return total
 
     def error(self, day: float) -> tuple[float, float]:
-        """What rounding does to the direction (rad) and the distance (m) on a day."""
+        """Rounding errors of direction (rad) and distance (m) on a day."""
         angles, distances = zip(*(ellipse.error(day) for ellipse, _ in self.ellipses), strict=True)
         return sum(angles), sum(distances)
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tide that has the effect of rounding on a day."""
+        """Relative change of the tide equivalent to the rounding error on a day."""
         return sum(ellipse.rounding(day) for ellipse, _ in self.ellipses)
 
     def __str__(self) -> str:
@@ -222,17 +223,17 @@ class ByElements:
 
 
 class Elements:
-    """The source of positions of a question all of whose bodies have elements."""
+    """Source of positions if all bodies of a question have elements."""
 
     name = BY_ELEMENTS
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Nothing but the elements, which stand in the scene."""
+        """Attributes of an answer: none except the note that positions are from elements."""
         return {"positions": "by the elements of orbits, without a kernel"}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """Refuse: what has no elements cannot be placed.
+        """Refuse a body without elements, which has no position.
 
         Raises
         ------
@@ -241,18 +242,18 @@ class Elements:
         raise SceneError("perturbers", name, "it has no orbit by elements; give it one")
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """Always."""
+        """First and last day: unlimited."""
         return -math.inf, math.inf
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse what is no time."""
+        """Refuse times that are not finite."""
         if not np.all(np.isfinite(days)):
             raise UndefinedError("a time is not finite")
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions in metres along the ICRF, shape (n, 3) each."""
+        """Positions in the ICRF, m, shape (n, 3) each."""
         self.check_times(days, ())
         return {
             name: checked(_trajectory(place).positions(days), place, days)
@@ -260,17 +261,20 @@ class Elements:
         }
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """What rounding does to a direction (rad) and a distance (m)."""
+        """Rounding errors of direction (rad) and distance (m) on a day."""
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """By what the pull may turn an axis aside, over the angle that the axis sweeps."""
+        """Deflection of an axis due to rounding of a perturber's position.
+
+        It is a fraction of the angle by which the axis moves.
+        """
         angle, metres = self.error(target, centre)
         return 2 * angle + 3 * metres / distance
 
 
 def _trajectory(place: Place) -> ByElements:
-    """What this source can place: a body by its elements."""
+    """Return the trajectory of a body; refuse a body without elements."""
     if not isinstance(place, ByElements):
         raise SceneError("perturbers", place, "it has no orbit by elements; give it one")
     return place

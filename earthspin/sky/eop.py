@@ -1,9 +1,9 @@
-"""Observed polar motion, from files.
+"""Observed polar motion, read from files.
 
-Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, ten rows to the year, twenty since
-1890) and finals2000A (daily, with predictions, which are left out). astropy carries C04; nothing is
-ever fetched. What is wrong in a file is an error that names its line; what can be put
-right without guessing is put right, and said.
+Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, ten rows per year, twenty since
+1890) and finals2000A (daily, with predictions, which are ignored). C04 is included in astropy;
+nothing is downloaded. Invalid rows raise an error that gives the line; defects with an unambiguous
+correction are repaired and reported.
 """
 
 from __future__ import annotations
@@ -32,31 +32,32 @@ from earthspin.sky.columns import (
 
 Array = NDArray[np.float64]
 
-#: Polar motion has never passed 0.7 arcsec; more is another unit, or another column.
+#: Largest valid polar motion, arcsec; it has never exceeded 0.7, so larger values have another unit
+#: or are from another column.
 LARGEST = 2.0
-#: Nor has it ever stayed within this of the conventional pole, arcsec; less is another unit.
+#: Smallest valid maximum of polar motion, arcsec; smaller values have another unit.
 SMALLEST = 1e-3
-#: What the pole moves in a day at most, arcsec, and what is no jump yet beside it.
+#: Largest motion of the pole in a day, arcsec, and additional tolerance for a jump, arcsec.
 FASTEST, JUMP = 0.01, 0.1
-#: Gaps up to this many steps are bridged by straight lines, but none of more days than this: the
-#: oldest tables have a row in a tenth of a year.
+#: Longest gap that is interpolated linearly, in steps and in days; the oldest tables have ten rows
+#: per year.
 LONGEST_BRIDGE, LONGEST_DAYS = 10, 37.0
-#: Largest share of rows without numbers that are left out; one row may always be.
+#: Largest fraction of rows without numbers that is ignored; one such row is always ignored.
 LOST = 0.01
-#: How far dates may be from even ones, as a share of a step.
+#: Tolerance of evenly spaced dates, as a fraction of a step.
 DATE_ROUNDING = 1e-3
-#: Period of the free wobble by which the error of a bridge is told, d.
+#: Period of the free wobble, used to report the error of interpolation, d.
 FREE_WOBBLE = 433.0
-#: By number of columns: that of the MJD, which x and y follow, and that of the error of x.
+#: By number of columns: index of the MJD, which x and y follow, and index of the error of x.
 _C04_LAYOUTS = {16: (3, 10), 21: (4, 13)}
-#: Of the table by date.
+#: Number of columns of the table by date.
 _C01_COLUMNS = 29
 _ERRORS = ("x_error", "y_error")
 
 
 @dataclass(frozen=True)
 class PoleSeries:
-    """Polar motion as observed.
+    """Observed polar motion.
 
     Attributes
     ----------
@@ -65,13 +66,13 @@ class PoleSeries:
     x, y : array, shape (n,)
         Coordinates of the pole, rad; x along the Greenwich meridian, y along 90 degrees west.
     x_error, y_error : array, shape (n,)
-        One standard deviation as the file gives it, rad.
+        Standard deviations from the file, rad.
     name : str
         Kind of table.
     repairs : str
-        What was put right; empty if nothing.
+        Description of repairs; empty if there are none.
     sha256 : str
-        Of the file.
+        SHA-256 of the file.
     """
 
     mjd: Array
@@ -90,16 +91,16 @@ class PoleSeries:
 
     @property
     def step(self) -> float:
-        """Spacing, d."""
+        """Spacing of the dates, d."""
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
 
     def between(self, first: float, last: float) -> PoleSeries:
-        """Part of it, both dates included.
+        """Part of the series between two dates, both included.
 
         Raises
         ------
         SeriesError
-            If less than two rows lie between.
+            If fewer than two rows are in between.
         """
         inside = (self.mjd >= first) & (self.mjd <= last)
         if np.count_nonzero(inside) < 2:
@@ -113,7 +114,7 @@ class PoleSeries:
 
 @dataclass(frozen=True)
 class _Row:
-    """A line as read: date, x, y and their errors in arcseconds."""
+    """One row of a file: date, x, y and their errors in arcseconds."""
 
     line: int
     mjd: float
@@ -121,26 +122,26 @@ class _Row:
 
 
 def c04_path() -> Path:
-    """The C04 file that astropy carries."""
+    """Path of the C04 file included in astropy."""
     from astropy_iers_data import IERS_B_FILE
 
     return Path(IERS_B_FILE)
 
 
 def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
-    """Read polar motion.
+    """Read polar motion from a file.
 
     Parameters
     ----------
     path : str or Path
-        A file, or ``"c04"`` for the one that astropy carries.
+        A file, or ``"c04"`` for the one included in astropy.
     kind : str, optional
-        ``"c04"``, ``"c01"`` or ``"finals2000A"``; told from the file by default.
+        ``"c04"``, ``"c01"`` or ``"finals2000A"``; detected from the file by default.
 
     Raises
     ------
     SeriesError
-        If the file cannot be used; it names the line.
+        If the file is invalid; the message gives the line.
     """
     file = c04_path() if str(path) == "c04" else Path(path)
     lines = lines_of(file)
@@ -163,7 +164,7 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """C04: the date, with the hour (20 C04) or without (14 C04 and before), then MJD, x, y."""
+    """Rows of C04: date, with hour (20 C04) or without (14 C04 and earlier), then MJD, x, y."""
     columns = 0
     for number, words in rows_of(lines):
         columns = columns or len(words)
@@ -181,10 +182,10 @@ def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
 
 
 def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """C01, as it is now by modified Julian date, or by Besselian years as it was.
+    """Rows of C01, in the present format by MJD or the former format by Besselian years.
 
-    By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 columns more. By year: the year
-    with decimals, x, its error, y, its error.
+    By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
+    year, x, its error, y, its error.
     """
     columns = 0
     for number, words in rows_of(lines):
@@ -200,13 +201,13 @@ def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
             if not 1800 <= year <= 2200:
                 remedy = f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns"
                 raise SeriesError(file, f"the year is {year:g}", remedy, number)
-            # Besselian years, to the millisecond of arc that this table has.
+            # Besselian years, accurate to the 1 mas resolution of this table.
             mjd = 15019.81352 + (year - 1900.0) * 365.242198781
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
 def _finals(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """finals2000A: fixed columns; predictions ("P") and empty rows are left out."""
+    """Rows of finals2000A, with fixed columns; predictions ("P") and empty rows are ignored."""
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line[16:17] != "I":
             continue
@@ -215,7 +216,7 @@ def _finals(file: Path, lines: list[str]) -> Iterator[_Row]:
         cells = (line[7:15], line[18:27], line[37:46], line[27:36], line[46:55])
         mjd, x, y, x_error, y_error = numbers(file, number, list(cells))
         year, month, day = numbers(file, number, [line[0:2], line[2:4], line[4:6]])
-        # Two digits: 73 is 1973, and 72 is 2072, if the table lives so long.
+        # Two-digit years: 73 is 1973, and 72 is 2072.
         century = 1900 if year >= 73 else 2000
         check_calendar(file, number, [century + year, month, day, mjd % 1 * 24], mjd)
         yield _Row(number, mjd, (x, y, x_error, y_error))
@@ -229,11 +230,11 @@ _READERS: dict[str, Callable[[Path, list[str]], Iterator[_Row]]] = {
 
 
 def _is_row_of_finals(line: str) -> bool:
-    """Whether a line has a flag and a date; beyond the predictions there is the date alone."""
+    """Whether a line has a flag and a date; beyond the predictions there is only the date."""
     return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
 
 
-#: Whether a line is a row, by kind of table.
+#: Test for rows, by kind of table.
 _IS_ROW: dict[str, Callable[[str], bool]] = {
     "c04": starts_with_number,
     "c01": starts_with_number,
@@ -242,7 +243,7 @@ _IS_ROW: dict[str, Callable[[str], bool]] = {
 
 
 def _kind(file: Path, lines: list[str]) -> str:
-    """Tell the kind of table from the first row of numbers."""
+    """Detect the kind of table from the first row of numbers."""
     for line in lines:
         words = line.split()
         if not words or not is_number(words[0]):
@@ -263,7 +264,7 @@ def _kind(file: Path, lines: list[str]) -> str:
 
 
 def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
-    """Leave out lines of text between rows, and rows without a position; these become gaps."""
+    """Remove lines of text between rows, and rows without a position; these become gaps."""
     complete = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
     lost = sorted([*text, *({row.line for row in rows} - {row.line for row in complete})])
     if lost:
@@ -295,12 +296,12 @@ def _check_size(file: Path, rows: list[_Row]) -> None:
         problem = (
             f"x, y = {farthest.values[0]:g}, {farthest.values[1]:g} arcsec, and no more elsewhere"
         )
-        remedy = f"the pole goes farther than {SMALLEST:g} arcsec; is it in radians?"
+        remedy = f"the pole moves farther than {SMALLEST:g} arcsec; is it in radians?"
         raise SeriesError(file, problem, remedy, farthest.line)
 
 
 def _check_jumps(file: Path, rows: list[_Row]) -> None:
-    """Refuse a step that is farther than the pole goes and the stated errors allow."""
+    """Refuse a step larger than the motion of the pole and the stated errors allow."""
     for last, row in pairwise(rows):
         x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
         days = row.mjd - last.mjd
@@ -312,7 +313,7 @@ def _check_jumps(file: Path, rows: list[_Row]) -> None:
 
 
 def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Sort by date; drop equal copies of a day, refuse different ones."""
+    """Sort rows by date; remove equal rows of a date, and refuse different ones."""
     ordered = sorted(rows, key=lambda row: row.mjd)
     if ordered != rows:
         repairs.append("rows sorted by date")
@@ -331,7 +332,7 @@ def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
 
 
 def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSeries:
-    """Bridge short gaps, refuse long ones; halve the steps of a table that once had wider ones."""
+    """Interpolate short gaps, refuse long ones, and halve the steps of older, coarser rows."""
     mjd = np.array([row.mjd for row in rows])
     values = np.array([row.values for row in rows]) * ARCSEC
     steps = np.diff(mjd)
@@ -342,7 +343,7 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
         problem = f"a gap of {steps[longest]:.1f} d follows MJD {mjd[longest]:.2f}"
         remedy = f"gaps up to {bridge:.0f} d are bridged; take a span on one side of it"
         raise SeriesError(file, problem, remedy, rows[longest].line)
-    # Dates are rounded: the mean of all steps is more exact than any one of them.
+    # Dates are rounded: the mean of all steps is more accurate than a single step.
     count = round((mjd[-1] - mjd[0]) / usual)
     whole = int(np.sum(np.round(steps / usual)))
     count = whole if abs(whole - count) <= DATE_ROUNDING * count else count

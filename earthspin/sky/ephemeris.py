@@ -1,8 +1,8 @@
-"""JPL kernels: where the bodies are.
+"""JPL kernels: positions of Sun, Moon and planets.
 
-Positions are geometric (no light time, no aberration: gravity pulls from where the body
-is), in metres along the axes of the ICRF, read with jplephem. Ranges are checked here,
-because jplephem extrapolates a whole record past the last one without a word.
+Positions are geometric, without light time and aberration, because gravity acts from the geometric
+position. They are in metres in the ICRF, read with jplephem. Ranges are checked here, because
+jplephem silently extrapolates by a whole record past the last one.
 """
 
 from __future__ import annotations
@@ -47,34 +47,34 @@ from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, wo
 
 FloatArray = NDArray[np.float64]
 
-#: Kernels that have a name; any other kernel is named by its path.
+#: Kernels with a name; any other kernel is given by its path.
 NAMED_KERNELS = tuple(PUBLISHED)
 
-#: A step on the way from the barycentre to a body: a segment (centre, target), or a trajectory.
+#: A step in the chain from the barycentre to a body: a segment (centre, target), or a trajectory.
 Step: TypeAlias = "tuple[int, int] | Trajectory"
 
 
 class Ephemeris:
-    """An open kernel, read with jplephem: the fast source of positions, and the default.
+    """An open kernel, read with jplephem: the default source of positions, and the fastest.
 
     Parameters
     ----------
     path : str or Path
         A kernel in SPK format.
     name : str, optional
-        What to call it; the file's name by default.
+        Name for messages; the file's name by default.
 
     Attributes
     ----------
     evaluations : Counter
-        How many positions each segment (centre, target) or trajectory has given so far.
+        Number of positions evaluated so far, by segment (centre, target) or trajectory.
 
     Raises
     ------
     KernelError
-        If the file is missing, empty, cut short, not a kernel, or damaged: what its parts say of
-        one another, and where it puts Sun, Moon and planets, is compared when it is opened; the
-        records that a question uses, when they are used (`earthspin.sky.kernel_checks`).
+        If the file is missing, empty, truncated, not a kernel, or damaged. The consistency of its
+        parts and the positions of Sun, Moon and planets are checked when the file is opened, and
+        records when they are used (`earthspin.sky.kernel_checks`).
     """
 
     def __init__(self, path: str | Path, name: str | None = None) -> None:
@@ -92,11 +92,11 @@ class Ephemeris:
         self._tables: dict[tuple[int, int], Table] = {
             step: records.table() for step, records in self._records.items()
         }
-        if self._published is None:  # the hash of one that has a name proves more
+        if self._published is None:  # the hash of a named kernel is a stronger check
             self._check_bodies()
 
     def _check_bodies(self) -> None:
-        """Sun, Moon and planets must be where they can be, as far as all of them are covered."""
+        """Check the positions of Sun, Moon and planets over their common coverage."""
         bodies = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
         reached = {code for code in bodies if self._reaches_root(code)}
         if not reached:
@@ -119,7 +119,7 @@ class Ephemeris:
 
     @cached_property
     def sha256(self) -> str:
-        """Hash of the kernel file; made once for each file, size and time of change."""
+        """SHA-256 of the kernel file, cached by file, size and modification time."""
         state = self.path.stat()
         return _sha256(self.path, state.st_size, state.st_mtime_ns)
 
@@ -135,16 +135,16 @@ class Ephemeris:
 
     @property
     def targets(self) -> set[int]:
-        """NAIF codes of all that the kernel can place."""
+        """NAIF codes of all bodies with positions in the kernel."""
         return {target for _, target in self._segments} | {0}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """Choose the first of a body's NAIF codes that the kernel holds.
+        """First of a body's NAIF codes that is in the kernel.
 
         Raises
         ------
         KernelError
-            If it holds none of them.
+            If the kernel contains none of them.
         """
         candidates = tuple(codes)
         for code in candidates:
@@ -157,12 +157,12 @@ class Ephemeris:
         )
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """First and last day (TDB, from J2000.0) on which all of these can be placed.
+        """First and last day (TDB, from J2000.0) for which all given bodies have positions.
 
         Parameters
         ----------
         places : iterable of int or Trajectory
-            NAIF codes, and bodies with trajectories of their own.
+            NAIF codes or trajectories of the bodies.
         """
         steps = {step for place in places for step in self._path_to_root(place)}
         starts, ends = zip(*(self._covered(step) for step in steps), strict=True)
@@ -177,26 +177,26 @@ class Ephemeris:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions of several bodies as seen from one, at the same times.
+        """Positions of several bodies relative to one, at the same times.
 
         Parameters
         ----------
         targets : mapping of str to int or Trajectory
             NAIF code or trajectory by label.
         centre : int or Trajectory
-            The same of the body that looks.
+            NAIF code or trajectory of the reference body.
         days : ndarray, shape (n,)
             Days from J2000.0 TDB.
 
         Returns
         -------
         dict of str to ndarray, shape (n, 3)
-            Metres, ICRF axes. Steps that two targets share are evaluated once.
+            Metres, in the ICRF. Steps shared by several targets are evaluated once.
 
         Raises
         ------
         CoverageError
-            If a time lies outside the kernel or a trajectory.
+            If a time is outside the kernel or a trajectory.
         UndefinedError
             If a trajectory gives no finite position.
         """
@@ -213,7 +213,7 @@ class Ephemeris:
     def _difference(
         self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
-        """Position of target minus centre in metres, shape (3, n); common steps cancel."""
+        """Position of target minus centre, m, shape (3, n); common steps cancel."""
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
         total = np.zeros((3, epochs.days.size))
         for path, combine in ((outward, np.add), (homeward, np.subtract)):
@@ -229,23 +229,23 @@ class Ephemeris:
         return total
 
     def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
-        """Position along one step, m, shape (3, n)."""
+        """Relative position along one step, m, shape (3, n)."""
         self.evaluations[step] += epochs.days.size
         return self._along(step, epochs)
 
     def _along(self, step: Step, epochs: Epochs) -> FloatArray:
         if not isinstance(step, tuple):
             return checked(step.positions(epochs.days), step, epochs.days).T
-        with np.errstate(all="ignore"):  # what overflows is refused
+        with np.errstate(all="ignore"):  # overflow is refused below
             position = self._tables[step].at(epochs)
             position *= 1e3
-            whole = np.isfinite(np.sum(position))  # what is not finite makes the sum so
+            whole = np.isfinite(np.sum(position))  # any non-finite value makes the sum non-finite
         if not whole:
             raise KernelError(self.path, f"its segment {step} is damaged", AGAIN)
         return position
 
     def _path_to_root(self, place: Place) -> list[Step]:
-        """List the steps that lead from the solar-system barycentre to a body, the last first."""
+        """Steps from the solar-system barycentre to a body, the last step first."""
         path: list[Step] = []
         if not isinstance(place, int):
             path, place = [place], place.centre
@@ -260,15 +260,15 @@ class Ephemeris:
         return path
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """How far a body may be from where the kernel puts it: angle (rad), distance (m).
+        """Error bounds of a body's position in the kernel: direction (rad), distance (m).
 
         Parameters
         ----------
         target, centre : int or Trajectory
-            The body, and the one that it is seen from. NaN for a trajectory that stands on
-            something else than a kernel: its error was never measured.
+            The body, and the reference body. The result is NaN for a trajectory not based on a
+            kernel, as its error is unknown.
         day : float
-            From J2000.0 TDB: outside what was measured the error grows.
+            Days from J2000.0 TDB; the error grows outside the measured span.
         """
         codes = measured_code(centre), measured_code(target)
         if codes[0] is None or codes[1] is None:
@@ -277,11 +277,13 @@ class Ephemeris:
         return growth(day) * mas * MAS, growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """By what the pull of a body may turn an axis aside, over the angle that the axis sweeps.
+        """Deflection of an axis due to errors of a perturber's position.
 
-        Measured for Sun and Moon on the Earth and for the Sun on Mars; for others the bound that
-        follows from direction and distance: the pull goes with the inverse cube of the distance,
-        and with the sine of twice the declination.
+        It is a fraction of the angle by which the axis moves.
+
+        Measured for Sun and Moon acting on the Earth and for the Sun acting on Mars. For other
+        pairs it is a bound from the errors of direction and distance: the torque is proportional to
+        the inverse cube of the distance and the sine of twice the declination.
         """
         codes = measured_code(centre), measured_code(target)
         if codes[0] is not None and codes[1] is not None and drift_is_measured(codes[0], codes[1]):
@@ -290,12 +292,12 @@ class Ephemeris:
         return 2 * angle + 3 * metres / distance
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse times at which not all of these bodies can be placed.
+        """Refuse times at which some of the bodies have no position.
 
         Raises
         ------
         CoverageError
-            Naming what is covered, and what else than the kernel limits it.
+            Gives the covered span, and what limits it besides the kernel.
         """
         places = set(places)
         start, end = self.coverage(places)
@@ -309,19 +311,19 @@ class Ephemeris:
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse a kernel whose records are damaged, as far as these times and places use them.
+        """Refuse a kernel with damaged records among those used for the given times and bodies.
 
-        A kernel that has a name is compared with its published hash as a whole instead.
+        For a named kernel, the published hash of the whole file is checked instead.
 
         Raises
         ------
         KernelError
-            Naming the segment and the record, or both hashes.
+            Gives the segment and the record, or both hashes.
         """
         if self._published is not None:
             if self.sha256 != self._published:
                 problem = f"its SHA-256 is {self.sha256}, that of {self.name} is {self._published}"
-                raise KernelError(self.path, problem, "install the package that carries it again")
+                raise KernelError(self.path, problem, "reinstall the package that contains it")
             return
         for step in {step for place in places for step in self._path_to_root(place)}:
             if isinstance(step, tuple):
@@ -329,7 +331,7 @@ class Ephemeris:
 
 
 class _NoSegment(KernelError):
-    """A body that no chain of segments leads to."""
+    """No chain of segments leads to the body."""
 
 
 @lru_cache
@@ -339,22 +341,22 @@ def _sha256(path: Path, size: int, changed: int) -> str:
 
 
 def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
-    """Open a kernel by name or path, or take the file behind a Skyfield kernel.
+    """Open a kernel by name or path, or the file of a Skyfield kernel.
 
     Parameters
     ----------
     kernel : str, path, or Skyfield SpiceKernel
-        ``"de421"`` (comes with the package skyfield-data), ``"de440"`` (the extra of that
-        name), or the path of any .bsp file.
+        ``"de421"`` (in the package skyfield-data), ``"de440"`` (needs the extra of that name), or
+        the path of any .bsp file.
 
     Raises
     ------
     SceneError
-        If it is neither a known name nor a path.
+        If `kernel` is neither a known name nor a path.
     MissingExtraError
-        If the package that carries the named kernel is not installed.
+        If the package that contains the named kernel is not installed.
     KernelError
-        If the file cannot be used.
+        If the file is invalid.
     """
     if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
         return Ephemeris(kernel.path)
@@ -375,10 +377,10 @@ def find_kernel(name: str) -> Path:
     Raises
     ------
     MissingExtraError
-        If the package that carries it is not installed.
+        If the package that contains the kernel is not installed.
     """
     if name == "de421":
-        # Found without importing skyfield_data, which warns about files that we never read.
+        # Located without importing skyfield_data, which warns about files that are not used here.
 
         spec = find_spec("skyfield_data")
         if spec is None or spec.origin is None:
@@ -392,7 +394,7 @@ def find_kernel(name: str) -> Path:
 
 
 def _open_spk(path: Path) -> Any:
-    """Open a kernel file, refusing what is no whole kernel."""
+    """Open a kernel file; refuse an incomplete or invalid one."""
     from jplephem.daf import DAF
     from jplephem.spk import SPK
 
@@ -443,7 +445,7 @@ def _date(days: float) -> str:
 
 
 def describe_kernel(name: str) -> str:
-    """Coverage and place of a named kernel, or why it cannot be used, in one line."""
+    """One-line description of a named kernel: coverage and path, or why it is unavailable."""
     try:
         ephemeris = open_ephemeris(name)
     except (MissingExtraError, KernelError) as error:

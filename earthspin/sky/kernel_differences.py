@@ -1,29 +1,32 @@
-"""How far a kernel may be off: the largest differences between DE421 and DE440, pair by pair.
+"""Error bounds of kernels: the largest differences between DE421 and DE440, pair by pair.
 
-Measured by `python -m data_tools kernels` at steps of 1.7 d over all that DE421 covers, 1899 to
-2053. Nothing was measured outside it: there the bound grows with the square of the time from
-J2000.0, as the longitudes of two Moons do whose tidal acceleration differs (DE421 and DE440 part by
-7.3 mas a century squared along the track). A pair is as far off from one end as from the other.
+Measured by `python -m data_tools kernels` at steps of 1.7 d over the coverage of DE421, 1899 to
+2053. Outside that span nothing was measured, and the bound grows with the square of the time from
+J2000.0, as a difference of lunar tidal accelerations does (DE421 and DE440 differ by 7.3 mas per
+century squared along the track). The bound for a pair does not depend on which body is the
+reference.
 """
 
 from __future__ import annotations
 
 from earthspin.constants import JULIAN_YEAR
 
-#: Days from J2000.0 TDB beyond which a difference grows. Both kernels cover -36,684 to 19,639; a
-#: little inside, so that the Moon of 1560 comes to the 141 mas of the two accelerations.
+#: Days from J2000.0 TDB beyond which a difference grows. Both kernels cover -36,684 to 19,639; the
+#: limits are slightly inside, so that the bound for the Moon in 1560 is the 141 mas of the two
+#: accelerations.
 GROWS_FROM = (-35700.0, 19600.0)
 
-#: By what two kernels let an axis part, over the angle that it sweeps: the largest of the Earth's
-#: under Sun and Moon (3.4e-9), under the Sun (3.2e-9), and of that of Mars (2.7e-9), 1901 to 2050.
+#: Difference of an axis between two kernels, relative to the angle of its motion: the largest value
+#: for the Earth with Sun and Moon (3.4e-9), with the Sun only (3.2e-9), and for Mars (2.7e-9), 1901
+#: to 2050.
 DRIFT = 3.6e-9
-#: What their short periods add: as much as the axis sweeps in this time, s.
+#: Allowance for short-period differences: the motion of the axis in this time, s.
 DRIFT_FROM = 4 * JULIAN_YEAR
-#: Pairs whose pull was compared so, by their codes.
+#: Pairs for which `DRIFT` was measured, by their codes.
 DRIFT_MEASURED = ((10, 399), (301, 399), (4, 10))
 
-#: Direction (mas) and distance (m) by the two NAIF codes, the smaller first; a planet's barycentre
-#: stands for the planet.
+#: Differences of direction (mas) and distance (m) by two NAIF codes, the smaller first; a planet's
+#: barycentre represents the planet.
 DIFFERENCES: dict[tuple[int, int], tuple[float, float]] = {
     (1, 2): (15, 1300),
     (1, 4): (17, 5000),
@@ -74,13 +77,13 @@ DIFFERENCES: dict[tuple[int, int], tuple[float, float]] = {
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:
-    """Largest difference of the direction (mas) and distance (m) of one body seen from another.
+    """Largest difference of the direction (mas) and distance (m) of one body relative to another.
 
     Parameters
     ----------
     centre, target : int
-        NAIF codes. What was not measured is taken for as bad as the worst that was measured from
-        the same centre, or of all.
+        NAIF codes. For a pair that was not measured, the largest measured values with the same
+        centre, or of all pairs, are returned.
     """
     pair = sorted((_barycentre(centre), _barycentre(target)))
     entries = DIFFERENCES.get((pair[0], pair[1]))
@@ -92,24 +95,24 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
 
 
 def growth(day: float) -> float:
-    """By how much a difference may be larger at a day from J2000.0 TDB than where it was measured.
+    """Growth factor of a difference outside the measured span.
 
     Parameters
     ----------
     day : float
-        Inside `GROWS_FROM` it is 1.
+        Days from J2000.0 TDB; the factor is 1 inside `GROWS_FROM`.
     """
     edge = GROWS_FROM[0] if day < 0 else GROWS_FROM[1]
     return max(1.0, (day / edge) ** 2)
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Whether `DRIFT` was measured for the pull of one body on another."""
+    """Whether `DRIFT` was measured for the torque of one body on another."""
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 
 
 def _barycentre(code: int) -> int:
-    """Barycentre of the system of a planet; the third planet and its moon are told apart."""
+    """Barycentre code of a planet's system; Earth and Moon keep their own codes."""
     planet = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
     return code if planet == 3 else planet

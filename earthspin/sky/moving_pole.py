@@ -1,11 +1,11 @@
-"""A spin axis that moves by published rates and periodic terms, as the IAU gives them.
+"""Spin axes that move by published IAU rates and periodic terms.
 
 The working group on cartographic coordinates writes right ascension and declination of a pole as
 
     alpha = alpha_0 + alpha_1 T + sum a_k sin(phi_k + phi'_k T),
     delta = delta_0 + delta_1 T + sum d_k cos(psi_k + psi'_k T)
 
-with T in Julian centuries of TDB from J2000.0, in the axes of the ICRF (Archinal et al. 2018,
+with T in Julian centuries of TDB from J2000.0, in the ICRF (Archinal et al. 2018,
 Celest. Mech. Dyn. Astron. 130, 22).
 """
 
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 _CENTURY = DAYS_PER_CENTURY * DAY
-#: Periodic terms of a pole that repeat within this time, s, are nutation: torques that are averaged
-#: over the turns of orbits and of their nodes do not make them.
+#: Longest period, s, of terms that count as nutation, because torques averaged over orbits and
+#: their nodes do not include them.
 LONGEST_NUTATION = 100 * _CENTURY
 
 
@@ -43,9 +43,9 @@ class Swing(NamedTuple):
     Attributes
     ----------
     size : float
-        Of the sine (right ascension) or cosine (declination), rad.
+        Amplitude of the sine (right ascension) or cosine (declination), rad.
     phase : float
-        At J2000.0, rad.
+        Phase at J2000.0, rad.
     rate : float
         rad/s.
     """
@@ -62,7 +62,7 @@ _SWINGS = ("right_ascension_swings", "declination_swings")
 
 @dataclass(frozen=True)
 class MovingPole:
-    """A pole that moves.
+    """A pole that moves by rates and periodic terms.
 
     Attributes
     ----------
@@ -90,14 +90,14 @@ class MovingPole:
         alpha_terms: Sequence[tuple[float, float, float]] = (),
         delta_terms: Sequence[tuple[float, float, float]] = (),
     ) -> Self:
-        """Make one of numbers in degrees and degrees a Julian century, as they stand in print.
+        """Create a pole from published numbers in degrees and degrees per Julian century.
 
         Parameters
         ----------
         alpha, delta : tuple of float
             Angle and rate.
         alpha_terms, delta_terms : sequence of (size, phase, rate)
-            Of the sines, and of the cosines.
+            Sine terms of alpha, and cosine terms of delta.
         """
 
         def swings(terms: Sequence[tuple[float, float, float]]) -> tuple[Swing, ...]:
@@ -119,7 +119,7 @@ class MovingPole:
         return f"moving; at J2000.0 {Direction(*self.at(0.0))}"
 
     def at(self, day: float) -> FixedPole:
-        """Where it points on a day from J2000.0 TDB."""
+        """Direction of the pole on a day from J2000.0 TDB, with all terms."""
         time = day * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
@@ -128,15 +128,15 @@ class MovingPole:
         return FixedPole(ra, dec)
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Normal of the body's orbit."""
+        """Unit normal of the body's orbit, shape (3,)."""
         return self.at(0.0).orbit_normal(orbit)
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether at J2000.0 it stands on the orbit too closely to have a longitude."""
+        """Whether the axis at J2000.0 is too close to the orbit's normal to have a longitude."""
         return self.at(0.0).is_upright(orbit)
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Plane of the orbit, from the equinox of J2000.0."""
+        """Matrix from the GCRS to the plane of the orbit and the equinox of J2000.0."""
         return self.at(0.0).orbit_axes(orbit)
 
     def mean(self, days: FloatArray) -> FloatArray:
@@ -152,7 +152,7 @@ class MovingPole:
         return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
 
     def without_nutation(self) -> Self:
-        """Return the pole without the periodic terms that repeat within `LONGEST_NUTATION`."""
+        """Pole without the periodic terms shorter than `LONGEST_NUTATION`."""
 
         def slow(swings: tuple[Swing, ...]) -> tuple[Swing, ...]:
             return tuple(s for s in swings if abs(s.rate) * LONGEST_NUTATION < math.tau)
@@ -170,7 +170,7 @@ class MovingPole:
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Equator of date and the equinox on the fixed orbit, shape (n, 3, 3)."""
+        """Matrices to the equator of date and its equinox on the fixed orbit, shape (n, 3, 3)."""
         normal = self.orbit_normal(orbit)
         axes = self.mean(days)
         if self.is_upright(orbit):
@@ -183,12 +183,12 @@ class MovingPole:
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: Where) -> Self:
-        """Read the table that `write` gives.
+        """Read a pole from a table made by `write`.
 
         Raises
         ------
         SceneError, UnitsError
-            If a key is unknown or missing, or a value is no angle or rate.
+            If a key is unknown or missing, or a value is not an angle or rate.
         """
         names = (*_NAMES, *_RATES, *_SWINGS)
         for name in table:
@@ -209,7 +209,7 @@ class MovingPole:
         return cls(**fields)
 
     def write(self) -> dict[str, Any]:
-        """Give the table of its numbers."""
+        """Return the table of all numbers of the pole."""
         table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
         table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
         return table | {
@@ -222,7 +222,7 @@ class MovingPole:
 
 
 def _swing(row: object, where: Where) -> Swing:
-    """Size, phase and rate of one term."""
+    """Read one periodic term: size, phase and rate."""
     if not isinstance(row, (list, tuple)) or len(row) != 3:
         raise where.error(row, "give size, phase and rate of each term")
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")

@@ -1,14 +1,14 @@
-"""Orbits over millions of years from files and frames, as their makers publish them.
+"""Read orbits over millions of years from published files and from data frames.
 
-Two layouts are common, by names of columns or, where a file has none, by how many there are:
+Two layouts are supported, recognised by column names or, without names, by the number of columns:
 
-- elements, as HNBody writes them and snvec reads them: t (d), a, e, inc, then the longitude of
+- elements, as written by HNBody and read by snvec: t (d), a, e, inc, then the longitude of
   perihelion (varpi, lph) or its argument (omega, arp), and the longitude of the node (Omega, lan);
-- as La2010 (Laskar et al. 2011, A&A 532, A89): t (kyr), a, l, k, h, q, p, where
+- the layout of La2010 (Laskar et al. 2011, A&A 532, A89): t (kyr), a, l, k, h, q, p, where
   k + i h = e exp(i varpi) and q + i p = sin(inc/2) exp(i Omega).
 
-Neither says in which axes it stands, and most who misread such a file take the wrong ones. That of
-the Earth is therefore held to the ecliptic at J2000.0.
+Neither layout includes the reference frame, and a wrong frame is a common error. An orbit of the
+Earth is therefore compared with the ecliptic at J2000.0.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ FloatArray = NDArray[np.float64]
 #: Units of time, s, and of angles, rad.
 TIMES = {"d": DAY, "yr": JULIAN_YEAR, "kyr": 1000 * JULIAN_YEAR}
 ANGLES = {"deg": math.pi / 180, "rad": 1.0}
-#: Names of columns, by what they are called here.
+#: Accepted names of columns, by the name used here.
 NAMES: dict[str, tuple[str, ...]] = {
     "t": ("t", "time"),
     "e": ("e", "ee", "ecc", "eccentricity"),
@@ -59,22 +59,22 @@ NAMES: dict[str, tuple[str, ...]] = {
     "k": ("k",), "h": ("h",), "q": ("q",), "p": ("p",),
 }  # fmt: skip
 LA2010 = ("t", "k", "h", "q", "p")
-#: Columns of files without names, by how many there are.
+#: Columns of files without names, by the number of columns.
 NAMELESS: dict[int, tuple[str, ...]] = {
     6: ("t", "a", "e", "inc", "varpi", "Omega"),
     7: ("t", "a", "l", "k", "h", "q", "p"),
     8: ("t", "a", "e", "inc", "lph", "lan", "arp", "mna"),
 }
-#: Fewest rows that can be joined, and how far apart they may be, s.
+#: Smallest number of rows, and smallest and largest spacing, s.
 FEWEST, CLOSEST, FARTHEST = 16, JULIAN_YEAR, 5000 * JULIAN_YEAR
-#: A step longer than so many usual ones is a gap.
+#: Ratio to the usual step above which a step is a gap.
 GAP = 1.5
-#: Places in each window at which a table that was read is checked.
+#: Number of points per window at which a table is checked after reading.
 SAMPLES = 33
-#: How far normal or eccentricity vector may move from one row to the next.
+#: Largest change of the normal or eccentricity vector between rows.
 LARGEST_MOVE = 0.1
-#: How far the Earth's orbit may lean on the ecliptic at J2000.0, rad: short periods reach 3 arcsec,
-#: and the axes that are taken for one another differ by a degree and more.
+#: Largest inclination of the Earth's orbit to the ecliptic at J2000.0, rad: short-period terms
+#: reach 3 arcsec, and frames that may be confused differ by a degree or more.
 NEAR_ECLIPTIC = 60 * ARCSEC
 #: Eccentricities may exceed the largest in the body's own table by this factor. Over ten million
 #: years those of the Earth reach 0.061; over fifty million, 0.067 (file of Laskar et al. 2004).
@@ -86,7 +86,7 @@ SUN_POLE = (286.13, 63.87)
 #: Node and inclination of the Sun's equator on ECLIPJ2000 of snvec 3.7.5 and of the files of Zeebe
 #: & Lourens 2019, deg: 0.1 degrees from those of SPICE.
 SUN_EQUATOR = (75.5940, 7.155)
-#: Word for what a frame of pandas is called in messages.
+#: Name of a pandas data frame in messages.
 _FRAME = "DataFrame"
 
 Table = Mapping[str, FloatArray]
@@ -98,14 +98,14 @@ def _ecliptic() -> FloatArray:
 
 
 def _solar(pole: FloatArray) -> FloatArray:
-    """Equator of the Sun: the first axis where it rises through the ecliptic."""
+    """Frame of the Sun's equator, with the first axis at its ascending node on the ecliptic."""
     node = np.cross(_ecliptic()[2], pole)
     node /= np.linalg.norm(node)
     return np.stack([node, np.cross(pole, node), pole])
 
 
 def axes_of(frame: str) -> FloatArray:
-    """Axes of a frame in the GCRS, as rows.
+    """Axes of a reference frame in the GCRS, as rows.
 
     Parameters
     ----------
@@ -137,32 +137,32 @@ def read_orbit(
     Parameters
     ----------
     path : str, Path or DataFrame
-        A file that `OrbitTable.to_file` wrote (``.npz``), a file of text, or a frame of pandas:
-        elements (t, a, e, inc, varpi or omega, Omega; also under the names lph, arp, lan) or as
-        La2010 has it (t, a, l, k, h, q, p). Files of text without names are told by how many
-        columns there are. Times count from J2000.0 TDB, negative in the past, in either order.
+        A file written by `OrbitTable.to_file` (``.npz``), a text file, or a pandas DataFrame, with
+        elements (t, a, e, inc, varpi or omega, Omega; also named lph, arp, lan) or in the layout of
+        La2010 (t, a, l, k, h, q, p). Text files without names are recognised by their number of
+        columns. Times are from J2000.0 TDB, negative in the past, in either order.
     body : str
-        Whose orbit it is.
+        Name of the orbiting body.
     frame : str or array_like, shape (3, 3)
-        Its axes: ``"ECLIPJ2000"`` and ``"HCI"`` as in SPICE, ``"HCI-snvec"`` for the Sun's equator
+        Reference frame: ``"ECLIPJ2000"`` and ``"HCI"`` as in SPICE, ``"HCI-snvec"`` for the Sun's
+        equator
         as in snvec and the files of Zeebe & Lourens (2019), ``"ICRF"``, or the axes in the GCRS as
         rows.
     time : str, optional
-        Unit of the times: days for elements and thousands of years for La2010, if not given.
+        Unit of the times; by default days for elements and thousands of years for La2010.
     angles : str, optional
-        Unit of inclination, perihelion and node; told from their size if not given.
+        Unit of inclination, perihelion and node; by default detected from their size.
 
     Returns
     -------
     OrbitTable
-        Whatever changes over less than some thousand years is smoothed where rows are dense.
+        Variations shorter than some thousand years are smoothed if rows are dense.
 
     Raises
     ------
     SeriesError
-        In one line: gaps, rows out of order or twice, wrong units or axes, an eccentricity of 1 or
-        more, or beyond what that of the body reaches, missing numbers, too few rows, an unknown
-        layout.
+        For gaps, rows out of order or repeated, wrong units or frames, an eccentricity of 1 or more
+        or above the range of the body, missing numbers, too few rows, or an unknown layout.
 
     Examples
     --------
@@ -214,9 +214,9 @@ def _load(file: Path) -> OrbitTable:
         table = load(file)
     except OSError as error:
         raise SeriesError(file, f"it cannot be read: {error.strerror or error}") from None
-    except Exception:  # zipfile, zlib, tokenize and numpy have kinds of their own
+    except Exception:  # errors of zipfile, zlib, tokenize and numpy
         raise SeriesError(file, "it is no table that to_file wrote", "write it again") from None
-    # n.n = 1 needs that the components in the plane of the table's axes are shorter than 1
+    # n.n = 1 requires the two stored components to have a norm below 1
     basis = legendre.legvander(
         np.cos(np.linspace(0, np.pi, SAMPLES)), table.coefficients.shape[-1] - 1
     )
@@ -228,14 +228,14 @@ def _load(file: Path) -> OrbitTable:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Columns as they were read, in the order of time.
+    """Columns of the input, in order of time.
 
     Attributes
     ----------
     source : object
-        File, or the word for a frame.
+        File, or the name of a data frame.
     columns : Table
-        By the names used here.
+        Columns by the names used here.
     lines : list of int or None
         Line of each row in the file.
     """
@@ -246,7 +246,7 @@ class _Rows:
 
     @classmethod
     def of_frame(cls, frame: pd.DataFrame) -> _Rows:
-        """From a frame of pandas."""
+        """Read the rows of a pandas data frame."""
         chosen = _chosen([str(name) for name in frame.columns], _FRAME)
         columns = {}
         for name, place in chosen.items():
@@ -259,7 +259,10 @@ class _Rows:
 
     @classmethod
     def of_text(cls, file: Path) -> _Rows:
-        """From a file of text: numbers between spaces or commas, names in the last line above."""
+        """Read a text file of numbers between spaces or commas.
+
+        The last header line has the names of the columns, if any.
+        """
         names: list[str] = []
         rows: list[list[float]] = []
         lines: list[int] = []
@@ -294,7 +297,7 @@ class _Rows:
         return cls(file, {n: values[:, at] for n, at in chosen.items()}, np.array(lines))
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
-        """Make the error that names file and line."""
+        """Error that gives the file and the line."""
         if row is None:
             return SeriesError(self.source, problem, remedy)
         if self.lines is None:
@@ -302,7 +305,7 @@ class _Rows:
         return SeriesError(self.source, problem, remedy, int(self.lines[row]))
 
     def in_order(self) -> _Rows:
-        """The same with time ascending; rows out of order, doubled, or missing are refused."""
+        """Rows in ascending time; refuse rows out of order, repeated, or missing."""
         for name, column in self.columns.items():
             if not np.isfinite(column).all():
                 row = int(np.argmin(np.isfinite(column)))
@@ -330,7 +333,7 @@ class _Rows:
 
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Places of the columns that are needed, by the names used here."""
+    """Indices of the required columns, by the names used here."""
     places = {}
     for name, words in NAMES.items():
         exact = [at for at, column in enumerate(names) if column in words]
@@ -411,7 +414,7 @@ def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray
 
 
 def _from_elements(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
-    """Normal and eccentricity vector, shape (n, 3), from elements."""
+    """Normal and eccentricity vector, shape (n, 3), from orbital elements."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
     unit = ANGLES[angles or _unit_of(rows)]
@@ -439,14 +442,14 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 
 def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns that go round."""
+    """Columns of circulating angles."""
     return [
         column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
     ]
 
 
 def _unit_of(rows: _Rows) -> str:
-    """Unit of the angles by their size."""
+    """Detect the unit of the angles from their size."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
         return "deg"
@@ -457,7 +460,7 @@ def _unit_of(rows: _Rows) -> str:
 
 
 def _check_unit(rows: _Rows, angles: str | None) -> None:
-    """Refuse a unit that what was read does not allow."""
+    """Refuse a unit that is inconsistent with the values."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
     steep = float(np.max(rows.columns["inc"]))
@@ -479,7 +482,7 @@ def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> N
 
 
 def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
-    """At J2000.0 the Earth goes round in the ecliptic; if not, say in which axes it would."""
+    """Refuse an orbit of the Earth off the ecliptic at J2000.0; suggest the frame that fits."""
 
     def lean(frame_axes: FloatArray) -> float:
         n = normal @ frame_axes
@@ -497,7 +500,7 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
 
 
 def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
-    """Refuse eccentricities that the orbit of a body whose table is shipped does not reach."""
+    """Refuse eccentricities above the range of a body with a shipped table."""
     largest = _largest_eccentricity(body)
     if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
         row = int(np.argmax(e > MOST_ECCENTRIC * largest))
@@ -507,7 +510,7 @@ def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
 
 @cache
 def _largest_eccentricity(body: str) -> float | None:
-    """Largest eccentricity in the table that is shipped of a body, or nothing."""
+    """Largest eccentricity in the shipped table of a body; None without a table."""
     table = shipped(body)
     if table is None:
         return None

@@ -1,9 +1,9 @@
-"""Orbits that change over millions of years, as tables: read, kept and evaluated.
+"""Tables of orbits that change over millions of years: storage and evaluation.
 
-An orbit is kept as its unit normal n and its eccentricity vector e (to the pericentre, as long as
-the eccentricity), two components of each along axes of its own; the third follows from n.n = 1 and
-n.e = 0. In windows of some twenty thousand years each is a Legendre series, so that values and
-rates at any time cost a few products.
+An orbit is stored as two components each of its unit normal n and its eccentricity vector e
+(towards the pericentre, with the eccentricity as its length), in the table's own frame; the third
+components follow from n.n = 1 and n.e = 0. Each component is a Legendre series in windows of about
+twenty thousand years, so that values and rates at any time are fast to compute.
 """
 
 from __future__ import annotations
@@ -28,30 +28,31 @@ from earthspin.sky.columns import checksum
 
 FloatArray = NDArray[np.float64]
 
-#: Length of a window, s, and terms in it.
+#: Length of a window, s, and number of terms per window.
 WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16
-#: Samples a window must hold for each term to be fitted; with fewer, samples are joined by splines.
+#: Smallest number of samples per term for a least-squares fit; with fewer, splines are used.
 DENSE = 3
-#: Times whose orbit is kept, and how many such sets: whoever follows an axis with each cause of its
-#: error changed asks for the same ones every time.
+#: Cache of evaluated orbits: largest number of times per set, and number of sets. Solutions with
+#: different causes of error evaluate the orbit at the same times.
 LONGEST_REMEMBERED, SETS_REMEMBERED = 2048, 32
-#: Bytes that the arrays of a file may hold together; a billion years take 13 million.
+#: Largest total size of the arrays of a file, bytes; a billion years need 13 million.
 LARGEST = 1 << 26
-#: Smallest unit in which coefficients are stored.
+#: Unit in which coefficients are stored as integers.
 UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """95 % half-widths of a shipped orbit beyond those of its integration, for each direction.
+    """95 % half-widths of a shipped orbit in addition to those of its integration, per direction.
 
     Attributes
     ----------
     short_periods : float
-        Of the eccentricity: terms of less than some 2,000 years, which the table leaves out.
+        Half-width of the eccentricity due to terms shorter than about 2,000 years, which the table
+        omits.
     normal : float
-        Rate at which that of the normal grows, rad/s.
+        Growth rate of the half-width of the normal, rad/s.
     eccentricity : float
-        Rate at which that of the eccentricity vector grows, s-1.
+        Growth rate of the half-width of the eccentricity vector, s-1.
     """
 
     short_periods: float
@@ -68,10 +69,10 @@ class Growth(NamedTuple):
 _MYR = 1e6 * JULIAN_YEAR
 #: By body, measured. Eccentricities: La2010a to d (Laskar et al. 2011, A&A 532, A89) and La2004
 #: (Laskar et al. 2004, A&A 428, 261) for the Earth, ZB18a over the last million years; the file of
-#: La2004 for Mars. Normals, which none of these files holds: an integration that adds what ours
-#: lacks, the Sun's flattening and three asteroids, and that lies nearer to La2010a by a factor of
-#: two past six million years. `python -m data_tools long-term --solutions` and `python -m
-#: data_tools orbits --left-out` measure both again.
+#: La2004 for Mars. Normals, which none of these files contains: an integration that adds the Sun's
+#: flattening and three asteroids, and that is closer to La2010a by a factor of two beyond six
+#: million years. `python -m data_tools long-term --solutions` and `python -m data_tools orbits
+#: --left-out` repeat the measurements.
 GROWTH = {
     "earth": Growth(4.5e-5, 4.0e-5 / _MYR, 1.8e-5 / _MYR),
     "mars": Growth(1.4e-4, 6.0e-5 / _MYR, 2.0e-5 / _MYR),
@@ -80,27 +81,27 @@ GROWTH = {
 
 @dataclass(frozen=True, eq=False)
 class OrbitTable:
-    """An orbit through time.
+    """An orbit as a function of time.
 
     Attributes
     ----------
     name : str
-        Of the body that goes round.
+        Name of the orbiting body.
     edges : ndarray, shape (w + 1,)
-        Where windows meet, s from J2000.0 TDB, ascending.
+        Edges of the windows, s from J2000.0 TDB, ascending.
     coefficients : ndarray, shape (4, w, m)
         Legendre coefficients of n_1, n_2, e_1, e_2.
     axes : ndarray, shape (3, 3)
-        Rows: the axes of the table in the GCRS.
+        Rows: axes of the table's frame in the GCRS.
     source : str
-        Where it comes from.
+        Source of the orbit.
     errors : ndarray, shape (2, w)
-        95 % half-widths of n (rad) and of e in each window, for each of two directions: what half
-        the step changes, what the series leave out, and how the orbit goes away from those of
-        others (see `growth`). Of a table that was given, what the series leave out alone: the orbit
-        is taken at its word.
+        95 % half-widths of n (rad) and of e in each window, for each of two directions. For a
+        shipped table they include the change by halving the step, the residuals of the series, and
+        the divergence from other solutions (see `GROWTH`). For a user's table they include only the
+        residuals of the series.
     sha256 : str
-        Of the file it was read from; empty if there was none.
+        SHA-256 of the file; empty if there was none.
     """
 
     name: str
@@ -177,24 +178,26 @@ class OrbitTable:
     def to_file(self, path: str | os.PathLike[str]) -> None:
         """Write the table to a file, which `earthspin.read_orbit` reads.
 
-        Coefficients are kept as whole numbers of 1e-9 (0.2 mas), so that a table that was read
-        from such a file is written to the same numbers.
+        Coefficients are stored as integer multiples of 1e-9 (0.2 mas), so that reading and writing
+        a file again does not change them.
 
         Parameters
         ----------
         path : str or Path
-            It ends in ``.npz``.
+            Output file, ending in ``.npz``.
 
         Raises
         ------
         OutputError
-            If it does not, or cannot be written.
+            If the name has another ending, or the file cannot be written.
         """
         if not isinstance(path, (str, os.PathLike)):
             raise TypeError(f"path is of type {type(path).__name__}; give a str or a Path")
         file = Path(path)
         if file.suffix != ".npz":
-            raise OutputError(file, "the table of an orbit ends in .npz", "name it so")
+            raise OutputError(
+                file, "the file name of an orbit table must end in .npz", "name it so"
+            )
         try:
             write(file, self)
         except OSError as error:
@@ -203,7 +206,7 @@ class OrbitTable:
 
 @lru_cache(maxsize=SETS_REMEMBERED)
 def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The orbit at times, as arrays that cannot be written to."""
+    """Cached orbit at given times, as read-only arrays."""
     arrays = table._evaluated(np.frombuffer(times))
     for values in arrays:
         values.flags.writeable = False
@@ -211,7 +214,7 @@ def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray
 
 
 def _words(time: float) -> str:
-    """A time in thousands of years from J2000.0, as one would give it."""
+    """Format a time in thousands of years from J2000.0."""
     return f"{time / JULIAN_YEAR / 1000:.15g} kyr"
 
 
@@ -223,10 +226,10 @@ def fitted(
     axes: FloatArray,
     source: str,
 ) -> OrbitTable:
-    """A table from samples of an orbit.
+    """Fit a table to samples of an orbit.
 
-    Where a window holds many samples its series are fitted by least squares, which leaves out what
-    varies faster than the series can; where it holds few, quintic splines join them.
+    In a window with many samples the series are fitted by least squares, which smooths faster
+    variations; with few samples, quintic splines are used.
 
     Parameters
     ----------
@@ -234,9 +237,9 @@ def fitted(
     times : ndarray, shape (n,)
         s from J2000.0 TDB, ascending.
     normal, eccentricity : ndarray, shape (n, 3)
-        In the GCRS.
+        Samples in the GCRS.
     axes : ndarray, shape (3, 3)
-        Of the table; the third is near the normal.
+        Axes of the table's frame; the third is near the normal.
     """
     from scipy.interpolate import make_interp_spline
 
@@ -268,7 +271,7 @@ def fitted(
 def _left_out(
     table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
 ) -> FloatArray:
-    """Twice the scatter of samples about the series, window by window, shape (2, w)."""
+    """Residuals of the samples in each window, as twice their scatter, shape (2, w)."""
     n, e, _ = table.at(times)
     windows = len(table.edges) - 1
     window = np.clip(np.searchsorted(table.edges, times) - 1, 0, windows - 1)
@@ -279,16 +282,16 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """What the last two terms add so that a series ends on its samples, and meets the next one.
+    """Corrections of the last two terms that make a series continuous with the next one.
 
-    They are 1 at the end, plus and minus 1 at the start, and small in between.
+    These terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """
     before, after = samples - ends
     return np.stack([(after + before) / 2, (after - before) / 2])
 
 
 def write(path: Path, table: OrbitTable) -> None:
-    """Write a table: whole numbers of `UNIT`, compressed."""
+    """Write a table to a compressed file, as integer multiples of `UNIT`."""
     np.savez_compressed(
         path,
         name=table.name,
@@ -301,13 +304,13 @@ def write(path: Path, table: OrbitTable) -> None:
 
 
 def load(path: Path) -> OrbitTable:
-    """Read a table that `write` wrote.
+    """Read a table written by `write`.
 
     Raises
     ------
     ValueError
-        If arrays are too large, or their shapes or numbers are those of no table; what zipfile,
-        zlib and tokenize raise of a damaged file passes.
+        If arrays are too large, or their shapes or numbers are invalid. Errors of zipfile, zlib and
+        tokenize for a damaged file are passed on.
     """
     arrays = _arrays(path)
     table = OrbitTable(
@@ -338,7 +341,7 @@ def load(path: Path) -> OrbitTable:
 
 
 def _arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """Arrays of an .npz file, refused by their declared size before they are unpacked."""
+    """Read the arrays of an .npz file; check the declared sizes before unpacking."""
     arrays = {}
     with zipfile.ZipFile(path) as archive:
         members = archive.infolist()
@@ -359,9 +362,9 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 @cache
 def shipped(name: str) -> OrbitTable | None:
-    """The table of a body that is shipped with the library, or nothing.
+    """Table of a body shipped with the library; None if there is none.
 
-    Its errors are those of its integration, which the file holds, and what `GROWTH` adds.
+    Its errors are those of its integration, stored in the file, plus those of `GROWTH`.
     """
     path = Path(__file__).parent / "orbits" / f"{name}.npz"
     # os.path.exists is false for a name that is too long, where Path.exists raises an error
@@ -370,4 +373,4 @@ def shipped(name: str) -> OrbitTable | None:
     table = load(path)
     middle = (table.edges[:-1] + table.edges[1:]) / 2
     errors = np.hypot(table.errors, GROWTH[name].at(middle))
-    return replace(table, errors=errors.astype(np.float32).astype(float))  # as a file holds them
+    return replace(table, errors=errors.astype(np.float32).astype(float))  # precision of a file

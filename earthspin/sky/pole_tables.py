@@ -1,4 +1,4 @@
-"""Poles in scenes: a name, two angles, or a table of rates and periodic terms."""
+"""Converters of poles in scenes: a name, two angles, or a table of rates and periodic terms."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from earthspin.units import quantity
 
 
 class Angles:
-    """Kind of a direction in a scene: right ascension and declination, or how they move."""
+    """Converter of a direction: right ascension and declination, a name, or a moving pole."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'
 
     def read(self, value: object, where: Where) -> object:
-        """Read two angles, in radians if they have no unit; a name is left to the body."""
+        """Read two angles, in radians by default; names are resolved by the body."""
         if isinstance(value, str) or hasattr(value, "of_the_iau"):
             return value
         if isinstance(value, Mapping):
             return MovingPole.read(value, where)
         angles = value if isinstance(value, (list, tuple)) else (value,)
         if any(getattr(a, "ndim", 0) or isinstance(a, (list, tuple)) for a in angles):
-            raise where.error("an array", f"it is one direction: give {self.words}")
+            raise where.error("an array", f"give one direction: {self.words}")
         if not isinstance(value, (list, tuple)) or len(value) != 2:
             raise where.error(value, f"give {self.words}")
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
     def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
-        """Give the name, two angles, or the table of a pole that moves."""
+        """Return the name, two angles, or the table of a moving pole."""
         if isinstance(value, MovingPole):
             return value.write()
         if isinstance(value, Direction):

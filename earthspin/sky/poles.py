@@ -1,7 +1,7 @@
-"""Where the spin axis of a body points, and the plane along which its precession is counted.
+"""Direction of a body's spin axis, and the plane along which its precession is measured.
 
-A body carries one of these small values, and whoever needs an equator asks it: nobody else knows
-which kind it is. Times are days from J2000.0 TDB, vectors are in the GCRS.
+All kinds of poles have the interface of `Pole`. Times are days from J2000.0 TDB, vectors are in the
+GCRS.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 
-#: An axis closer to the normal of the orbit than this has no longitude, rad.
+#: Smallest angle between an axis and the normal of the orbit for which a longitude is defined, rad.
 UPRIGHT = 2e-7
 
 
@@ -42,12 +42,12 @@ class Direction(NamedTuple):
 
     @classmethod
     def of(cls, pair: object) -> Self:
-        """Take a pair of angles in radians.
+        """Create a direction from a pair of angles in radians.
 
         Raises
         ------
         ValueError
-            If it is no pair, not finite, or beyond a pole.
+            If `pair` is not a pair of finite angles, or the declination is beyond a pole.
         """
         if not isinstance(pair, tuple) or len(pair) != 2:
             raise ValueError(pair)
@@ -58,9 +58,9 @@ class Direction(NamedTuple):
 
     @classmethod
     def across(cls, i: float, node: float) -> Self:
-        """Normal of an orbit, by its elements on the ecliptic and equinox of J2000.0.
+        """Normal of an orbit, from its elements on the ecliptic and equinox of J2000.0.
 
-        The mean equator of that date is taken for the ICRF's, from which it lies 0.02 arcsec away.
+        The mean equator of that date is used for that of the ICRF; they differ by 0.02 arcsec.
 
         Parameters
         ----------
@@ -89,46 +89,46 @@ class Direction(NamedTuple):
 
 
 class Pole(Protocol):
-    """What a spin axis must tell; `orbit` is the normal of the body's own orbit, if it has one."""
+    """Protocol of a spin axis; `orbit` is the normal of the body's own orbit, if known."""
 
-    #: Whether the IAU's models of precession and nutation describe it.
+    #: Whether the axis follows the IAU models of precession and nutation of the Earth.
     of_the_iau: bool
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the plane along which precession is counted, shape (3,).
+        """Unit normal of the plane along which precession is measured, shape (3,).
 
         Raises
         ------
         UndefinedError
-            If there is no orbit to refer to.
+            If there is no orbit.
         """
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether it stands on that plane so closely that it has no longitude there."""
+        """Whether the axis is too close to the normal of the orbit to have a longitude."""
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to that plane and the equinox of J2000.0, shape (3, 3)."""
+        """Matrix from the GCRS to the orbital plane and the equinox of J2000.0, shape (3, 3)."""
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the axis without nutation, shape (n, 3)."""
 
     def without_nutation(self) -> Pole:
-        """The axis whose `mean` has no periodic terms that repeat within millennia."""
+        """Pole whose `mean` has no periodic terms shorter than millennia."""
 
     def true(self, day: float) -> FloatArray:
-        """Unit vector of the axis, nutation included, shape (3,)."""
+        """Unit vector of the axis on a day, nutation included, shape (3,)."""
 
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Matrices from the GCRS to equator and equinox of date.
+        """Matrices from the GCRS to the equator and equinox of date.
 
         Parameters
         ----------
         orbit : Direction or None
         days : ndarray, shape (n,)
         nutation : Nutation, optional
-            With it the equator is the true one, without it the mean one.
+            If given, the true equator is returned, otherwise the mean equator.
 
         Returns
         -------
@@ -137,18 +137,18 @@ class Pole(Protocol):
 
 
 class FixedPole(Direction):
-    """A spin axis that keeps its direction among the stars."""
+    """A spin axis with a fixed direction in the ICRF."""
 
     of_the_iau = False
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Normal of the body's orbit."""
+        """Unit normal of the body's orbit, shape (3,)."""
         if orbit is None:
             raise UndefinedError("precession is counted along the orbit; set the body's orbit_pole")
         return orbit.vector()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether it is closer to the orbit's normal than `UPRIGHT`, either way up."""
+        """Whether the axis is within `UPRIGHT` of the orbit's normal, prograde or retrograde."""
         if orbit is None:
             return False
         (ra, dec), (ra0, dec0) = self, orbit
@@ -157,21 +157,21 @@ class FixedPole(Direction):
         return min(half, 1 - half) < (UPRIGHT / 2) ** 2
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Plane of the orbit, from where the Sun crosses the equator northward."""
+        """Matrix from the GCRS to the orbital plane, from the body's equinox."""
         normal = self.orbit_normal(orbit)
         equinox = self.equator(orbit)[0]
         return np.stack([equinox, np.cross(normal, equinox), normal])
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Give the same direction at all days."""
+        """Unit vector of the axis, the same for all days, shape (n, 3)."""
         return np.broadcast_to(self.vector(), (days.size, 3))
 
     def without_nutation(self) -> Self:
-        """Return the pole itself: it does not move."""
+        """Return the pole itself, which has no nutation."""
         return self
 
     def true(self, day: float) -> FloatArray:
-        """Give the direction: it has no nutation."""
+        """Unit vector of the axis, which has no nutation, shape (3,)."""
         return self.vector()
 
     def equator(
@@ -180,13 +180,13 @@ class FixedPole(Direction):
         days: FloatArray | None = None,
         nutation: Nutation | None = None,
     ) -> FloatArray:
-        """Give one matrix for all days."""
+        """Matrix from the GCRS to the equator, the same for all days, shape (3, 3)."""
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
 
 
 @dataclass(frozen=True)
 class IAU2006Pole:
-    """The Earth's: precession of IAU 2006, nutation IAU 2000A, on the ecliptic of J2000.0."""
+    """The Earth's pole: precession IAU 2006, nutation IAU 2000A, on the ecliptic of J2000.0."""
 
     of_the_iau = True
 
@@ -194,33 +194,33 @@ class IAU2006Pole:
         return "iau2006"
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Pole of the ecliptic of J2000.0."""
+        """Pole of the ecliptic of J2000.0, shape (3,)."""
         from earthspin.sky import iau
 
         return iau.ecliptic_pole()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """It is not: the obliquity stays near 23.4 degrees."""
+        """Return False: the obliquity remains near 23.4 degrees."""
         return False
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Ecliptic and mean equinox of J2000.0."""
+        """Matrix from the GCRS to the ecliptic and mean equinox of J2000.0."""
         from earthspin.sky import iau
 
         return iau.fixed_ecliptic()
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Mean pole of date, frame bias included."""
+        """Mean pole of date, frame bias included, shape (n, 3)."""
         from earthspin.sky import iau
 
         return np.asarray(iau.mean_equator(days)[..., 2, :])
 
     def without_nutation(self) -> Self:
-        """Return the pole itself: its `mean` has no nutation."""
+        """Return the pole itself, as its `mean` has no nutation."""
         return self
 
     def true(self, day: float) -> FloatArray:
-        """Celestial intermediate pole, frame bias included."""
+        """Celestial intermediate pole on a day, frame bias included, shape (3,)."""
         from earthspin.sky import iau
 
         return np.asarray(iau.true_pole(np.array([day]))[0])
@@ -228,24 +228,24 @@ class IAU2006Pole:
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Mean or true equator and equinox of date."""
+        """Matrices from the GCRS to the mean or true equator and equinox of date."""
         from earthspin.sky import iau
 
         return iau.mean_equator(days) if nutation is None else nutation.true_equator(days)
 
 
 IAU_2006 = IAU2006Pole()
-#: Poles that have a name.
+#: Poles by name.
 NAMED_POLES: dict[str, Pole] = {str(IAU_2006): IAU_2006}
 
 
 def pole_of(value: object) -> Pole:
-    """Take a pole: itself, its name, or a pair of angles in radians.
+    """Pole from a pole, its name, or a pair of angles in radians.
 
     Raises
     ------
     ValueError
-        If it is none of them.
+        If `value` is none of these.
     """
     if isinstance(value, str):
         if value not in NAMED_POLES:

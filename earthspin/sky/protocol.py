@@ -1,9 +1,8 @@
-"""What gives positions: the protocols that a source and a trajectory keep.
+"""Protocols of position sources and trajectories.
 
-A *source* places many bodies by their NAIF codes, as a kernel does. A *trajectory* places one body
-as seen from another, whatever it stands on: a vector function of Skyfield's, an orbit, a table.
-Every source takes trajectories beside its own codes; nothing above this package knows which is
-which.
+A *source* gives positions of many bodies by their NAIF codes, as a kernel does. A *trajectory*
+gives positions of one body relative to another, from any origin: a vector function of Skyfield, an
+orbit, a table. Every source accepts trajectories in addition to its own codes.
 """
 
 from __future__ import annotations
@@ -25,19 +24,19 @@ if TYPE_CHECKING:
 
 
 class Trajectory(Protocol):
-    """One body as seen from another: all that is needed to place a body of one's own.
+    """Positions of one body relative to another: the interface for custom positions.
 
-    It can be hashed, as a frozen dataclass can: what two bodies share is evaluated once.
+    It must be hashable, such as a frozen dataclass, so that a shared trajectory is evaluated once.
 
     Attributes
     ----------
     centre : int
-        NAIF code of what it is seen from; 0 is the barycentre of the solar system.
+        NAIF code of the reference body; 0 is the solar-system barycentre.
     coverage : tuple of float
-        First and last day on which it is known, TDB from J2000.0; infinite if always.
+        First and last day with positions, TDB from J2000.0; infinite if unlimited.
     code : int or None, not needed
-        NAIF code by which the measured error of a kernel is found, if a kernel is what it stands
-        on. Without it no error is claimed.
+        NAIF code of the body, for a trajectory based on a kernel whose error was measured. Without
+        it no error is stated.
     """
 
     @property
@@ -46,7 +45,7 @@ class Trajectory(Protocol):
     def coverage(self) -> tuple[float, float]: ...  # noqa: D102
 
     def positions(self, days: FloatArray, /) -> FloatArray:
-        """Geometric positions in metres along the axes of the ICRF, shape (n, 3).
+        """Geometric positions in the ICRF, m, shape (n, 3).
 
         Parameters
         ----------
@@ -55,20 +54,20 @@ class Trajectory(Protocol):
         """
 
 
-#: Name of the source that needs no kernel, as everything has elements.
+#: Name of the source without a kernel, for bodies that all have elements.
 BY_ELEMENTS = "elements of orbits"
 
-#: Where a body is found: by a NAIF code in the source, or along a trajectory.
+#: Origin of a body's positions: a NAIF code of the source, or a trajectory.
 Place: TypeAlias = "int | Trajectory"
 
 
 class Source(Protocol):
-    """Positions of many bodies.
+    """Protocol of a source of positions of many bodies.
 
     Attributes
     ----------
     name : str
-        What it is called in messages and results.
+        Name in messages and results.
     """
 
     @property
@@ -76,42 +75,44 @@ class Source(Protocol):
 
     @property
     def provenance(self) -> dict[str, str]:
-        """What tells it from any other: names, hashes, versions, for the attributes of answers."""
+        """Names, hashes and versions that identify the source, for the attributes of answers."""
 
     def code(self, codes: Iterable[int], name: str, /) -> int:
-        """First of a body's NAIF codes that it can place; KernelError if there is none."""
+        """First of a body's NAIF codes in the source; KernelError if there is none."""
 
     def coverage(self, places: Iterable[Place], /) -> tuple[float, float]:
-        """First and last day (TDB, from J2000.0) on which all of these can be placed."""
+        """First and last day (TDB, from J2000.0) for which all given bodies have positions."""
 
     def check_times(self, days: FloatArray, places: Iterable[Place], /) -> None:
-        """Refuse, with a CoverageError, times at which not all of these can be placed."""
+        """Refuse, with a CoverageError, times at which some of the bodies have no position."""
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /
     ) -> dict[str, FloatArray]:
-        """Geometric positions as seen from a body, m along the ICRF, shape (n, 3) each."""
+        """Geometric positions relative to a body, in the ICRF, m, shape (n, 3) each."""
 
     def error(self, target: Place, centre: Place, day: float, /) -> tuple[float, float]:
-        """How far a body may be on a day from where it is put: angle (rad), distance (m).
+        """Error bounds of a body's position on a day: direction (rad), distance (m).
 
-        It grows with the distance of the day from J2000.0; NaN where no error was ever measured.
+        The errors grow with the time from J2000.0; NaN if no error was measured.
         """
 
     def drift(self, target: Place, centre: Place, distance: float, /) -> float:
-        """By what the pull of a body may turn an axis aside, over the angle that the axis sweeps.
+        """Deflection of an axis due to errors of a perturber's position.
+
+        It is a fraction of the angle by which the axis moves.
 
         Parameters
         ----------
         target, centre : Place
         distance : float
-            Between them, m.
+            Distance between the two bodies, m.
         """
 
 
 @runtime_checkable
 class OfDate(Protocol):
-    """A source that measures right ascension and declination itself."""
+    """Protocol of a source that computes right ascension and declination itself."""
 
     def equator(self, days: FloatArray, /) -> FloatArray:
         """Matrices from the ICRF to the Earth's mean equator of date, shape (n, 3, 3)."""
@@ -126,28 +127,28 @@ class OfDate(Protocol):
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
         """Right ascension, declination (rad) and distance (m), shape (n,) each.
 
-        They refer to an equator given by its matrices, or to the Earth's mean equator of date.
+        The equator is given by its matrices, or is the Earth's mean equator of date.
         """
 
 
 def measured_code(place: Place) -> int | None:
-    """NAIF code under which the error of a place was measured; None if it never was."""
+    """NAIF code under which the error of a place was measured; None if it was not."""
     return place if isinstance(place, int) else getattr(place, "code", None)
 
 
 def words(place: object) -> str:
-    """A place for people, on one line; the same in every run."""
+    """One-line description of a place, identical in every run."""
     text = f"NAIF {place}" if isinstance(place, int) else " ".join(str(place).split())
     return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
 
 
 def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
-    """Positions of a place, if they are one finite vector for each time.
+    """Return positions of a place; refuse anything but one finite vector for each time.
 
     Raises
     ------
     UndefinedError
-        Naming the first day on which they are not.
+        If the shape is wrong or a position is not finite; gives the first such day.
     """
     try:
         values = real_numbers(positions)

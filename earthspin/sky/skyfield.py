@@ -1,10 +1,11 @@
-"""Positions, right ascensions and declinations by Skyfield's public calls.
+"""Positions, right ascensions and declinations from Skyfield's public calls.
 
-The chain is ``(body - earth).at(t).frame_latlon(mean_equator_and_equinox_of_date)``: `at(t)` is
-geometric, because gravity pulls from where a body is, not from where its light left it. Skyfield's
+The call is ``(body - earth).at(t).frame_latlon(mean_equator_and_equinox_of_date)``. The geometric
+`at(t)` is used, because gravity acts from the geometric position, not from the apparent one.
+Skyfield's
 mean equator of date differs from that of ERFA by 1.5e-12 rad. Its true equator is that of IAU 2000A
 without the adjustment to IAU 2006 (1.3e-10 rad in 1900), so the true equator, like the equator of
-any other body, is given to Skyfield as a frame.
+any other body, is passed to Skyfield as a frame.
 """
 
 from __future__ import annotations
@@ -32,29 +33,30 @@ FloatArray: TypeAlias = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EquatorOfDate:
-    """A frame for Skyfield, from matrices by day.
+    """A Skyfield frame defined by matrices as a function of the day.
 
     Attributes
     ----------
     matrices : callable
-        Days from J2000.0 TDB, shape (n,), to matrices from the ICRF, shape (n, 3, 3) or (3, 3).
+        Function of days from J2000.0 TDB, shape (n,), that returns matrices from the ICRF, shape
+        (n, 3, 3) or (3, 3).
     """
 
     matrices: Callable[[FloatArray], FloatArray]
 
     def rotation_at(self, t: Time) -> FloatArray:
-        """Matrices as Skyfield multiplies them, shape (3, 3, n) or (3, 3)."""
+        """Matrices in the layout of Skyfield, shape (3, 3, n) or (3, 3)."""
         matrices = self.matrices((t.whole - J2000_JD) + t.tdb_fraction)
         return matrices if matrices.ndim == 2 else np.moveaxis(matrices, 0, -1)
 
 
 class Skyfield:
-    """A kernel, its positions read by Skyfield.
+    """A kernel whose positions are computed by Skyfield.
 
     Parameters
     ----------
     file : Ephemeris
-        The kernel; codes, coverage and measured errors are those of the file.
+        The kernel, which also provides codes, coverage and measured errors.
     """
 
     def __init__(self, file: Ephemeris) -> None:
@@ -71,29 +73,32 @@ class Skyfield:
         }
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """First of a body's NAIF codes that the kernel holds; KernelError if there is none."""
+        """First of a body's NAIF codes in the kernel; KernelError if there is none."""
         return self.file.code(codes, name)
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """First and last day (TDB, from J2000.0) on which all of these can be placed."""
+        """First and last day (TDB, from J2000.0) for which all given bodies have positions."""
         return self.file.coverage(places)
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse, with a CoverageError, times at which not all of these can be placed."""
+        """Refuse, with a CoverageError, times at which some of the bodies have no position."""
         self.file.check_times(days, places)
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """How far a body may be from where it is put: angle (rad), distance (m); the kernel's."""
+        """Error bounds of a body's position, from the kernel: direction (rad), distance (m)."""
         return self.file.error(target, centre, day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """By what the pull of a body may turn an axis aside; the kernel's."""
+        """Deflection of an axis due to position errors of a perturber, from the kernel.
+
+        It is a fraction of the angle by which the axis moves.
+        """
         return self.file.drift(target, centre, distance)
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions ``(body - centre).at(t)``, m along the ICRF, shape (n, 3) each.
+        """Positions ``(body - centre).at(t)`` in the ICRF, m, shape (n, 3) each.
 
         Parameters
         ----------
@@ -106,7 +111,7 @@ class Skyfield:
         Raises
         ------
         CoverageError
-            If a time lies outside the kernel or a trajectory.
+            If a time is outside the kernel or a trajectory.
         UndefinedError
             If a trajectory gives no finite position.
         """
@@ -148,7 +153,7 @@ class Skyfield:
         Parameters
         ----------
         targets, centre, days
-            As `positions` takes them.
+            As for `positions`.
         equator : callable or None
             Matrices from the ICRF to the equator of date at days from J2000.0 TDB; None for
             Skyfield's mean equator and equinox of date.
@@ -166,9 +171,9 @@ class Skyfield:
         return {name: (ra, dec, distance) for name, (ra, dec, distance) in angles.items()}
 
     def _seen_from(self, target: Place, centre: Place) -> VectorFunction:
-        """Vector function from one body to another."""
+        """Skyfield vector function from one body to another."""
         if not isinstance(target, int) and target.centre == centre:
-            return function_of(target)  # nothing between them that would cancel
+            return function_of(target)  # no common vectors to cancel
         return self._from_barycentre(target) - self._from_barycentre(centre)
 
     def _from_barycentre(self, place: Place) -> VectorFunction:

@@ -1,4 +1,4 @@
-"""Sources of positions by their words, and what may be given for the place of one body."""
+"""Sources of positions by name, and custom positions of one body."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from earthspin.sky.protocol import Place, Source, Trajectory, words
 if TYPE_CHECKING:
     from skyfield.vectorlib import VectorFunction
 
-#: Reader of the kernel: jplephem, which is fast, or Skyfield by its public calls.
+#: Reader of the kernel: jplephem, which is fast, or Skyfield's public calls.
 SourceName = Literal["jplephem", "skyfield"]
-#: Sources with an equator of date of their own.
+#: Sources that compute an equator of date.
 OF_DATE = ("skyfield",)
 
 _GIVE = "give a vector function of Skyfield's, or an object with centre, coverage and positions()"
-#: Word for what a scene cannot hold.
+#: Key that marks an object that a scene cannot store.
 _LIVE = "live"
 
 
 def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
-    """Open a kernel with one of the sources.
+    """Open a kernel with a source given by name.
 
     Parameters
     ----------
     word : str
     ephemeris : str or path
-        As `open_ephemeris` takes it.
+        Kernel, as for `open_ephemeris`.
 
     Raises
     ------
     SceneError, MissingExtraError, KernelError
-        If there is no such kernel, or it cannot be used.
+        If there is no such kernel, or it is invalid.
     """
     kernel = open_ephemeris(ephemeris)
     if word == "jplephem":
@@ -46,7 +46,7 @@ def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
 
 
 def describe_source(word: SourceName, ephemeris: object) -> str:
-    """Say for people where the positions come from."""
+    """Describe the source of positions in words."""
     how = {
         "jplephem": f"read from {ephemeris} with jplephem",
         "skyfield": f"and directions by Skyfield from {ephemeris}: "
@@ -55,11 +55,11 @@ def describe_source(word: SourceName, ephemeris: object) -> str:
     return how[word]
 
 
-# --- the place of one body -----------------------------------------------------------------------
+# --- position of one body -----------------------------------------------------------------------
 
 
 def is_vector_function(value: object) -> bool:
-    """Recognise a vector function of Skyfield's without importing Skyfield."""
+    """Whether an object is a Skyfield vector function, without importing Skyfield."""
     return any(
         kind.__module__ == "skyfield.vectorlib" and kind.__name__ == "VectorFunction"
         for kind in type(value).__mro__
@@ -67,30 +67,30 @@ def is_vector_function(value: object) -> bool:
 
 
 def trajectory(position: Any) -> Trajectory:
-    """Trajectory of what was given for the place of a body, as `read_position` left it."""
+    """Trajectory from a position returned by `read_position`."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import VectorTrajectory
 
         return VectorTrajectory(position)
-    own: Trajectory = position
-    return own
+    custom: Trajectory = position
+    return custom
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Read the place of one body.
+    """Read the position source of one body.
 
     Parameters
     ----------
     value : vector function, Trajectory, or table
-        A table names segments of kernels, ``{kernel = "de421", centre = 0, target = 5}``, or a
-        list of them that are added.
+        A table gives a segment of a kernel, ``{kernel = "de421", centre = 0, target = 5}``; a list
+        of such tables gives their sum.
 
     Raises
     ------
     SceneError
-        If it is none of these, or was an object that a scene cannot hold.
+        If `value` is none of these, or was an object that a scene cannot store.
     KernelError
-        If a kernel that a table names cannot be used, or has changed.
+        If a kernel in a table is invalid, or has changed.
     """
     if is_vector_function(value):
         if type(value.center) is not int:
@@ -99,7 +99,7 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
     tables = [value] if isinstance(value, Mapping) else value
     if isinstance(tables, list) and tables and all(isinstance(table, Mapping) for table in tables):
         if _LIVE in tables[0]:
-            problem = "it was a live object, which no scene can hold; give it again in Python"
+            problem = "it was a Python object, which a scene cannot store; pass it again in Python"
             raise where.error(tables[0][_LIVE], problem)
         from earthspin.sky.vector_functions import read_segments
 
@@ -112,17 +112,17 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
         hash(value)
     except TypeError:
         raise where.error(value, "it cannot be hashed; make it a frozen dataclass") from None
-    own: Trajectory = value
-    return own
+    custom: Trajectory = value
+    return custom
 
 
 def describe_position(position: object) -> str:
-    """What gives the place of a body, for people: on one line, the same in every run."""
+    """One-line description of a position source, identical in every run."""
     return words(repr(position))
 
 
 def write_position(position: Any) -> Any:
-    """Give the place of one body as a scene holds it: by its segments if kernels are all it is."""
+    """Return the table of kernel segments of a position, or a marker if it has other parts."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import write_segments
 
@@ -133,16 +133,16 @@ def write_position(position: Any) -> Any:
 
 
 def is_measured(position: Any) -> bool:
-    """Whether the error of a place was measured: it stands on kernels alone."""
+    """Whether the error of a position is known: it is based on kernels only."""
     return getattr(trajectory(position), "code", None) is not None
 
 
 def place_of(source: Source, name: str, codes: tuple[int, ...], position: Any = None) -> Place:
-    """Place of a body in a source: its own trajectory if it has one, else its NAIF code.
+    """Place of a body in a source: its custom trajectory if it has one, otherwise its NAIF code.
 
     Raises
     ------
     KernelError
-        If the source cannot place any of its codes.
+        If the source has none of the body's codes.
     """
     return source.code(codes, name) if position is None else trajectory(position)

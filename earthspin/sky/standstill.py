@@ -1,9 +1,9 @@
-"""Lunar standstills: the months in which the Moon's declination swings widest and least.
+"""Lunar standstills: months of the largest and smallest range of the Moon's declination.
 
-The orbit is tilted by 5.1 degrees to the ecliptic and its node goes round in 18.6 years. When
-the ascending node is at the equinox the tilts add up (major standstill), half a turn
-later they oppose (minor). The extreme of a single month differs from 23.44 +- 5.14 degrees
-because the Sun's pull swings the tilt between 5.0 and 5.3 degrees.
+The orbit is inclined by 5.1 degrees to the ecliptic and its node has a period of 18.6 years. When
+the ascending node is at the equinox, inclination and obliquity add (major standstill); half a
+period later they subtract (minor). The extreme of a single month differs from 23.44 +- 5.14 degrees
+because solar perturbations vary the inclination between 5.0 and 5.3 degrees.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from earthspin.sky.iau import mean_longitude_of_node
 
 FloatArray = NDArray[np.float64]
 
-SAMPLING = 0.5  # days; the extreme found from such samples is right to 2 minutes
-_REACH = 2.0 * 365.25  # days on either side of the node's passage that are searched
+SAMPLING = 0.5  # days; gives the time of the extreme to 2 minutes
+_REACH = 2.0 * 365.25  # days searched before and after the passage of the node
 
 
 @dataclass(frozen=True)
 class Standstill:
-    """One standstill.
+    """One lunar standstill.
 
     Attributes
     ----------
     kind : str
         ``"major"`` or ``"minor"``.
     day : float
-        Of the extreme, days from J2000.0 TDB.
+        Time of the extreme, days from J2000.0 TDB.
     declination : float
-        At that time, rad; negative if the extreme is southern.
+        Declination at that time, rad; negative for a southern extreme.
     """
 
     kind: str
@@ -43,12 +43,12 @@ class Standstill:
 
 
 def node_passages(start: float, end: float) -> list[tuple[str, float]]:
-    """List when the mean node passes the equinox (major) and its opposite (minor).
+    """Times at which the mean node passes the equinox (major) and the opposite point (minor).
 
     Parameters
     ----------
     start, end : float
-        Days from J2000.0 TDB; only passages whose search range lies inside are listed.
+        Days from J2000.0 TDB; only passages whose search range is inside are listed.
     """
     days = np.arange(start, end, 10.0)
     if days.size < 2:
@@ -65,25 +65,26 @@ def node_passages(start: float, end: float) -> list[tuple[str, float]]:
 def find_standstills(
     declination: Callable[[FloatArray], FloatArray], start: float, end: float
 ) -> list[Standstill]:
-    """Find every standstill that lies wholly inside a span.
+    """Find every standstill that is entirely within a time span.
 
     Parameters
     ----------
     declination : callable
-        Days from J2000.0 TDB, shape (n,), to declination, rad, shape (n,).
+        Function of days from J2000.0 TDB, shape (n,), that returns declination, rad, shape (n,).
     start, end : float
         The span, days from J2000.0 TDB.
 
     Returns
     -------
     list of Standstill
-        In order of time; empty if the span holds none.
+        In order of time; empty if there are none in the span.
     """
     standstills = []
     for kind, passage in node_passages(start, end):
         days = np.arange(passage - _REACH, passage + _REACH, SAMPLING)
         turning = CubicSpline(days, declination(days)).derivative().roots(extrapolate=False)
-        # The spline only says when; at an extreme, an error in time is one of second order.
+        # The spline gives only the time; near an extreme, its error affects the value in second
+        # order.
         extremes = declination(turning)
         swing = np.abs(extremes)
         best = np.argmax(swing) if kind == "major" else np.argmin(swing)

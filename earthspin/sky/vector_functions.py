@@ -1,8 +1,8 @@
-"""Vector functions of Skyfield's: as trajectories, from trajectories, and written into scenes.
+"""Conversions between Skyfield vector functions, trajectories and scenes.
 
-A segment, a sum of vectors, a comet from its elements, a satellite, a function of one's own: all
-of them give a place at a time, and any of them can be the place of a body. Those that stand on
-kernels alone have a measured error and can be written down, segment by segment.
+A segment, a sum of vectors, a comet from its elements, a satellite or a custom function gives a
+position at a time, and can be the position of a body. Vector functions based on kernels only have a
+measured error and can be stored in scenes, segment by segment.
 """
 
 from __future__ import annotations
@@ -31,41 +31,41 @@ from earthspin.sky.protocol import Trajectory, words
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
-_BLOCK = 1 << 12  # times evaluated at once: 1365 terms of nutation for each fill 45 MB
+_BLOCK = 1 << 12  # times per block: 1365 nutation terms for each take 45 MB
 
 
 @lru_cache
 def timescale() -> Timescale:
-    """Skyfield's timescale from the tables that it carries; nothing is fetched."""
+    """Skyfield's timescale from its built-in tables, without downloads."""
     return load.timescale(builtin=True)
 
 
 def blocks_of_times(days: FloatArray) -> Iterator[tuple[slice, Time]]:
-    """Times of Skyfield's from days of TDB (from J2000.0), block by block."""
+    """Skyfield times from days of TDB (from J2000.0), in blocks."""
     for first in range(0, days.size, _BLOCK):
         block = slice(first, first + _BLOCK)
         yield block, timescale().tdb_jd(J2000_JD, days[block])
 
 
 def at(function: VectorFunction, t: Time) -> ICRF:
-    """Position of a vector function at some times.
+    """Position of a vector function at given times.
 
     Raises
     ------
     UndefinedError
-        If it cannot be placed, with Skyfield's reason.
+        If the position cannot be computed; includes Skyfield's message.
     """
     try:
         return function.at(t)
     except EarthspinError:
         raise
-    except Exception as error:  # each kind of vector function has kinds of its own
+    except Exception as error:  # errors differ between kinds of vector functions
         raise UndefinedError(f"{words(function)} cannot be placed: {error}") from error
 
 
 @dataclass(frozen=True)
 class VectorTrajectory:
-    """A vector function as a trajectory.
+    """A Skyfield vector function as a trajectory.
 
     Attributes
     ----------
@@ -76,26 +76,26 @@ class VectorTrajectory:
 
     @property
     def centre(self) -> int:
-        """NAIF code of its center."""
+        """NAIF code of the function's center."""
         return int(self.function.center)
 
     @cached_property
     def code(self) -> int | None:
-        """NAIF code of its target, if it stands on segments of kernels alone."""
+        """NAIF code of the function's target, if it is based on kernel segments only."""
         target = self.function.target
         is_measured = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
         return target if is_measured else None
 
     @cached_property
     def coverage(self) -> tuple[float, float]:
-        """First and last day of its segments of kernels; other functions are not asked."""
+        """First and last day of the kernel segments; other functions are not limited."""
         stacks = [stack for stack in map(_segments, _leaves(self.function)) if stack]
         first = [min(s.spk_segment.start_jd for s in segments) - J2000_JD for segments in stacks]
         last = [max(s.spk_segment.end_jd for s in segments) - J2000_JD for segments in stacks]
         return max(first, default=-math.inf), min(last, default=math.inf)
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions in metres along the ICRF, shape (n, 3)."""
+        """Positions in the ICRF, m, shape (n, 3)."""
         blocks = [at(self.function, t).position.m.T for _, t in blocks_of_times(days)]
         return np.concatenate(blocks) if blocks else np.empty((0, 3))
 
@@ -104,7 +104,7 @@ class VectorTrajectory:
 
 
 class _Along(VectorFunction):  # type: ignore[misc]
-    """A trajectory as a vector function; of its velocity nothing is known."""
+    """A trajectory as a Skyfield vector function, without velocities."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self.trajectory, self.center, self.target = trajectory, trajectory.centre, self
@@ -119,17 +119,17 @@ class _Along(VectorFunction):  # type: ignore[misc]
 
 
 def function_of(trajectory: Trajectory) -> VectorFunction:
-    """Vector function of a trajectory: its own, or one that asks it."""
+    """Skyfield vector function of a trajectory: its own, or a wrapper."""
     if isinstance(trajectory, VectorTrajectory):
         return trajectory.function
     return _Along(trajectory)
 
 
-# --- what a vector function stands on ------------------------------------------------------------
+# --- segments of a vector function ------------------------------------------------------------
 
 
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
-    """Vector functions that are no sum and no reversal."""
+    """Components of a vector function that are neither sums nor reversals."""
     if isinstance(function, VectorSum):
         for term in function.vector_functions:
             yield from _leaves(term)
@@ -140,14 +140,14 @@ def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
 
 
 def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
-    """Segments of a kernel that a vector function is; none if it is something else."""
+    """Kernel segments that make up a vector function; empty if it has other parts."""
     if isinstance(function, Stack):
         return list(function.segments)
     return [function] if isinstance(function, SPICESegment) else []
 
 
 def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
-    """Tables that name the segments of a vector function; None if it is more than segments."""
+    """Tables of the kernel segments of a vector function; None if it has other parts."""
     tables = []
     for term in getattr(function, "vector_functions", (function,)):
         inner = term.vector_function if isinstance(term, ReversedVector) else term
@@ -166,19 +166,19 @@ def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
 
 
 def read_segments(tables: Sequence[Mapping[str, Any]], where: Where) -> VectorFunction:
-    """Vector function of the segments that tables name, each from where the last one ended.
+    """Vector function of a chain of segments given by tables.
 
     Raises
     ------
     SceneError
-        If a table names no segment of its kernel, or they do not follow one another.
+        If a table does not match a segment of its kernel, or the segments do not form a chain.
     KernelError
-        If a kernel cannot be used, or is not the one that was written down.
+        If a kernel is invalid, or has another hash than in the table.
     """
     chain = tuple(_read_segment(table, where) for table in tables)
     for before, after in pairwise(chain):
         if before.target != after.center:
-            problem = "each segment starts where one ended"
+            problem = "each segment must start where the previous one ended"
             raise where.error(f"{before.target}, then {after.center}", problem)
     return chain[0] if len(chain) == 1 else VectorSum(chain[0].center, chain[-1].target, chain)
 
@@ -197,18 +197,18 @@ def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
     file = open_ephemeris(table["kernel"])
     if table.get("sha256", file.sha256) != file.sha256:
         problem = "it is not the file that this position was read from: its SHA-256 is another"
-        raise KernelError(file.path, problem, "give back that file, or leave sha256 out")
+        raise KernelError(file.path, problem, "restore that file, or omit sha256")
     segments = _spice_kernel(os.fspath(file.path), file.sha256).segments
     for (centre, target), reverse in ((codes, False), (codes[::-1], True)):
         matches = [s for s in segments if (s.center, s.target) == (centre, target)]
         if matches:
             function = matches[0] if len(matches) == 1 else Stack(matches)
             return -function if reverse else function
-    there = ", ".join(f"{s.center} to {s.target}" for s in segments)
-    raise where.error(f"{codes[0]} to {codes[1]}", f"the kernel has {there}")
+    available = ", ".join(f"{s.center} to {s.target}" for s in segments)
+    raise where.error(f"{codes[0]} to {codes[1]}", f"the kernel has {available}")
 
 
 @lru_cache
 def _spice_kernel(path: str, sha256: str) -> SpiceKernel:
-    """A kernel opened by Skyfield, once for each file and content."""
+    """Kernel opened by Skyfield, cached by file and content."""
     return SpiceKernel(path)

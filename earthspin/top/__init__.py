@@ -1,1 +1,1 @@
-"""The heavy symmetric top, spinning about a fixed point of its axis (I.7)."""
+"""The heavy symmetric top, spinning about a fixed point on its axis (I.7)."""

@@ -1,27 +1,27 @@
-"""How phi and psi advance: integrals of the third kind that stay regular over the poles (I.7.9).
+"""Advance of phi and psi, by integrals of the third kind that are regular at the poles (I.7.9).
 
 Half the sum and half the difference of phi and psi (for I1 = I3),
 
     sigma' = (a + b)/(2 (1 + u)),    delta' = (b - a)/(2 (1 - u)),
 
 are the phases of the Cayley-Klein parameters cos(theta/2) e^(i sigma), sin(theta/2) e^(i delta).
-Reckoned from a turning point ur, with us the other one, each is an arc tangent and a regular
-integral:
+From a turning point ur, with us the other turning point, each is the sum of an arctangent and a
+regular integral:
 
     sigma = arctan[(a + b)(u - ur)/((1 + ur) u')] + int (a + b)/2 w(1 + ur) dt
     delta = arctan[(b - a)(u - ur)/((1 - ur) u')] - int (b - a)/2 w(ur - 1) dt
     w(x)  = (u - ur)/((ur - us)(ur - u3) + x (u - ur))
 
-The arc tangent takes up the quick half turn that a passage near a pole brings. The integral is
-in proportion to the weight, so that a free rotor has the arc tangents alone; and as a function
-of the phase it is the same from either turning point,
+The arctangent describes the fast half turn during a passage near a pole. The integral is
+proportional to the weight, so a free rotor has only the arctangents. As a function of the phase the
+integral is the same from either turning point,
 
     int w dt = beta/(4 Omega^3) sn^3/3 RJ(cn^2, dn^2, 1, 1 + (1 + u1)/(u3 - u1) sn^2)
 
-for sigma, and 1 - (1 - u1)/(u3 - u1) sn^2 for delta. For |b| < |a|, as in a fast top, the arc
-tangents wind in opposite senses and cancel, while the integrals add up: the slow precession
-keeps its digits. Far from the pole, beside the distance of u3, there is no quick half turn; the
-two parts of delta would then cancel, those of sigma be large, and Legendre's form is taken.
+for sigma, and 1 - (1 - u1)/(u3 - u1) sn^2 for delta. For |b| < |a|, as in a fast top, the
+arctangents have opposite signs and cancel exactly, while the integrals add, so the slow precession
+is accurate. If the pole is far away compared with u3, there is no fast half turn; the two parts of
+delta would cancel and those of sigma be large, so Legendre's form is used.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ from earthspin.top.height import Nutation, Place
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
-# cos and sin of a whole number of quarter turns
+# cosine of a whole number of quarter turns
 _COSINE = np.array([1.0, 0.0, -1.0, 0.0])
 _SINE = np.array([0.0, 1.0, 0.0, -1.0])
 
 
 class Turned(NamedTuple):
-    """Angles by which phi and psi have turned; psi as if I1 were I3.
+    """Angles by which phi and psi have advanced, with psi as if I1 = I3.
 
     Attributes
     ----------
@@ -57,14 +57,14 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Angles phi and psi reckoned from the first lower turning point, but for `shared_rate`.
+    """Advance of phi and psi since the first lower turning point, apart from `shared_rate`.
 
     Returns
     -------
     quarters : Turned
-        Whole quarter turns: kept apart, since they lose nothing in a long time.
+        Whole quarter turns, stored separately because they are exact over any time.
     rest : Turned
-        rad.
+        Remainder, rad.
     """
     full, part = _complete_integrals(nutation), _partial_integrals(nutation, place)
     arc = _arc_tangents(nutation, place)
@@ -76,18 +76,18 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
-    """Rate a/2 at which phi and psi turn beside what `turned_at` tells, in the rate unit.
+    """Rate a/2 at which both phi and psi advance in addition to `turned_at`, in the rate unit.
 
-    It is told apart where the axis stays so near the upper pole that phi and psi can hardly be
-    told from each other: their sum then turns at the spin and little else.
+    It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
+    their sum then advances almost at the rate of the spin.
     """
     return np.where(_has_lower_arc(nutation), 0.0, nutation.start.a / 2)
 
 
 def mean_precession(nutation: Nutation) -> FloatArray:
-    """Mean of phi' over a nutation, in the rate unit.
+    """Mean of phi' over one nutation period, in the rate unit.
 
-    A top that passes exactly over a pole is given the mean of the two limits from either side.
+    For a top that passes exactly over a pole, it is the mean of the limits from both sides.
     """
     full = _complete_integrals(nutation)
     sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))
@@ -97,9 +97,9 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Quarter turns of phi and psi at a turning point, from the arc tangents.
+    """Quarter turns of phi and psi at a turning point, from the arctangents.
 
-    Exactly over a pole the half turn has no sense; it is taken to and fro by turns.
+    For a passage exactly over a pole the direction of the half turn is arbitrary; it alternates.
     """
     quarter = np.mod(halves, 4).astype(int)
     lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
@@ -109,31 +109,31 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of sigma in half a period, from the arc tangent."""
+    """Quarter turns of sigma in half a period, from the arctangent."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of delta in half a period, from the arc tangent."""
+    """Quarter turns of delta in half a period, from the arctangent."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Whether sigma takes the arc tangent: unless u1 is closer to u3 than to the lower pole."""
+    """Whether sigma has an arctangent: unless u1 is closer to u3 than to the lower pole."""
     return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Whether delta takes the arc tangent: unless u3 is closer to the upper pole than u2."""
+    """Whether delta has an arctangent: unless u3 is closer to the upper pole than u2."""
     return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
 
 
 def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
-    """Arc tangents of sigma and delta, added and subtracted as angles without cancellation.
+    """Sum and difference of the arctangents of sigma and delta, without cancellation.
 
-    With tan sigma = (l/h) t and tan delta = (k/g) t, h and g the distances of the turning
-    point from the two poles, the sum is arctan2(t (l g + k h), g h - k l t^2). The pole that
-    can be met here has distance h and l = pole_rate sqrt(h).
+    With tan sigma = (l/h) t and tan delta = (k/g) t, where h and g are the distances of the turning
+    point from the two poles, the sum is arctan2(t (l g + k h), g h - k l t^2). The nearer pole has
+    distance h, and l = pole_rate sqrt(h).
     """
     start, gaps, upper = nutation.start, nutation.gaps, place.upper
     meets = np.where(upper, gaps.upper_pole, gaps.lower_pole)
@@ -157,22 +157,24 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
     x = 2 * nutation.rate * place.cn * np.where(upper, 1.0, place.dn)
     straight, crossed = away * root * x**2, pole_rate * other * y**2
     side = _side_of_pole(nutation, place)
-    # The arc tangents one by one, for those that take only one of them.
+    # Separate arctangents, for cases with only one of them.
     met = np.arctan2(side * pole_rate * y, side * root * x)
     unmet = np.arctan2(other * y, away * x)
     has_lower, has_upper = _has_lower_arc(nutation), _has_upper_arc(nutation)
     sigma = np.where(has_lower, np.where(upper, unmet, met), 0.0)
     delta = np.where(has_upper, np.where(upper, met, unmet), 0.0)
-    both = has_lower & has_upper
+    has_both = has_lower & has_upper
     total = np.arctan2(side * b_minus_au * x * y, side * (straight - crossed))
     difference = np.arctan2(side * a_minus_bu * x * y, side * (straight + crossed))
-    return Turned(np.where(both, total, sigma + delta), np.where(both, difference, sigma - delta))
+    return Turned(
+        np.where(has_both, total, sigma + delta), np.where(has_both, difference, sigma - delta)
+    )
 
 
 def _sum_or(
     one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
 ) -> FloatArray:
-    """Sum one + two, or 2 (three + four)/root, equal to it: whichever cancels less."""
+    """Sum one + two, or the equal 2 (three + four)/root, whichever has less cancellation."""
     open_ = root > 0
     factor = 2 / np.where(open_, root, 1.0)
     better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
@@ -180,21 +182,21 @@ def _sum_or(
 
 
 def _lower_pole_rate(nutation: Nutation) -> FloatArray:
-    """(a + b)/sqrt(1 + u1), which stays finite as the axis comes to pass the lower pole."""
+    """Rate (a + b)/sqrt(1 + u1), which is finite as the axis approaches the lower pole."""
     start, gaps = nutation.start, nutation.gaps
     size = np.sqrt(nutation.height * (2 * start.beta + gaps.outer))
     return size * np.where(nutation.crosses_lower_pole, 1.0, np.sign(start.b_plus_a))
 
 
 def _upper_pole_rate(nutation: Nutation) -> FloatArray:
-    """(b - a)/sqrt(1 - u2), which stays finite as the axis comes to pass the upper pole."""
+    """Rate (b - a)/sqrt(1 - u2), which is finite as the axis approaches the upper pole."""
     size = np.sqrt(nutation.depth * nutation.gaps.outer)
     sense = np.sign(nutation.start.b_minus_a)
     return size * np.where(nutation.crosses_upper_pole, 1.0, sense)
 
 
 def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
-    """Sense of the half turn at this passage over a pole; 1 for those that miss it."""
+    """Direction of the half turn in a passage exactly over a pole; otherwise 1."""
     quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
     upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
@@ -210,7 +212,7 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """What sigma and delta have beside the arc tangents, from a lower or upper turning point."""
+    """Integrals in sigma and delta besides the arctangents, from a lower or upper turning point."""
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
     sigma = _integral(
         nutation,
@@ -230,7 +232,7 @@ def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integr
         _has_upper_arc(nutation),
         gaps.outer / stiffness,
     )
-    # (a + b)/(1 + u) - a = (b - a u)/(1 + u), and a/2 is told apart.
+    # (a + b)/(1 + u) - a = (b - a u)/(1 + u); the rate a/2 is treated separately.
     climb = np.where(upper, gaps.upper, -gaps.lower)
     near = np.where(upper, nutation.height, gaps.lower_pole)
     excess = start.phi_rate * start.sine2 - start.a * climb
@@ -248,9 +250,9 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Integral of total/2/(u - pole): its regular part, or all of it if it takes no arc tangent.
+    """Integral of total/2/(u - pole): its regular part, or the whole without an arctangent.
 
-    The ends are the turning points, reckoned from the pole.
+    The ends are the distances of the turning points from the pole.
     """
     pace = total / (2 * nutation.rate)
     near = np.where(arc, 1.0, np.where(upper, upper_end, lower_end))
@@ -288,6 +290,6 @@ def _complete_integrals(nutation: Nutation) -> Turned:
             0.0,
         )
         for x in _integrals(nutation, np.asarray(False))
-        for shape in (np.where(x.shape > 0, x.shape, 1.0),)  # 0 where nothing moves
+        for shape in (np.where(x.shape > 0, x.shape, 1.0),)  # 0 without motion
     )
     return Turned(sigma + delta, sigma - delta)

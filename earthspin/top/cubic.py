@@ -1,17 +1,17 @@
-"""Roots of the cubic of the nutation, in a form that keeps close roots apart (I.7.16).
+"""Roots of the cubic of nutation, computed so that close roots stay separate (I.7.16).
 
     u'^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2 = beta (u - u1)(u - u2)(u - u3),  u = cos(theta)
 
-Slow nutation, the sleeping top and the fast top each make two or three roots nearly equal, and
-a general root finder then loses half the digits or two thirds of them. But the signs are
-known: the cubic is never positive at either pole and never negative at the start,
+For slow nutation, a sleeping top and a fast top, two or three roots are nearly equal, and a general
+root finder loses half or two thirds of the digits. But the signs are known: the cubic is not
+positive at either pole and not negative at the start,
 
     -1 <= u1 <= u(0) <= u2 <= 1 <= u3        (beta >= 0),
 
-so that every difference of roots is a sum of the gaps between these six points, none of them
-negative. The gaps are what is computed here. One root stands well apart from the other two.
-With that one divided out, the pair straddles either the start or the upper pole, and the
-quadratic for the two gaps on either side has a discriminant that is a sum of squares.
+so that every difference of roots is a sum of non-negative gaps between these six points. This
+module computes the gaps. One root is well separated from the other two. After it is divided out,
+the pair straddles either the start or the upper pole, and the quadratic for the two gaps on either
+side has a discriminant that is a sum of squares.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ from earthspin.top.start import HeavyTop, axis_heights
 FloatArray = NDArray[np.float64]
 
 
-#: A top slower than this (rad/s) does not move; theta' or a pendulum's rate slower by this
-#: factor than its fastest rate counts as none: what they do would underflow.
+#: A top slower than the first number (rad/s) is at rest; theta' or a pendulum's rate below the
+#: second number times the fastest rate counts as zero, to avoid underflow.
 _SLOWEST, _NEGLIGIBLE = 1e-100, 1e-60
 
 
 class AxisStart(NamedTuple):
-    """How the axis starts, told so that the weight pulls its tip down or not at all.
+    """Initial state of the axis, expressed for a weight moment that is not negative.
 
-    A top with a negative weight moment is described by the other end of its axis: theta,
-    spin and weight then change sign together. Rates are in units of `rate_unit`.
+    A top with a negative weight moment is described by the opposite end of its axis: theta is
+    replaced by pi - theta, and spin and weight change sign. Rates are in units of `rate_unit`.
 
     Attributes
     ----------
     turned : ndarray of bool
-        Whether the other end is meant.
+        Whether the opposite end is used.
     rate_unit : ndarray
-        A power of two near the fastest rate, rad/s, so that nothing overflows.
+        A power of two near the fastest rate, rad/s, to avoid overflow.
     below, above, cosine : ndarray
         1 - u, 1 + u and u at the start.
     theta_rate, phi_rate, a, beta : ndarray
@@ -61,37 +61,37 @@ class AxisStart(NamedTuple):
 
     @property
     def sine2(self) -> FloatArray:
-        """sin^2(theta)."""
+        """Squared sine of the inclination, sin^2(theta)."""
         return self.below * self.above
 
     @property
     def rate2(self) -> FloatArray:
-        """theta'^2 + phi'^2 sin^2(theta), squared speed of the tip of the axis."""
+        """Squared speed of the tip of the axis, theta'^2 + phi'^2 sin^2(theta)."""
         return self.theta_rate**2 + self.phi_rate**2 * self.sine2
 
     @property
     def asleep(self) -> NDArray[np.bool_]:
-        """Whether the axis is on the vertical and stays, if only for want of the least push."""
+        """Whether the axis is vertical and at rest, in stable or unstable equilibrium."""
         return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
 
     @property
     def b_minus_a(self) -> FloatArray:
-        """Difference b - a, which vanishes if the axis can pass the upper pole."""
+        """Difference b - a, which vanishes if the axis can pass over the upper pole."""
         return self.below * (self.phi_rate * self.above - self.a)
 
     @property
     def b_plus_a(self) -> FloatArray:
-        """Sum b + a, which vanishes if the axis can pass the lower pole."""
+        """Sum b + a, which vanishes if the axis can pass over the lower pole."""
         return self.above * (self.phi_rate * self.below + self.a)
 
     @property
     def b(self) -> FloatArray:
-        """Vertical angular momentum over I1."""
+        """Vertical angular momentum divided by I1."""
         return self.phi_rate * self.sine2 + self.a * self.cosine
 
 
 class Gaps(NamedTuple):
-    """Distances between the poles, the roots and the start, none of them negative.
+    """Non-negative distances between the poles, the roots and the initial value.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class Gaps(NamedTuple):
     upper_pole : ndarray
         1 - u2.
     outer : ndarray
-        beta (u3 - 1); finite also without weight, where u3 is infinite.
+        beta (u3 - 1); finite even without weight, for which u3 is infinite.
     """
 
     lower_pole: FloatArray
@@ -115,7 +115,7 @@ class Gaps(NamedTuple):
 
 
 def axis_start(top: HeavyTop) -> AxisStart:
-    """The start of the axis, turned over if the weight moment is negative."""
+    """Initial state of the axis, with the opposite end if the weight moment is negative."""
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
@@ -146,7 +146,7 @@ def cubic_gaps(start: AxisStart) -> Gaps:
     # Expanded about the start, u = u(0) + x, and times beta^2 with X = beta x:
     # X^3 + c2 X^2 + beta c1 X + beta^2 c0.
     beta = start.beta
-    # a^2 - 2 beta is nearly nothing for a sleeping top near its critical spin.
+    # a^2 - 2 beta is nearly zero for a sleeping top near its critical spin.
     c2 = -(start.rate2 + (start.a**2 - 2 * beta) + 2 * beta * start.below)
     pull = 2 * start.phi_rate * (start.a - start.cosine * start.phi_rate) - beta
     c1 = start.sine2 * pull - 2 * start.cosine * start.theta_rate**2
@@ -168,25 +168,25 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 def _pair_about_start(
     start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps where the third root stands apart: u1 and u2 straddle the start."""
+    """Gaps between roots if the highest is well separated: u1, u2 straddle the start."""
     beta, below = start.beta, start.below
     far = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
     product = _ratio(c0, far)
     lower, upper = _straddling(-_ratio(c1 + beta * product, far), product)
-    # The cubic at the upper pole is -(b - a)^2, the product of the gaps there: it gives the gap
-    # that the start tells badly. They are never both small beside 1 - u(0).
-    known = upper <= 0.75 * below
+    # The cubic at the upper pole is -(b - a)^2, the product of the gaps there. It gives the gap
+    # that is inaccurate from the start; the two are never both small compared with 1 - u(0).
+    accurate = upper <= 0.75 * below
     at_pole = _ratio(start.b_minus_a**2, below + lower)
-    closely = known & (far < 2 * beta * below)
+    closely = accurate & (far < 2 * beta * below)
     outer = np.where(closely, _ratio(at_pole, below - upper), far - beta * below)
-    upper_pole = np.where(known, below - upper, _ratio(at_pole, outer))
+    upper_pole = np.where(accurate, below - upper, _ratio(at_pole, outer))
     return lower, upper, upper_pole, outer
 
 
 def _pair_about_pole(
     start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps where the first root stands apart: u2 and u3 straddle the upper pole."""
+    """Gaps between roots if the lowest is well separated: u2, u3 straddle the upper pole."""
     beta, below = start.beta, start.below
     # Expanded about the pole, u = 1 - p, and times beta^2 with P = beta p:
     # P^3 - d2 P^2 - 2 beta d1 P + beta^2 (b - a)^2.
@@ -210,9 +210,9 @@ def _pair_about_pole(
 def _largest_root(
     c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> FloatArray:
-    """Largest root of x^3 + c2 x^2 + c1 x + c0, known to be real and apart from the others.
+    """Largest root of x^3 + c2 x^2 + c1 x + c0, which is real and well separated.
 
-    Newton's method comes down to it from above and never overshoots.
+    Newton's method converges monotonically from above.
     """
     centre = -c2 / 3
     spread = np.sqrt(np.maximum(centre**2 - c1 / 3, 0.0))
@@ -234,6 +234,6 @@ def _straddling(middle: FloatArray, product: FloatArray) -> tuple[FloatArray, Fl
 
 
 def _ratio(numerator: FloatArray, denominator: FloatArray) -> FloatArray:
-    """Quotient, zero where the denominator vanishes: there the gap is closed."""
+    """Quotient; zero if the denominator vanishes, because the gap is then zero."""
     empty = denominator == 0
     return np.where(empty, 0.0, numerator / np.where(empty, 1.0, denominator))

@@ -1,14 +1,14 @@
-"""The nutation of a top: how its axis goes to and fro between two heights (I.7.16, I.7.17).
+"""Nutation of a top: the oscillation of its axis between two heights (I.7.16, I.7.17).
 
     u = cos(theta) = u1 + (u2 - u1) sn^2(Omega t, m),
     4 Omega^2 = beta (u3 - u1),    m = (u2 - u1)/(u3 - u1)
 
-with t counted from the lower turning point. Seen from the upper one, a quarter period K later,
+with t from the lower turning point. From the upper turning point, a quarter period K later,
 
     u2 - u = (u2 - u1)(1 - m) sn^2/dn^2.
 
-Each instant is reckoned from the turning point next to it, so that the way left to that point
-has full relative accuracy and no argument exceeds K/2.
+Each time is measured from the nearest turning point, so that the distance from that point has full
+relative accuracy and no argument exceeds K/2.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from earthspin.top.start import HeavyTop
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
-#: Half period of a motion on the separatrix: longer than any time in the rate unit.
+#: Half period assigned to motion on the separatrix: longer than any time in the rate unit.
 _NEVER = 1e290
-#: A moment so short that nothing changes but the side of the pole.
+#: Time step that only determines the side of the pole, in the rate unit.
 _MOMENT = 1e-120
 
 
 class Nutation(NamedTuple):
-    """All that the nutation needs beside the times; rates and times in the start's rate unit.
+    """Time-independent quantities of a nutation; rates and times in the start's rate unit.
 
     Attributes
     ----------
@@ -48,9 +48,9 @@ class Nutation(NamedTuple):
     complement : ndarray
         1 - m.
     half_period : ndarray
-        From one turning point to the next; a number beyond all times if it never gets there.
+        Time from one turning point to the next; `_NEVER` on the separatrix.
     at_upper : ndarray of bool
-        Whether the start is reckoned from the upper turning point.
+        Whether the phase of the start is measured from the upper turning point.
     phase : ndarray
         Time since that turning point, negative before it.
     """
@@ -67,7 +67,7 @@ class Nutation(NamedTuple):
 
     @property
     def rate(self) -> FloatArray:
-        """Omega; 1 where nothing moves, so that it can be divided by."""
+        """Omega; 1 for a steady motion, to allow division."""
         return np.sqrt(np.where(self.stiffness > 0, self.stiffness, 4.0)) / 2
 
     @property
@@ -82,25 +82,25 @@ class Nutation(NamedTuple):
 
     @property
     def depth(self) -> FloatArray:
-        """1 - u1, from the upper pole down to the lower turning point."""
+        """Distance 1 - u1 from the upper pole to the lower turning point."""
         return self.start.below + self.gaps.lower
 
     @property
     def height(self) -> FloatArray:
-        """1 + u2, from the lower pole up to the upper turning point."""
+        """Distance 1 + u2 from the lower pole to the upper turning point."""
         return self.start.above + self.gaps.upper
 
 
 class Place(NamedTuple):
-    """Where in its nutation the axis is, at given times.
+    """Phase of the axis within its nutation at given times.
 
     Attributes
     ----------
     halves : ndarray
-        Half periods from the first lower turning point to the turning point next to the
-        instant: even at lower ones, odd at upper ones.
+        Number of half periods from the first lower turning point to the nearest turning point: even
+        at lower ones, odd at upper ones.
     upper : ndarray of bool
-        Whether that is an upper turning point.
+        Whether the nearest turning point is an upper one.
     phase : ndarray
         Omega times the time since that turning point, from -K/2 to K/2.
     sn, cn, dn : ndarray
@@ -116,7 +116,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """The height of the axis and its rate.
+    """Height of the axis and its rate of change.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class AxisHeight(NamedTuple):
 
 
 def nutation_of(top: HeavyTop) -> Nutation:
-    """Work out the nutation of a batch of tops from their starts."""
+    """Compute the nutation of a batch of tops from their initial states."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
     gaps = gaps._replace(
@@ -166,7 +166,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
 
 
 def _phase_of_start(nutation: Nutation) -> FloatArray:
-    """Time since the turning point next to the start, by an integral of the first kind."""
+    """Time from the nearest turning point to the start, by an elliptic integral."""
     start, gaps = nutation.start, nutation.gaps
     third = start.beta * start.below + gaps.outer  # beta (u3 - u(0))
     moves = (nutation.swing > 0) & (third > 0)
@@ -178,14 +178,14 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
     dn2 = np.where(upper, above * nutation.swing / scale, third / np.where(moves, stiffness, 1.0))
     integral = np.sqrt(sn2) * elliprf(np.where(moves, cn2, 1), np.where(moves, dn2, 1), 1.0)
     since = np.where(moves, integral / nutation.rate, 0.0)
-    # On a pole the start lies just past it, or just before it if theta is said to shrink.
+    # A start on a pole lies just after the passage, or just before it if theta_rate is negative.
     since = np.where(moves & (start.sine2 == 0), _MOMENT, since)
     leaving = np.where(start.theta_rate < 0, -1.0, 1.0)
     return since * np.where(upper, leaving, -leaving)
 
 
 def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
-    """Where in its nutation the axis is.
+    """Phase of the axis within its nutation.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
         Time since the start, in the rate unit; broadcasts with the tops.
     """
     half_period = nutation.half_period
-    # fmod is exact: a long time loses nothing but what the period itself lacks.
+    # fmod is exact, so the error of a long time comes only from that of the period.
     rest = np.fmod(elapsed, half_period)
     halves = np.rint((elapsed - rest) / half_period) + nutation.at_upper
     rest = rest + nutation.phase
@@ -208,15 +208,15 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Height of the axis from both poles, as sums of positive terms, and its rate."""
+    """Height of the axis from both poles, as sums of positive terms, and its rate of change."""
     gaps, swing, complement = nutation.gaps, nutation.swing, nutation.complement
     upper, sn, cn, dn = place.upper, place.sn, place.cn, place.dn
     climbed = swing * np.where(upper, cn / dn, sn) ** 2  # u - u1
-    left = swing * np.where(upper, complement * (sn / dn) ** 2, cn**2)  # u2 - u
+    descent = swing * np.where(upper, complement * (sn / dn) ** 2, cn**2)  # u2 - u
     rate = 2 * nutation.rate * swing * sn * cn * np.where(upper, -complement / dn**3, dn)
     return AxisHeight(
-        gaps.upper_pole + left,
+        gaps.upper_pole + descent,
         gaps.lower_pole + climbed,
-        np.where(upper, gaps.upper - left, climbed - gaps.lower),
+        np.where(upper, gaps.upper - descent, climbed - gaps.lower),
         rate,
     )

@@ -1,4 +1,4 @@
-"""The motion of a heavy top in time, in closed form (I.7.8 to I.7.17)."""
+"""Motion of a heavy top in time, in closed form (I.7.8 to I.7.17)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from earthspin.top.turning import mean_precession_rate, nutation_period, turning
 
 FloatArray = NDArray[np.float64]
 
-#: Times beyond this are a mistake, and would overflow.
+#: Longest time, s; longer ones would overflow.
 _LONGEST = 1e100
 
 # e^(i pi n/4)
@@ -27,23 +27,24 @@ _EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
 
 @dataclass(frozen=True, eq=False)
 class HeavyTopMotion:
-    """How a top moves. Arrays over time have the shape of the tops, then that of the times.
+    """Motion of a top; arrays over time have the shape of the tops, then that of the times.
 
     Attributes
     ----------
     theta, phi, psi : ndarray
-        Euler angles of I.7.1, rad; phi and psi are not reduced to one turn. Where the axis
-        passes exactly over a pole they jump by pi, to and fro; `attitude` does not.
+        Euler angles of I.7.1, rad; phi and psi are not reduced to one turn. If the axis passes
+        exactly over a pole they jump by pi, in alternating directions; `attitude` is continuous.
     attitude : ndarray, shape (..., 4)
         Unit quaternion w, x, y, z, body to inertial, continuous in time.
     omega_body : ndarray, shape (..., 3)
         Angular velocity along the principal axes of the body (I.7.3), rad/s.
     turning_angle : ndarray, shape of the tops, then (2,)
-        Least and greatest theta, rad.
+        Smallest and largest theta, rad.
     pattern : ndarray of str, shape of the tops
         ``wave``, ``cusp``, ``loop``, ``steady`` or ``sleeping`` (I.7.19).
     nutation_period : ndarray, shape of the tops
-        s; for a steady top that of a small nutation, infinite where theta never comes back.
+        Period of nutation, s; for a steady top that of a small nutation, infinite if theta never
+        returns.
     precession_rate : ndarray, shape of the tops
         Mean of phi' over a nutation, rad/s.
     """
@@ -60,7 +61,7 @@ class HeavyTopMotion:
 
 
 class Angle(NamedTuple):
-    """An angle that may have gone round many times.
+    """An angle that may include many turns.
 
     Attributes
     ----------
@@ -75,27 +76,27 @@ class Angle(NamedTuple):
 
     @property
     def radians(self) -> FloatArray:
-        """The angle itself, not reduced to one turn."""
+        """The angle in rad, not reduced to one turn."""
         return np.pi / 2 * self.quarters + self.rest
 
     @property
     def half(self) -> NDArray[np.complex128]:
-        """Phase of half the angle, e^(i angle/2)."""
+        """Phase factor of half the angle, e^(i angle/2)."""
         eighths = np.mod(self.quarters, 8).astype(int)
         phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
         return phase
 
     def plus(self, other: FloatArray) -> Angle:
-        """Sum with an angle in rad."""
+        """Sum with another angle in rad."""
         return Angle(self.quarters, self.rest + other)
 
     def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
-        """Another angle in rad, where the condition holds."""
+        """Angle with the elements in `where` replaced by another angle in rad."""
         return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 
 
 def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
-    """Motion of a heavy top, by elliptic functions.
+    """Motion of a heavy top at given times, by elliptic functions.
 
     Parameters
     ----------
@@ -138,13 +139,13 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
 
 
 def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
-    """Tops with axes of length 1 behind their own, for the times."""
+    """Tops with additional trailing axes of length 1, for the times."""
     shape = top.shape + (1,) * count
     return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
 
 
 def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> FloatArray:
-    """Angle theta from both half-angle sides, of the end of the axis that was given."""
+    """Inclination theta of the original end of the axis, from both half-angle sides."""
     up, down = np.sqrt(below), np.sqrt(above)
     turned = nutation.start.turned
     theta: FloatArray = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
@@ -154,23 +155,25 @@ def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> Fl
 def _phi_and_psi(
     top: HeavyTop, nutation: Nutation, times: FloatArray, place: Place
 ) -> tuple[Angle, Angle]:
-    """Angles phi and psi: their starts, and what they have turned since."""
+    """Angles phi and psi: initial values plus the advance since the start."""
     quarters, rest = turned_at(nutation, place)
     first_quarters, first_rest = turned_at(
         nutation, place_at(nutation, np.zeros((1,) * times.ndim))
     )
     phi, psi = (
-        Angle(now - then, angle - begin)
-        for now, then, angle, begin in zip(quarters, first_quarters, rest, first_rest, strict=True)
+        Angle(later - earlier, angle - initial)
+        for later, earlier, angle, initial in zip(
+            quarters, first_quarters, rest, first_rest, strict=True
+        )
     )
-    # Seen from the other end of the axis the body turns the other way.
+    # From the opposite end of the axis, the rotation has the opposite sense.
     sense = np.where(nutation.start.turned, -1.0, 1.0)
     shared = shared_rate(nutation) * nutation.start.rate_unit * times
     slack = (top.transverse_moment - top.axial_moment) / top.transverse_moment
     slack = np.where(shared_rate(nutation) == 0, slack, 1.0) * top.spin * times
     phi = phi.plus(shared)
     psi = Angle(sense * psi.quarters, sense * psi.rest + (slack - sense * shared))
-    # Asleep, phi and psi share the turning out as they did at the start.
+    # Asleep, the rotation is divided between phi and psi as at the start.
     asleep = nutation.start.asleep
     psi_rate = top.spin - top.phi_rate * np.cos(top.theta)
     phi = phi.replaced(asleep, top.phi_rate * times)
@@ -181,8 +184,8 @@ def _phi_and_psi(
 def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
     """Quaternion of Rz(phi) Rx(theta) Rz(psi).
 
-    Half of phi and half of psi turn one after the other: their sum would round away the slow
-    precession of a top that has spun for long.
+    The half rotations by phi and psi are applied separately: adding the angles would lose the slow
+    precession of a top after a long time.
     """
     upright = np.cos(theta / 2) * phi.half * psi.half
     tilted = np.sin(theta / 2) * phi.half * np.conj(psi.half)
@@ -190,7 +193,7 @@ def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
 
 
 def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angle) -> FloatArray:
-    """Angular velocity in the body, omega1 + i omega2 = (theta' + i phi' sin(theta)) e^(-i psi)."""
+    """Angular velocity in the body, (theta' + i phi' sin(theta)) e^(-i psi) for 1 and 2."""
     start = nutation.start
     sine = np.sqrt(height.below * height.above)
     tilted = sine > 0
@@ -204,7 +207,7 @@ def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angl
 
 
 def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
-    """The sum b - a u = phi' sin^2(theta), told from the start or from the poles."""
+    """The sum b - a u = phi' sin^2(theta), computed from the start or from the poles."""
     first, second = start.phi_rate * start.sine2, start.a * height.climb
     upper, lower = start.b_plus_a * height.below, start.b_minus_a * height.above
     from_start = np.abs(first) + np.abs(second) < (np.abs(upper) + np.abs(lower)) / 2

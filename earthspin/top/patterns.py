@@ -1,12 +1,12 @@
-"""What the tip of the axis draws: waves, cusps or loops (I.7.19).
+"""Patterns traced by the tip of the axis: waves, cusps or loops (I.7.19).
 
 The precession phi' is proportional to b - a u, and vanishes at u = b/a. The cubic there is
-(1 - u^2)(alpha - beta b/a), so that the tip turns back, and draws loops, if |b| < |a| and
+(1 - u^2)(alpha - beta b/a), so that the tip reverses, and traces loops, if |b| < |a| and
 
     a (a alpha - b beta) = a [a (theta'^2 + phi'^2 sin^2(theta)) - beta phi' sin^2(theta)] > 0.
 
-If it is zero the tip comes to rest, in a cusp, always at the upper turning point. All are
-numbers of the start: no root is needed to tell the patterns apart.
+If this is zero the tip comes to rest in a cusp, always at the upper turning point. All terms follow
+from the start, so the patterns can be distinguished without the roots.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ from earthspin.top.start import HeavyTop, axis_heights, top_constants
 
 FloatArray = NDArray[np.float64]
 
-#: Sums smaller than this part of their terms are rounding: a start meant for zero gives zero.
+#: Sums smaller than this fraction of their terms count as zero, as rounding errors.
 _ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
-    """Which of the patterns of I.7.19 the tip of the axis draws.
+    """Pattern of I.7.19 that the tip of the axis traces.
 
     Returns
     -------
     ndarray of str, shape of the tops
-        ``sleeping``: on the vertical, and stays there (stable or not: `sleeping_top`).
+        ``sleeping``: vertical and at rest (for its stability see `sleeping_top`).
         ``steady``: theta is constant. ``cusp``: the tip comes to rest at each upper turning
-        point. ``loop``: phi' changes sign. ``wave``: it does not; so also a pendulum that
-        swings in a plane, and an axis that passes exactly over a pole.
-        Steady motion and cusps are told to within rounding of the start.
+        point. ``loop``: phi' changes sign. ``wave``: phi' does not change sign; this includes a
+        plane pendulum, and an axis that passes exactly over a pole.
+        Steady motion and cusps are recognised to within rounding of the start.
     """
     start = axis_start(top)
     turning = start.b_minus_a * start.b_plus_a < 0  # |b| < |a|
@@ -52,17 +52,17 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
 
 
 class PatternLimits(NamedTuple):
-    """Initial rates phi' at which one pattern turns into the next, rad/s.
+    """Initial rates phi' at the limits between patterns, rad/s.
 
     Attributes
     ----------
     cusp : ndarray, shape (..., 2)
-        Waves between these two rates, loops on either side, cusps at them. For a start at a
-        turning point they are zero, with the start above, and 2 m g r/(I3 omega3), twice the
-        slow precession of a fast top, with the start below.
+        Limits between waves (inside) and loops (outside), with cusps at the limits. For a start at
+        a turning point they are zero (start at the upper one) and 2 m g r/(I3 omega3), twice the
+        slow precession of a fast top (start at the lower one).
     over_pole : ndarray, shape (..., 2)
-        Loops end where the axis passes exactly over the upper, the lower pole; beyond, the
-        precession goes one way again.
+        Rates for which the axis passes exactly over the upper and the lower pole; loops end there,
+        and beyond phi' does not change sign.
     """
 
     cusp: FloatArray
@@ -70,17 +70,17 @@ class PatternLimits(NamedTuple):
 
 
 def pattern_limits(top: HeavyTop) -> PatternLimits:
-    """Initial phi' at which waves turn into loops, and loops into waves (I.7.19).
+    """Initial rates phi' at which waves change to loops, and loops to waves (I.7.19).
 
     Parameters
     ----------
     top : HeavyTop
-        Its own phi_rate does not matter.
+        Its own phi_rate is ignored.
 
     Raises
     ------
     UndefinedError
-        Without spin, on the vertical, or where theta' is so fast that no phi' gives a cusp.
+        If the top has no spin or is vertical, or theta' is so fast that no phi' gives a cusp.
     """
     a, _, _, beta = top_constants(top)
     below, above, _ = axis_heights(top.theta)
@@ -118,6 +118,6 @@ def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
 
 
 def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:
-    """The difference a alpha - b beta from the start, and the size of its terms."""
+    """The difference a alpha - b beta from the start, and the magnitude of its terms."""
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
     return inertia - weight, np.abs(inertia) + np.abs(weight)

@@ -1,8 +1,8 @@
-"""What a unit in the last place of its numbers does to the motion of a top.
+"""Effect of rounding errors in the initial state on the motion of a top.
 
-A top that nearly sleeps, or nearly stands still at the highest point of its swing, magnifies the
-rounding of its own start: no method can know the motion better than that. The effect is
-found by moving each number by one unit in its last place, one after the other.
+A top that nearly sleeps, or nearly stops at the highest point of its motion, amplifies rounding
+errors of the initial state, which limits every method. The effect is measured by changing one
+number at a time by one unit in its last place.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from earthspin.top.start import HeavyTop
 FloatArray = NDArray[np.float64]
 Numbers = NDArray[np.complex128] | FloatArray
 
-#: The closed form keeps this, or twice the effect of rounding where that is larger: measured on
-#: 500 starts of each of ten families (`python -m tests.top.accuracy 500`).
+#: Error bound of the closed form, unless twice the effect of rounding is larger: measured with 500
+#: starts in each of ten families (`python -m tests.top.accuracy 500`).
 CLOSED_FORM_ERROR = 1e-13
 
 
 def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Bound on the error of `heavy_top_motion`, at its largest over times and quantities.
+    """Bound on the error of `heavy_top_motion`, the largest over times and quantities.
 
     Parameters
     ----------
@@ -35,14 +35,14 @@ def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray, of the shape of the tops
-        Of theta relative to itself; of phi, psi and the transverse angular velocity relative to
-        their largest values; of the elements of the attitude.
+        Largest of the errors of theta, relative to theta; of phi, psi and the transverse angular
+        velocity, relative to their largest values; and of the elements of the attitude.
     """
     return np.maximum(CLOSED_FORM_ERROR, 2 * effect_of_rounding(top, times))
 
 
 def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Sum over all numbers of a start of what one unit in the last place of each does.
+    """Sum of the effects of changing each initial value by one unit in its last place.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
     motion = heavy_top_motion(top, t)
     total = _difference(heavy_top_motion(top, np.nextafter(t, np.inf)), motion)
     for name, value in start.items():
-        moved = np.nextafter(value, 0.0)  # towards zero: every bound on a start is an upper one
+        moved = np.nextafter(value, 0.0)  # towards zero: all limits on a start are upper limits
         if np.any(moved != value):
             total = total + _difference(
                 heavy_top_motion(HeavyTop(**(start | {name: moved})), t), motion
@@ -74,7 +74,7 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
     turned = 2 * np.abs(one.attitude - sign * other.attitude)
-    # an axis that stands or hangs has no azimuth: how both angles share the turn is a convention
+    # a vertical axis has no azimuth: the division of the rotation between phi and psi is arbitrary
     tilted = (other.theta != 0) & (other.theta != np.pi)
     ratios = (
         _relative(one.theta - other.theta, np.abs(other.theta)),
@@ -87,12 +87,12 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
 
 
 def _largest(values: Numbers) -> FloatArray:
-    """Largest over the times, which keep an axis of length 1."""
+    """Largest value over the times, with an axis of length 1 in their place."""
     return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
 
 
 def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
-    """Largest ratio over the times; over nothing there is none."""
+    """Largest ratio over the times; zero if there are none."""
     ratio = np.zeros(difference.shape)
     np.divide(np.abs(difference), size, out=ratio, where=size > 0)
     return np.asarray(np.max(ratio, axis=-1))

@@ -1,7 +1,7 @@
-"""A heavy symmetric top and how it is started (I.7.1 to I.7.7).
+"""Heavy symmetric top and its initial state (I.7.1 to I.7.7).
 
-The pivot is the origin. The Euler angles are those of I.7.1: the body turns by psi about its
-axis, leans by theta about the line of nodes, and turns by phi about the vertical,
+The pivot is the origin. The Euler angles are those of I.7.1: rotations by psi about the body's
+axis, by theta about the line of nodes, and by phi about the vertical,
 
     R = Rz(phi) Rx(theta) Rz(psi),    body to inertial.
 """
@@ -19,9 +19,9 @@ from earthspin.errors import BodyError
 FloatArray = NDArray[np.float64]
 
 _NAME = "heavy top"
-#: Rates beyond this are a mistake, and would overflow.
+#: Largest rate, rad/s; larger ones would overflow.
 _FASTEST = 1e100
-#: Inclinations below this count as none; their fourth powers would underflow.
+#: Inclinations below this count as zero; their fourth powers would underflow.
 _UPRIGHT = 1e-60
 
 
@@ -29,24 +29,24 @@ _UPRIGHT = 1e-60
 class HeavyTop:
     """A symmetric top, its weight, and its motion at t = 0.
 
-    Each field is a number or an array; the fields broadcast together, and a top with arrays
-    is a batch of tops.
+    Each field is a number or an array; the fields broadcast together. A top with arrays is a batch
+    of tops.
 
     Attributes
     ----------
     transverse_moment : ndarray
-        I1 = I2, moment about an axis through the pivot square to the figure axis, kg m2.
+        I1 = I2, moment about an axis through the pivot perpendicular to the figure axis, kg m2.
     axial_moment : ndarray
-        I3, about the figure axis, kg m2; no body has more than 2 I1.
+        I3, about the figure axis, kg m2; at most 2 I1.
     weight_moment : ndarray
         m g r, weight times the distance from pivot to centre of mass along the figure axis,
-        N m. Zero is a free rotor, negative hangs below its pivot when theta is zero.
+        N m. Zero for a free rotor; negative if the centre of mass is below the pivot at theta = 0.
     theta : ndarray
         Angle from the vertical to the figure axis, from 0 to pi, rad. The float nearest to pi
-        stands for pi, and less than 1e-60 for nothing.
+        counts as pi, and values below 1e-60 as zero.
     theta_rate, phi_rate : ndarray
-        rad/s. On the vertical phi_rate has no effect on the motion of the body; it then only
-        says how the turning is shared out between phi and psi.
+        rad/s. For a vertical axis phi_rate does not affect the motion of the body; it only divides
+        the rotation between phi and psi.
     spin : ndarray
         omega3, component of the angular velocity along the figure axis, rad/s; constant.
     phi, psi : ndarray
@@ -65,20 +65,20 @@ class HeavyTop:
 
     def __post_init__(self) -> None:
         names = [field.name for field in fields(self)]
-        given = [np.asarray(getattr(self, name), dtype=np.float64) for name in names]
-        for name, value in zip(names, given, strict=True):
+        arrays = [np.asarray(getattr(self, name), dtype=np.float64) for name in names]
+        for name, value in zip(names, arrays, strict=True):
             _require(np.isfinite(value), name, value, "give a finite number")
-        for name, value in zip(names, _broadcast(names, given), strict=True):
-            own = value.copy()
-            own.flags.writeable = False
-            object.__setattr__(self, name, own)
+        for name, value in zip(names, _broadcast(names, arrays), strict=True):
+            array = value.copy()
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
         self._check()
 
     @classmethod
     def from_euler_rates(
         cls, *, theta: ArrayLike, phi_rate: ArrayLike, psi_rate: ArrayLike, **rest: Any
     ) -> HeavyTop:
-        """Start from psi' instead of the spin: omega3 = phi' cos(theta) + psi' (I.7.3).
+        """Create a top from psi' instead of the spin: omega3 = phi' cos(theta) + psi' (I.7.3).
 
         Parameters
         ----------
@@ -150,7 +150,7 @@ def top_constants(top: HeavyTop) -> TopConstants:
 
 
 class AxisHeights(NamedTuple):
-    """Where the tip of the unit axis stands on the vertical.
+    """Height of the tip of the unit axis along the vertical.
 
     Attributes
     ----------
@@ -168,15 +168,15 @@ class AxisHeights(NamedTuple):
 
 
 def axis_heights(theta: FloatArray) -> AxisHeights:
-    """Height of the axis, from half angles so that nothing cancels near the poles."""
+    """Height of the axis, from half angles to avoid cancellation near the poles."""
     below = np.where(theta < _UPRIGHT, 0.0, 2 * np.sin(theta / 2) ** 2)
-    # No float equals pi; the nearest one is what a user means by a hanging top.
+    # No float equals pi; the nearest one denotes a hanging top.
     above = np.where(theta == np.pi, 0.0, 2 * np.cos(theta / 2) ** 2)
     return AxisHeights(below, above, np.cos(theta))
 
 
 def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
-    """Give all fields one shape."""
+    """Broadcast all fields to one shape."""
     try:
         return list(np.broadcast_arrays(*values))
     except ValueError:

@@ -1,6 +1,6 @@
-"""Steady precession and the sleeping top: where they exist and whether they last.
+"""Steady precession and the sleeping top: conditions of existence and stability.
 
-With u = cos(theta) constant the precession obeys u phi'^2 - a phi' + beta/2 = 0.
+For constant u = cos(theta) the precession rate satisfies u phi'^2 - a phi' + beta/2 = 0.
 """
 
 from __future__ import annotations
@@ -35,23 +35,23 @@ class SteadyPrecession(NamedTuple):
 
 
 class SleepingTop(NamedTuple):
-    """What becomes of a top set upright, theta = 0.
+    """Stability of an upright top, theta = 0.
 
     Attributes
     ----------
     critical_spin : ndarray
-        Least |omega3| at which it sleeps, rad/s; zero for a top that hangs or has no weight.
+        Smallest |omega3| of a stable upright top, rad/s; zero for a hanging or weightless top.
     stable : ndarray of bool
-        Whether it sleeps at its own spin.
+        Whether the upright position is stable at the top's spin.
     growth_rate : ndarray
-        At which a small inclination grows below the critical spin, 1/s; zero if stable.
+        Growth rate of a small inclination below the critical spin, 1/s; zero if stable.
     fall_angle : ndarray
-        Greatest inclination after the least push, rad; zero if stable.
+        Largest inclination after an infinitesimal disturbance, rad; zero if stable.
     rates : ndarray, shape (..., 2)
-        At which the tip circles the vertical in its two small motions, slow and fast, rad/s;
-        below the critical spin both are that of the spiral outwards.
+        Rates of the two small circular motions about the vertical, slow and fast, rad/s; below the
+        critical spin both are the rate of the outward spiral.
     nutation_rate : ndarray
-        Difference of the two: the rate of small nutations, rad/s; zero if not stable.
+        Rate of small nutations, the difference of `rates`, rad/s; zero if not stable.
     """
 
     critical_spin: FloatArray
@@ -63,9 +63,9 @@ class SleepingTop(NamedTuple):
 
 
 def minimum_spin(top: HeavyTop) -> FloatArray:
-    """Least |omega3| that allows steady precession at the inclination of the top, rad/s.
+    """Smallest |omega3| that allows steady precession at the top's inclination, rad/s.
 
-    omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero where the centre of mass is not above the pivot.
+    omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero if the centre of mass is not above the pivot.
     """
     lifted = np.maximum(top.weight_moment * np.cos(top.theta), 0.0)
     least: FloatArray = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
@@ -78,8 +78,8 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
     Parameters
     ----------
     top : HeavyTop
-        Its own phi_rate and theta_rate do not matter. Without spin the two rates are those of
-        the conical pendulum, one each way.
+        Its own phi_rate and theta_rate are ignored. Without spin the two rates are those of the
+        conical pendulum, in opposite directions.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
     a, _, _, beta = top_constants(top)
     cosine = np.cos(top.theta)
     inside = a**2 - 2 * beta * cosine
-    # At the minimum spin itself rounding may take the difference just below zero.
+    # At exactly the minimum spin, rounding may make the difference slightly negative.
     inside = np.where(np.abs(inside) <= _ROUNDING * a**2, np.maximum(inside, 0.0), inside)
     _refuse_slow_spin(top, inside < 0)
     larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(inside)) / 2  # cos(theta) phi', fast
@@ -101,24 +101,24 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
 
 
 def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
-    """Raise an error that names the first spin that is below the minimum."""
+    """Raise an error that names the first spin below the minimum."""
     if np.any(slow):
         spin, theta, least = (
             float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))
         )
         raise UndefinedError(
             f"a spin of {spin!r} rad/s is too slow for steady precession at theta = {theta!r} "
-            f"rad; give at least {least:.6g} rad/s, either way round"
+            f"rad; give at least {least:.6g} rad/s in either direction"
         )
 
 
 def slow_precession_limit(top: HeavyTop) -> FloatArray:
-    """Slow precession of a fast top, m g r/(I3 omega3), whatever its inclination, rad/s.
+    """Slow precession of a fast top, m g r/(I3 omega3), independent of inclination, rad/s.
 
     Raises
     ------
     UndefinedError
-        Without spin.
+        If the top has no spin.
     """
     if np.any(top.spin == 0):
         raise UndefinedError("a top without spin has no slow precession; give a spin other than 0")
@@ -127,7 +127,7 @@ def slow_precession_limit(top: HeavyTop) -> FloatArray:
 
 
 def sleeping_top(top: HeavyTop) -> SleepingTop:
-    """Critical spin of the upright top, omega3^2 = 4 I1 m g r/I3^2, and what happens at its own.
+    """Critical spin of the upright top, omega3^2 = 4 I1 m g r/I3^2, and its stability.
 
     A small inclination xi = theta e^(i phi) obeys xi'' - i a xi' - (beta/2) xi = 0.
 
@@ -141,7 +141,7 @@ def sleeping_top(top: HeavyTop) -> SleepingTop:
     a, _, _, beta = top_constants(top)
     spin = np.abs(top.spin)
     stable = spin >= critical
-    # a^2 - 2 beta; near the critical spin a user means the difference from it
+    # a^2 - 2 beta, factored to stay accurate near the critical spin
     scale = top.axial_moment / top.transverse_moment
     from_critical = scale**2 * (spin - critical) * (spin + critical)
     excess = np.where(lifted > 0, from_critical, a**2 - 2 * beta)

@@ -1,4 +1,4 @@
-"""Where theta turns back, and the potential that turns it (I.7.16, I.7.18)."""
+"""Turning points of theta, and the effective potential (I.7.16, I.7.18)."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def cubic_roots(top: HeavyTop) -> FloatArray:
     Returns
     -------
     ndarray, shape (..., 3)
-        In ascending order. The axis moves between the two that lie from -1 to 1; the third is
-        1 or more, or -1 or less for a negative weight moment, and infinite without weight.
+        Roots in ascending order. The axis moves between the two roots in -1 to 1; the third is 1 or
+        more (-1 or less for a negative weight moment), and infinite without weight.
     """
     start = axis_start(top)
     gaps = cubic_gaps(start)
@@ -39,7 +39,7 @@ def cubic_roots(top: HeavyTop) -> FloatArray:
 
 
 def turning_angles(top: HeavyTop) -> FloatArray:
-    """Least and greatest inclination theta1, theta2, to full accuracy near the poles too.
+    """Smallest and largest inclination theta1, theta2, accurate also near the poles.
 
     Returns
     -------
@@ -56,10 +56,10 @@ def turning_angles(top: HeavyTop) -> FloatArray:
 
 
 def nutation_period(top: HeavyTop) -> FloatArray:
-    """Time in which theta goes once to and fro, s.
+    """Period of theta, s.
 
-    For steady motion that of a small nutation about it; infinite where theta comes to the
-    upright without ever reaching it, or never turns.
+    For steady motion it is the period of a small nutation; infinite if theta approaches the upright
+    position asymptotically, or never turns.
     """
     nutation = nutation_of(top)
     never = (nutation.stiffness == 0) | (nutation.complement == 0)
@@ -68,10 +68,11 @@ def nutation_period(top: HeavyTop) -> FloatArray:
 
 
 def mean_precession_rate(top: HeavyTop) -> FloatArray:
-    """Mean of phi' over a nutation, rad/s.
+    """Mean of phi' over one nutation period, rad/s.
 
-    A top that passes exactly over a pole has the mean of the limits from either side, one that
-    sleeps the phi' it was given, one that comes to the upright for ever the limit b/2.
+    For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
+    sleeping top its initial phi', and for a top that approaches the upright position asymptotically
+    the limit b/2.
     """
     nutation = nutation_of(top)
     start = nutation.start
@@ -89,7 +90,7 @@ def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
     ----------
     top : HeavyTop
     theta : float or ndarray
-        From 0 to pi, rad; its axes come behind those of the tops.
+        Inclination from 0 to pi, rad; its axes follow those of the tops.
 
     Returns
     -------
@@ -101,10 +102,10 @@ def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
     if np.any(outside):
         bad = float(theta[outside].flat[0])
         raise BodyError("heavy top", "theta", bad, "give an angle from 0 to pi rad")
-    own = axis_heights(top.theta)
+    heights = axis_heights(top.theta)
     a, _, _, beta = top_constants(top)
-    to_upper = own.below * (top.phi_rate * own.above - a)  # b - a
-    to_lower = own.above * (top.phi_rate * own.below + a)  # b + a
+    to_upper = heights.below * (top.phi_rate * heights.above - a)  # b - a
+    to_lower = heights.above * (top.phi_rate * heights.below + a)  # b + a
     shape = top.shape + (1,) * theta.ndim
     a, beta, to_upper, to_lower = (np.reshape(x, shape) for x in (a, beta, to_upper, to_lower))
     below, above, cosine = axis_heights(theta)
@@ -116,12 +117,15 @@ def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
 
 
 def _over_root(numerator: FloatArray, radicand: FloatArray) -> FloatArray:
-    """numerator/sqrt(radicand); where the radicand is 0, zero for 0 and infinite otherwise."""
+    """Quotient numerator/sqrt(radicand).
+
+    If the radicand is 0, the result is 0 for a zero numerator and otherwise infinite.
+    """
     open_ = radicand > 0
     limit = np.where(numerator == 0, 0.0, np.copysign(np.inf, numerator))
     return np.where(open_, numerator / np.sqrt(np.where(open_, radicand, 1.0)), limit)
 
 
 def _cosine(below: FloatArray, above: FloatArray) -> FloatArray:
-    """Height u from 1 - u and 1 + u, by the smaller of the two."""
+    """Cosine of theta from 1 - u and 1 + u, without cancellation near -1 and 1."""
     return np.where(below < above, 1 - below, above - 1)

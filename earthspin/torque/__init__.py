@@ -1,1 +1,1 @@
-"""What Sun, Moon and planets do to the bulge (I.8)."""
+"""Torques by Sun, Moon and planets on the equatorial bulge (I.8)."""

@@ -1,17 +1,18 @@
-r"""Torques averaged over orbits: rates and periods of precession.
+r"""Torques averaged over orbits, for rates and periods of precession.
 
-A plain mean over whole turns of the node misses by 0.1 per cent, because nothing that pulls
-comes back to where it was. A taper that falls smoothly to zero at both ends forgets the
-ends. The family used here,
+An unweighted mean over whole periods of the node has an error of 0.1 %, because the perturbers do
+not return to their initial positions. A taper that falls smoothly to zero at both ends reduces this
+error. The family used here,
 
     w(t) = cos^(2p)(pi t / L)        p = 0 plain, 1 Hann, 2 "sin4", ...
 
-has its zeros at p+1, p+2, ... turns per window. A window of L = m turns of the slowest cycle,
-m > p, therefore removes that cycle and all its harmonics *exactly*, and everything faster
-as (frequency)^-(2p+1). On three turns of the node or more, p = 2 is within 2 mas a century.
+has spectral zeros at p+1, p+2, ... cycles per window. A window of L = m periods of the slowest
+cycle, m > p, therefore removes that cycle and all its harmonics *exactly*, and attenuates higher
+frequencies as (frequency)^-(2p+1). For three periods of the node or more, the error with p = 2 is
+below 2 mas per century.
 
-The rate refers to the middle of the window; it drifts by -2.1 arcsec per century squared, which a
-symmetric window does not see.
+The rate refers to the middle of the window; its drift of -2.1 arcsec per century squared does not
+affect a symmetric window.
 """
 
 from __future__ import annotations
@@ -39,29 +40,29 @@ TAPERS: dict[str, tuple[float, ...]] = {
     "blackman-harris": _BLACKMAN_HARRIS,
 }
 
-#: Beyond this the window would see the curvature of the secular drift (measured with DE440:
-#: 0.1 mas/cy over 150 years, 0.6 over 450, 4 over 870).
+#: Longest window, s, to limit the effect of the secular drift's curvature (measured with DE440: 0.1
+#: mas/cy over 150 years, 0.6 over 450, 4 over 870).
 LONGEST_WINDOW = 150 * JULIAN_YEAR
 
-#: Sine of the obliquity below which an axis has no longitude.
+#: Sine of the obliquity below which the longitude of an axis is undefined.
 UPRIGHT = 1e-12
 
-#: Fewest cycles that a window may hold: with two, nothing tells how far the mean is off.
+#: Smallest number of cycles in a window; with two, the error of the mean cannot be estimated.
 FEWEST_CYCLES = 3
 
 
 @dataclass(frozen=True)
 class Window:
-    """A stretch of time and the weights that it is averaged with.
+    """A time interval and the weights for an average over it.
 
     Attributes
     ----------
     centre : float
         Middle, s.
     cycles : float
-        Turns of the slowest cycle that it holds; whole ones remove it.
+        Length in periods of the slowest cycle; a whole number removes that cycle.
     cycle : float
-        Length of one turn, s.
+        Period of the slowest cycle, s.
     taper : str
         One of `TAPERS`.
     """
@@ -77,20 +78,21 @@ class Window:
         return self.cycles * self.cycle
 
     def sample_times(self, step: float) -> FloatArray:
-        """Times `step` s apart over the window, one of them at its centre, s."""
+        """Times with a spacing of `step` s over the window, including its centre, s."""
         half = math.floor(self.length / 2 / step)
         return np.asarray(self.centre + step * np.arange(-half, half + 1.0))
 
     def weights(self, times: FloatArray) -> FloatArray:
-        """Weights of evenly spaced times, adding up to 1.
+        """Weights of evenly spaced times, with a sum of 1.
 
         Parameters
         ----------
         times : ndarray, shape (n,)
-            s. Those outside the window weigh nothing.
+            s. Times outside the window have weight zero.
         """
         x = (times - self.centre) / self.length
-        # The two ends of a plain window are the same phase of the cycle: half weight each.
+        # Both ends of an untapered window have the same phase of the cycle, so each has half
+        # weight.
         inside = (np.abs(x) < 0.5) + 0.5 * (np.abs(x) == 0.5)
         cosine = np.cos(2 * np.pi * x)
         w = inside * np.polynomial.chebyshev.chebval(cosine, TAPERS[self.taper])
@@ -105,23 +107,22 @@ class Window:
             Evenly spaced, s.
         values : ndarray, shape (n, ...)
         """
-        # time last: numpy then sums pairwise, and the same on any number of threads
+        # time last: numpy then sums pairwise, independent of the number of threads
         in_time = np.ascontiguousarray(np.moveaxis(values, 0, -1))
         return np.asarray(np.sum(self.weights(times) * in_time, axis=-1))
 
 
 def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
-    """Choose the window that converges fastest on the span there is: sin4 on whole cycles.
+    """Choose the window with the fastest convergence in a time span: sin4 on whole cycles.
 
     Parameters
     ----------
     start, end : float
-        The span that the data allow, s.
+        Time span of the data, s.
     cycle : float
-        The slowest cycle to be averaged out, s.
+        Period of the slowest cycle to remove, s.
     epoch : float
-        Where the middle should be, s; taken if three cycles fit about it, else the middle
-        of the span.
+        Preferred centre, s; used if three cycles fit around it, otherwise the middle of the span.
 
     Raises
     ------
@@ -144,7 +145,7 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
 
 
 def neighbours(window: Window) -> list[Window]:
-    """List the windows that must agree with the chosen one: other tapers, one turn less."""
+    """Windows for an error estimate: other tapers, and one cycle less."""
     shorter = window.cycles - 1
     others = [(window.cycles, "hann"), (shorter, "hann")]
     if shorter >= FEWEST_CYCLES:
@@ -160,7 +161,7 @@ def window_mean_and_error(
     measured_error: FloatArray | None = None,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Means of several pulls and of their total, and how far each may be from that of all time.
+    """Means of several torques and of their total, with errors relative to the long-term mean.
 
     Parameters
     ----------
@@ -169,21 +170,21 @@ def window_mean_and_error(
         Evenly spaced, s.
     values : ndarray, shape (n, perturber, ...)
     slow_swing : ndarray, shape (perturber,)
-        How far each pull swings more slowly than any window, over the pull itself: what
-        windows that agree may all miss.
+        Relative variation of each torque on time scales longer than any window, which no comparison
+        of windows can detect.
     measured_error : ndarray, shape (perturber,), optional
-        Errors of the means as measured for this window and these steps; with them no other window
-        is asked.
+        Measured errors of the means for this window and time step; if given, no other windows are
+        computed.
     strength : ndarray, shape (perturber, m), optional
-        Factors of the pulls of m cases that differ in nothing else. Means are linear in them, so
-        that each window is taken once.
+        Factors of the torques in m cases that are otherwise equal. The means are linear in them, so
+        each window is computed only once.
 
     Returns
     -------
     mean, error : ndarray, shape (label, ...) or (label, ..., m)
-        The total stands last where there are several. The error is a 95 % half-width: the
-        largest difference from the neighbouring windows and from the same window on every
-        second sample, and the slow swing.
+        The total is last if there are several perturbers. The error is a 95 % half-width: the
+        largest difference from the neighbouring windows and from the same window on every second
+        sample, combined with the slow variation.
     """
     if strength is not None:
         return _means_of_many(window, times, values, slow_swing, strength)
@@ -196,7 +197,7 @@ def window_mean_and_error(
         spread = np.max(np.abs(np.stack(others) - mean), axis=0)
     else:
         spread = with_total(np.broadcast_to(measured_error.reshape(along), values[:1].shape))[0]
-    size = window.mean(times, np.abs(values))  # not the mean, which may vanish by symmetry
+    size = window.mean(times, np.abs(values))  # the plain mean may vanish by symmetry
     swing = slow_swing.reshape(along) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
 
@@ -208,7 +209,7 @@ def _means_of_many(
     slow_swing: FloatArray,
     strength: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """The same as `window_mean_and_error`, for pulls with many strengths, from the means of one."""
+    """Means and errors as in `window_mean_and_error`, for several strengths of each torque."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
     factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
@@ -221,7 +222,7 @@ def _means_of_many(
 
 
 def with_total(values: FloatArray) -> FloatArray:
-    """Append the sum over perturbers (axis 1) where there is more than one."""
+    """Append the sum over perturbers (axis 1) if there is more than one."""
     if values.shape[1] == 1:
         return values
     return np.concatenate([values, values.sum(axis=1, keepdims=True)], axis=1)
@@ -230,17 +231,17 @@ def with_total(values: FloatArray) -> FloatArray:
 def convergence_curve(
     window: Window, times: FloatArray, values: FloatArray, cycles: FloatArray
 ) -> dict[str, FloatArray]:
-    """Mean through every taper against the length of the window, to see them converge.
+    """Means with every taper as functions of the window length, to show their convergence.
 
     Parameters
     ----------
     window : Window
-        Centre and cycle are taken from it.
+        Source of the centre and the cycle.
     times : ndarray, shape (n,)
         Evenly spaced, s.
     values : ndarray, shape (n,)
     cycles : ndarray, shape (m,)
-        Lengths, in cycles, whole or not.
+        Lengths in cycles, not necessarily whole.
 
     Returns
     -------
@@ -256,10 +257,10 @@ def convergence_curve(
 
 
 def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Share of a torque that turns an axis along a fixed orbit: N . (k x n)/sin2(obliquity).
+    """Precessing part of a torque on an axis, N . (k x n)/sin2(obliquity).
 
-    Divided by the angular momentum it is the rate at which the axis's longitude falls, counted
-    positive as the precession in longitude is.
+    Divided by the angular momentum, it is the rate of precession in longitude, positive if the
+    longitude of the axis decreases.
 
     Parameters
     ----------
@@ -268,7 +269,7 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
     axis : ndarray, shape (3,) or (n, 3)
         Unit vector of the spin axis k.
     normal : ndarray, shape (3,) or (n, 3)
-        Unit normal n of the orbit, in the axes of the torque.
+        Unit normal n of the orbit, in the frame of the torque.
 
     Returns
     -------
@@ -278,20 +279,20 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
     Raises
     ------
     UndefinedError
-        If the axis stands on the orbit: it then has no longitude.
+        If the axis is normal to the orbit, so that its longitude is undefined.
     """
     across = np.cross(axis, normal)  # towards the equinox, of length sin(obliquity)
     sine_squared = np.sum(across * across, axis=-1)
     if np.any(sine_squared < UPRIGHT**2):
         raise UndefinedError(
-            "the spin axis stands upright on the orbit: it has no longitude, "
-            "so a rate of precession is not defined"
+            "the spin axis is normal to the orbit: its longitude and its rate of precession are "
+            "not defined"
         )
     return np.asarray(np.sum(torque * across, axis=-1) / sine_squared)
 
 
 def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Precessing torque of a mean tidal tensor, or what errors of the tensor do to it, s-2.
+    """Precessing torque of a mean tidal tensor, or the error bound from bounds on the tensor, s-2.
 
     With z along the orbit's normal and x below the spin axis,
 
@@ -300,7 +301,7 @@ def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: fl
     Parameters
     ----------
     in_plane, out_of_plane : float or ndarray
-        Qxx - Qzz and Qxz, s-2; or bounds on their errors, for a bound.
+        Qxx - Qzz and Qxz, or bounds on their errors, s-2.
     obliquity : float
         eps, rad; not 0.
     """

@@ -1,15 +1,16 @@
-r"""Cassini states: axes that keep in step with an orbit that precesses.
+r"""Cassini states: spin axes that precess together with their orbit.
 
-The normal k of an orbit goes round a fixed pole at the inclination i and the rate -nu (nu > 0 where
-the node regresses). A spin axis s is in a Cassini state if it goes round with k: all three lie in
-one plane. Averaged over spin, orbit and pericentre, the energy of a body over its spin C omega is
+The normal k of an orbit precesses about a fixed pole at the inclination i and the rate -nu (nu > 0
+if the node regresses). A spin axis s is in a Cassini state if it precesses together with k, so that
+all three are coplanar. Averaged over spin, orbit and pericentre, the energy of a body, divided by
+its spin angular momentum C omega, is
 
     W = -(3/4) [K0 cos^2 eps + Kr (1 + cos eps)^2],
     K0 = (n^2/omega) (J2/c) (1 - e^2)^(-3/2),     Kr = (n^2/omega) (C22/c) |X(e)|,   c = C/(M R^2),
 
-with the second term for a spin that is locked at the ratio p = omega/n, where Hansen's coefficient
-X(e) = X^{-3,2}_{2p}(e) is 1 - 5 e^2/2 + ... at 1:1 and 7 e/2 - 123 e^3/16 + ... at 3:2. In axes
-that turn with the orbit, H = W + nu cos(eps - i), and the states are where
+where the second term applies to a spin locked at the ratio p = omega/n, and Hansen's coefficient
+X(e) = X^{-3,2}_{2p}(e) is 1 - 5 e^2/2 + ... at 1:1 and 7 e/2 - 123 e^3/16 + ... at 3:2. In a frame
+that precesses with the orbit, H = W + nu cos(eps - i), and the states satisfy
 
     -dH/d(eps) = nu sin(eps - i) - (3/2) [K0 cos eps + Kr (1 + cos eps)] sin eps = 0
 
@@ -31,17 +32,17 @@ from earthspin.numerics.kepler import true_anomaly
 
 FloatArray = NDArray[np.float64]
 
-#: Nodes over a revolution for Hansen's coefficients; they converge as a power of e.
+#: Quadrature nodes per revolution for Hansen's coefficients.
 NODES = 4096
-#: Share by which a spin may be off a multiple of half a turn in an orbit and still be locked to it.
+#: Relative tolerance for recognising a spin rate as a multiple of half the mean motion.
 LOCKED = 1e-4
-#: How close to the unit circle a root of the quartic lies that stands for an angle.
+#: Tolerance for recognising a root of the quartic as lying on the unit circle.
 ON_CIRCLE = 1e-6
 
 
 @dataclass(frozen=True)
 class Precessing:
-    """A body and the orbit that it keeps in step with.
+    """A spinning body and its precessing orbit.
 
     Attributes
     ----------
@@ -50,9 +51,9 @@ class Precessing:
     locked : float
         Kr, rad/s; 0 for a spin that is not locked.
     inclination : float
-        Of the orbit to the plane on which its node turns, i, rad.
+        Inclination i of the orbit to the plane on which its node regresses, rad.
     node_rate : float
-        nu, rad/s, positive where the node regresses.
+        nu, rad/s, positive if the node regresses.
     """
 
     axial: float
@@ -61,7 +62,7 @@ class Precessing:
     node_rate: float
 
     def slope(self, obliquity: FloatArray) -> FloatArray:
-        """-dH/d(eps), rad/s."""
+        """Derivative -dH/d(eps), rad/s."""
         cosine, sine = np.cos(obliquity), np.sin(obliquity)
         torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
         return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
@@ -79,10 +80,10 @@ class States(NamedTuple):
     Attributes
     ----------
     number : ndarray of int
-        After Peale (1969): 1 leans away from the fixed pole, 2 towards it, 3 turns backwards, 4 is
-        the unstable one. 1 and 4 are missing where the orbit precesses too fast.
+        Numbers of Peale (1969): 1 is inclined away from the fixed pole, 2 towards it, 3 is
+        retrograde, 4 is unstable. 1 and 4 do not exist if the orbit precesses too fast.
     obliquity : ndarray
-        To the orbit, positive towards the fixed pole, rad.
+        Obliquity to the orbit, positive towards the fixed pole, rad.
     stable : ndarray of bool
     """
 
@@ -92,7 +93,7 @@ class States(NamedTuple):
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
-    """Whether a body turns a multiple of half a turn in each orbit, forwards."""
+    """Whether the spin rate is a positive multiple of half the mean motion."""
     halves = round(2 * spin_rate / motion)
     return halves > 0 and abs(2 * spin_rate / motion / halves - 1) < LOCKED
 
@@ -100,16 +101,16 @@ def is_locked(spin_rate: float, motion: float) -> bool:
 def strengths(
     motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
 ) -> tuple[float, float]:
-    """K0 and Kr, rad/s; Kr as for a spin that is locked at the ratio next to its own.
+    """Strengths K0 and Kr, rad/s; Kr for a spin locked at the nearest ratio.
 
     Parameters
     ----------
     motion, spin_rate : float
-        Of the orbit and of the body, rad/s.
+        Mean motion of the orbit and spin rate of the body, rad/s.
     j2, c22 : float
-        Unnormalised.
+        Unnormalised coefficients.
     polar : float
-        C/(M R2), with the radius that they refer to.
+        C/(M R2), with the reference radius of `j2` and `c22`.
     eccentricity : float
     """
     scale = motion**2 / (spin_rate * polar)
@@ -124,7 +125,7 @@ def hansen(multiple: int, eccentricity: float) -> float:
     Parameters
     ----------
     multiple : int
-        k: twice the turns in a revolution.
+        k, twice the number of rotations per revolution.
     eccentricity : float
     """
     mean = 2 * np.pi * (np.arange(NODES) + 0.5) / NODES
@@ -134,16 +135,17 @@ def hansen(multiple: int, eccentricity: float) -> float:
 
 
 def cassini_states(of: Precessing) -> States:
-    """Solve for the states.
+    """Compute the Cassini states of a body.
 
     Parameters
     ----------
     of : Precessing
+        Body and orbit.
 
     Raises
     ------
     UndefinedError
-        If the orbit does not precess, or stands upright on the plane on which it would.
+        If the orbit does not precess, or is perpendicular to the plane of precession.
     """
     i, nu = of.inclination, of.node_rate
     if nu == 0 or np.sin(i) == 0:
@@ -151,14 +153,14 @@ def cassini_states(of: Precessing) -> States:
             "an orbit whose plane does not move has no Cassini states; give it an inclination and "
             "a period of its node"
         )
-    # with z = exp(i eps) the slope is a quartic in z
+    # with z = exp(i eps), the slope is a quartic polynomial in z
     single = nu * np.cos(i) - 1.5 * of.locked
     double = -0.75 * (of.axial + of.locked)
-    found = np.roots(
+    roots = np.roots(
         [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
     )
-    angles = np.angle(found[np.abs(np.abs(found) - 1) < ON_CIRCLE])
-    for _ in range(3):  # to the last place
+    angles = np.angle(roots[np.abs(np.abs(roots) - 1) < ON_CIRCLE])
+    for _ in range(3):  # Newton steps to full precision
         angles = angles - of.slope(angles) / of.curvature(angles)
     stable = of.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
@@ -167,7 +169,7 @@ def cassini_states(of: Precessing) -> States:
 
 
 def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Numbers of the states: what turns backwards is that of the largest obliquity."""
+    """Numbers of the states; the state of largest obliquity is the retrograde one."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4
     number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3

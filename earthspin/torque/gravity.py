@@ -1,12 +1,12 @@
-"""Torque of a distant mass on an oblate body, at an instant (I.8.7, I.9.34).
+"""Instantaneous torque of a distant mass on an oblate body (I.8.7, I.9.34).
 
-Two forms of the same thing, in different coordinates:
+The torque in two coordinate systems is
 
     N = -3 GM (C - A)/b3 sin(delta) cos(delta) (-sin(alpha), cos(alpha), 0)
     N =  3 GM (C - A)/r5 (r . k) (r x k)
 
-with r from the body to the mass and k the unit vector of the figure axis. The torque tries
-to bring the mass into the plane of the equator.
+with r from the body to the mass and k the unit vector of the figure axis. The torque acts to tilt
+the equator towards the mass.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ def torque_from_declination(
     declination: FloatArray,
     distance: FloatArray,
 ) -> FloatArray:
-    """Torque on the bulge from where the mass stands in the sky (I.8.7).
+    """Torque on the bulge from right ascension, declination and distance of a mass (I.8.7).
 
     Parameters
     ----------
     gm : float
-        Of the mass that pulls, m3 s-2.
+        Gravitational parameter of the mass, m3 s-2.
     moment_difference : float
         C - A of the body, kg m2.
     right_ascension, declination : ndarray, shape (n,)
-        Of the mass, referred to the body's equator, rad.
+        Direction of the mass, referred to the body's equator, rad.
     distance : ndarray, shape (n,)
-        Between the centres, m.
+        Distance between the centres, m.
 
     Returns
     -------
     ndarray, shape (n, 3)
-        N m, along the axes that right ascension and declination refer to.
+        N m, in the frame of right ascension and declination.
 
     Raises
     ------
@@ -59,23 +59,23 @@ def torque_from_declination(
 def torque_from_position(
     gm: float, moment_difference: float, position: FloatArray, axis: FloatArray
 ) -> FloatArray:
-    """Torque on the bulge from the position of the mass and the figure axis (I.9.32).
+    """Torque on the bulge from the position of a mass and the figure axis (I.9.32).
 
     Parameters
     ----------
     gm : float
-        Of the mass that pulls, m3 s-2.
+        Gravitational parameter of the mass, m3 s-2.
     moment_difference : float
-        C - A of the body, kg m2. Give 1 for the torque per unit of it, in s-2.
+        C - A of the body, kg m2; 1 gives the torque per unit of C - A, s-2.
     position : ndarray, shape (n, 3)
-        From the body to the mass, m, in any axes.
+        From the body to the mass, m, in any frame.
     axis : ndarray, shape (3,) or (n, 3)
-        Unit vector of the figure axis, in the same axes.
+        Unit vector of the figure axis, in the same frame.
 
     Returns
     -------
     ndarray, shape (n, 3)
-        N m, in the same axes.
+        N m, in the same frame.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def torque_error(
     distance_error: float,
     u_product: float,
 ) -> FloatArray:
-    """95 % half-width of a torque from the body's numbers and from where the mass stands.
+    """95 % half-width of a torque, from errors of the body's numbers and of the mass's position.
 
     Parameters
     ----------
@@ -122,18 +122,18 @@ def torque_error(
 
 
 def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and lengths; never r5, which overflows at 10^61 m."""
+    """Unit vectors and lengths, without r5, which overflows at 10^61 m."""
     distance = np.sqrt(np.sum(position * position, axis=-1))
     _refuse_centre(distance)
     return position / distance[..., np.newaxis], distance
 
 
 def _refuse_centre(distance: FloatArray) -> None:
-    """Refuse distances that are not above zero; NaN is not."""
+    """Refuse distances that are zero or negative; accept NaN."""
     away = np.asarray(distance) > 0
     if not np.all(away):
         wrong = float(np.asarray(distance)[~away].flat[0])
         raise UndefinedError(
-            f"a mass at a distance of {wrong!r} m has no direction to pull in; "
-            f"give places away from the centre of the body"
+            f"the direction of a mass at a distance of {wrong!r} m is not defined; "
+            f"give positions away from the centre of the body"
         )

@@ -1,8 +1,8 @@
-"""The torque on the zonal harmonics beyond the bulge: the pear shape J3 and the next, J4.
+"""Torques on the zonal harmonics beyond J2: the pear shape J3, and J4.
 
-A mass m at r has the energy + (G M m / r) J_n (a/r)^n P_n(u) in the field of J_n, with
-u = cos of its angle from the figure axis F. Turning the body by dtheta moves F by
-dtheta x F, so that the torque on it is
+A mass m at r has the energy + (G M m / r) J_n (a/r)^n P_n(u) in the field of J_n, where u is the
+cosine of its angle from the figure axis F. A rotation of the body by dtheta changes F by dtheta x
+F, so the torque on the body is
 
     N_n = (G M m / r) J_n (a/r)^n P_n'(u) (r/r) x F
 
@@ -37,11 +37,11 @@ def zonal_torque(
     degree : int
         n of J_n, 2 or more.
     coefficient : float
-        J_n, geodesy's (unnormalised, J2 of an oblate body positive).
+        J_n in the convention of geodesy (unnormalised, J2 of an oblate body positive).
     radius : float
-        Equatorial radius a that it refers to, m.
+        Equatorial reference radius a, m.
     gm : float
-        Of the mass that pulls, m3 s-2.
+        Gravitational parameter of the mass, m3 s-2.
     position : ndarray, shape (3, ...)
         From the body to the mass, m.
     axis : ndarray, shape (3, ...)
@@ -53,7 +53,7 @@ def zonal_torque(
 def zonal_law(
     coefficients: Mapping[int, float], radius: float, gm: float, position: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
-    """Torque of a mass on several zonal harmonics, made ready for many directions of the axis.
+    """Torque of a mass on several zonal harmonics, as a function of the direction of the axis.
 
     Parameters
     ----------
@@ -65,7 +65,8 @@ def zonal_law(
     Returns
     -------
     callable
-        From unit vectors of the figure axis, shape (3, ...), to the torque per unit of M a2, s-2.
+        Function of unit vectors of the figure axis, shape (3, ...), that returns the torque per
+        unit of M a2, s-2.
     """
     distance = np.sqrt(dot(position, position))
     direction = position / distance

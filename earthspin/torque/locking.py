@@ -1,8 +1,8 @@
-"""Spins that are locked to an orbit: there an average over orbits without resonance terms fails.
+"""Spin-orbit resonances, for which an average over orbits without resonance terms fails.
 
-A body that turns p/2 times in each orbit (the Moon once, Mercury one and a half times) shows the
-same face at the same place of each orbit. The torque on the ellipse of its equator then does not
-average out, and what it adds is as large as what is left.
+A body that rotates p/2 times per orbit (the Moon once, Mercury one and a half times) has the same
+orientation at the same position of each orbit. The torque on its equatorial ellipticity then does
+not average to zero, and is as large as the mean torque on the bulge.
 """
 
 from __future__ import annotations
@@ -12,28 +12,29 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: Half-turns in an orbit up to which a spin may be locked, and how near it then is to the ratio.
-#: Over `ORBITS` an eccentricity of 0.2 shifts the mean angle by less than half of this.
+#: Largest number of half turns per orbit of a resonance, tolerance of the ratio, and number of
+#: orbits. Over `ORBITS` an eccentricity of 0.2 changes the mean ratio by less than half of the
+#: tolerance.
 MOST_HALF_TURNS, CLOSENESS, ORBITS = 6, 0.01, 20
-#: Bodies that turn faster than this are far from any lock with what takes days to go round, s.
+#: Rotation period, s, below which a body is far from resonance with orbits of days or longer.
 SLOW = 5 * 86400.0
 
 
 def locked_ratio(
     times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
 ) -> float | None:
-    """Turns of a body in an orbit if its spin is locked, None if it is not.
+    """Rotations per orbit if the spin is in resonance with the orbit, otherwise None.
 
     Parameters
     ----------
     times : ndarray, shape (n,)
-        s, a small part of an orbit apart, over some 20 orbits.
+        Times, s, with a spacing much shorter than the orbit, over about 20 orbits.
     position : ndarray, shape (n, 3)
-        From the body to what it is locked to.
+        From the body to the other body.
     axis : ndarray, shape (3,)
-        Unit vector of the spin, in the same axes.
+        Unit vector of the spin, in the same frame.
     spin_rate : float
-        rad/s, not negative: about that axis.
+        rad/s, not negative, about that axis.
     """
     across = np.cross(axis, position[0])
     first, second = np.cross(across, axis), across
@@ -45,14 +46,14 @@ def locked_ratio(
 
 
 def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
-    """Turns of a body in an orbit if its spin is locked, None if it is not.
+    """Rotations per orbit if the spin is in resonance with a mean motion, otherwise None.
 
     Parameters
     ----------
     spin_rate : float
         rad/s.
     mean_motion : float
-        Of the orbit about the axis of the spin, rad/s; negative if it goes the other way.
+        Mean motion of the orbit about the spin axis, rad/s; negative if retrograde.
     """
     ratio = spin_rate / mean_motion
     half_turns = round(2 * ratio)

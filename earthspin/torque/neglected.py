@@ -1,8 +1,8 @@
-"""How large the torques are that a bulge alone leaves out: J3, J4 and the equator's ellipse.
+"""Bounds on torques that a J2 model neglects: J3, J4 and the ellipticity of the equator.
 
 The torque on J_n is (G M m / r) J_n (a/r)^n P_n'(u) times the sine of the angle from the axis
-(`torque.harmonics`); that on the ellipse of the equator is at most 3/2 G m (B - A) / r3, about the
-axis.
+(`torque.harmonics`); the torque on the equatorial ellipticity is at most 3/2 G m (B - A) / r3,
+about the axis.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ def largest_torque_on_figure(
     zonal: Mapping[int, float],
     triaxiality: float,
 ) -> dict[str, float]:
-    """Bound the torques on what a model with J2 alone leaves out.
+    """Bounds on the torques that a model with only J2 neglects.
 
     Parameters
     ----------
     pulls : sequence of (gm, distance)
-        Of each perturber, m3 s-2 and m at its nearest.
+        Of each perturber, m3 s-2 and smallest distance, m.
     mass, radius : float
-        Of the body, kg and m.
+        Mass and equatorial radius of the body, kg and m.
     zonal : mapping of int to float
         J3 and J4.
     triaxiality : float
@@ -36,14 +36,14 @@ def largest_torque_on_figure(
     Returns
     -------
     dict of str to float
-        By effect, N m; effects of size zero are left out.
+        By effect, N m; effects of size zero are omitted.
     """
     moment = mass * radius * radius
-    found = {
+    torques = {
         f"j{n}": sum(
             gm / r**3 * moment * abs(j) * (radius / r) ** (n - 2) * _STEEPEST[n] for gm, r in pulls
         )
         for n, j in zonal.items()
     }
-    found["triaxiality"] = sum(1.5 * gm / r**3 * moment * triaxiality for gm, r in pulls)
-    return {effect: size for effect, size in found.items() if size}
+    torques["triaxiality"] = sum(1.5 * gm / r**3 * moment * triaxiality for gm, r in pulls)
+    return {effect: size for effect, size in torques.items() if size}

@@ -1,13 +1,13 @@
-"""The tide of many masses as one tensor, and the torque that it exerts on a bulge (I.9.34).
+"""Tidal tensor of all perturbers, and its torque on a bulge (I.9.34).
 
-With Q = sum GM r r^T / r^5 over everything that pulls, the torque per unit of C on a body
-whose figure axis is F is exactly
+With Q = sum of GM r r^T / r^5 over all perturbers, the torque per unit of C on a body with the
+figure axis F is exactly
 
     N / C = 3 H (Q F) x F
 
-to the leading order in the size of the body over the distance. Q depends on the sky alone,
-so that it is made once and serves any H, spin, or direction of the axis. Vectors are
-component first here, shape (3, ...): long rows are what numpy is fast on.
+to the leading order in the size of the body over the distance. Q depends only on the positions of
+the perturbers, so it is computed once for any H, spin, or direction of the axis. Vectors have the
+component axis first, shape (3, ...), because numpy is fast on long rows.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 
 
 def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
-    """Sum of GM r r^T / r^5 over masses.
+    """Tidal tensor: sum of GM r r^T / r^5 over masses.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
     for row, first, second, third in zip(
         result, (xx, xy, xz), (xy, yy, yz), (xz, yz, zz), strict=True
     ):
-        np.multiply(first, x, out=row)  # rows are filled in place: fresh memory costs more
+        np.multiply(first, x, out=row)  # in place, because allocation is slower
         row += second * y
         row += third * z
     return result
@@ -85,12 +85,12 @@ def dot(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
-    """Torque per unit of C - A, s-2, on a body whose figure axis is `axis`.
+    """Torque per unit of C - A on a body with a given figure axis, s-2.
 
     Parameters
     ----------
     tensor : ndarray, shape (6, ...)
-        As `tidal_tensor` gives it.
+        Output of `tidal_tensor`.
     axis : ndarray, shape (3, ...)
         Unit vectors.
     """

@@ -1,4 +1,4 @@
-"""From mean torques to rates and periods of precession, each with its error.
+"""Rates and periods of precession from mean torques, with their errors.
 
 With N the torque per unit of C - A, k the axis and n the normal of the orbit,
 
@@ -6,9 +6,9 @@ With N the torque per unit of C - A, k the axis and n the normal of the orbit,
 
 where the mean is that of `earthspin.torque.average.precessing_torque`,
 
-so the rate needs H alone, not C and C - A apart, and not G. The torque itself needs C - A,
-hence the mass in kilograms, hence G, which is known to 2e-5 only. The formulas are plain
-arithmetic and take labelled arrays: ten thousand bodies with different H are one call.
+so the rate depends on H but not on C and C - A separately, nor on G. The torque depends on C - A,
+hence on the mass in kilograms and on G, which is known to 2e-5 only. The functions accept labelled
+arrays, such as ten thousand bodies with different H.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def torque_estimate(
 
 
 def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
-    """Rate of precession in longitude, rad/s; positive westward, as the Earth's is.
+    """Rate of precession in longitude, rad/s; positive westward, as for the Earth.
 
     Parameters
     ----------
@@ -81,39 +81,39 @@ def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Nume
 
 
 def period(rate: Numeric) -> Numeric:
-    """Time for one turn, in the unit of time of the rate (radians); infinite at rest."""
+    """Period in the time unit of the rate (rad per unit); infinite for rate zero."""
     with np.errstate(divide="ignore"):
         return 2 * math.pi / np.abs(rate)
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period, to first order; infinite at rest, NaN where none is given."""
+    """Half-width of the period, to first order; infinite for rate zero, else NaN if unknown."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        # fmax takes the other where 0/0 leaves no number, so that infinity stays infinity
+        # fmax ignores the NaN of 0/0, so that an infinite period has an infinite half-width
         relative = np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
         return period(rate) * np.maximum(relative, np.minimum(rate_error, 0.0))
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:
-    """Each rate over that of the first; 1 where they are equal, be they both nothing."""
+    """Ratio of each rate to the first; 1 if they are equal, including zero."""
     first = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(precessing == first, 1.0, precessing / first)
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
-    """Relative standard uncertainties of several pulls' GM, and of the pulls' total.
+    """Relative standard uncertainties of several torques due to GM, and of their total.
 
     Parameters
     ----------
     precessing : ndarray, shape (perturber, ...) or (perturber + 1, ...)
-        The pulls, and their total where there are several.
+        The precessing torques, and their total if there are several.
     u_gm : sequence of float, shape (perturber,)
 
     Returns
     -------
     ndarray
-        Of the same shape as the pulls.
+        Of the same shape as `precessing`.
     """
     u = np.reshape(np.asarray(u_gm, dtype=float), (-1, *(1,) * (precessing.ndim - 1)))
     each = np.broadcast_to(u, (u.size, *precessing.shape[1:]))
@@ -126,13 +126,13 @@ def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
 
 
 def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
-    """95 % half-width of a product from the relative standard uncertainties of its factors."""
+    """95 % half-width of a product, from the relative standard uncertainties of its factors."""
     variance = sum(u * u for u in relative_uncertainties)
     return NORMAL_95 * np.abs(value) * np.sqrt(variance)
 
 
 def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float:
-    """Mean precessing torque for a circular orbit in the plane of reference, closed form, s-2.
+    """Mean precessing torque for a circular orbit in the reference plane, in closed form, s-2.
 
     Parameters
     ----------
@@ -147,19 +147,19 @@ def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float
 
 
 def left_for_method(asked: float, *relative_uncertainties: float) -> float:
-    """Largest relative error of averaging with which the whole stays within what is asked.
+    """Largest relative error of averaging for which the total error stays within a limit.
 
     Parameters
     ----------
     asked : float
-        Relative half-width of 95 %.
+        Limit of the total error, as a relative 95 % half-width.
     *relative_uncertainties : float
-        One standard deviation of each number that the rate is proportional to.
+        Relative standard deviation of each factor of the rate.
 
     Returns
     -------
     float
-        0 where the numbers alone take more.
+        0 if the uncertainties of the numbers alone exceed the limit.
     """
-    taken = half_width(1.0, *relative_uncertainties)
-    return math.sqrt(max(asked**2 - taken**2, 0.0))
+    half_width_of_numbers = half_width(1.0, *relative_uncertainties)
+    return math.sqrt(max(asked**2 - half_width_of_numbers**2, 0.0))

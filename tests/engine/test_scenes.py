@@ -42,7 +42,7 @@ WRONG = [
     ({"compute": "wobble", "accuracy": 1e-3}, "no such key"),
     ({"compute": "pole", "effects": ["plants"]}, "did you mean 'planets'"),
     ({"compute": "precession", "effects": ["planets"]}, "no such key"),
-    ({"compute": "torque", "body": {"mass": "-1 kg"}}, "mass is zero or more"),
+    ({"compute": "torque", "body": {"mass": "-1 kg"}}, "mass must be zero or more"),
     ({"compute": "torque", "body": {"mas": "6 kg"}}, "did you mean 'mass'"),
     ({"compute": "torque", "body": {"moments": ["1 kg m2", "1 kg m2", "3 kg m2"]}}, "C cannot"),
     ({"compute": "free-rotor", "rotor": 3}, "it is a table"),

@@ -68,7 +68,7 @@ test_grids_that_cannot_be = refused(
     (([[[0.0]]], EDGE, EDGE, EDGE), BodyError, r"density = 0\.0.*at least one cell"),
     (([[[np.nan]]], EDGE, EDGE, EDGE), BodyError, "density = nan"),
     (([[[1.0]]], [0.0, 1.0, 2.0], EDGE, EDGE), UndefinedError, r"make \(2, 1, 1\) cells"),
-    (([[[1.0]]], EDGE, [1.0, 0.0], EDGE), UndefinedError, "edges along y do not rise"),
+    (([[[1.0]]], EDGE, [1.0, 0.0], EDGE), UndefinedError, "edges along y do not increase"),
     (([[[1.0]]], EDGE, EDGE, EDGE, 0), UndefinedError, "points = 0"),
     call=lambda arguments: grid_masses(*arguments),
 )

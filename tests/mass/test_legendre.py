@@ -68,7 +68,7 @@ def test_a_step_needs_its_break_named() -> None:
 
 
 def test_a_function_that_cannot_be_integrated_says_so() -> None:
-    with pytest.raises(AccuracyError, match="name the jumps"):
+    with pytest.raises(AccuracyError, match="list the discontinuities"):
         legendre.legendre_coefficients(lambda z: float(np.sign(np.sin(1 / (z + 1e-9)))), 3)
 
 

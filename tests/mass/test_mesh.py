@@ -52,9 +52,9 @@ TURNED = np.concatenate([FACES[:3], FACES[3:, ::-1]])
 
 
 test_what_encloses_no_solid_is_refused = refused(
-    (FACES[:3], "3 edges with a triangle on one side"),
-    (TURNED, "two turned against one another"),
-    (FACES[:, ::-1], "turned inside out"),
+    (FACES[:3], "3 edges with one triangle"),
+    (TURNED, "opposite orientation"),
+    (FACES[:, ::-1], "inside out"),
     (np.concatenate([FACES, FACES]), "an edge of more than two triangles"),
     (FACES + 1, "one of the 4 vertices, counted from 0"),
     (FACES - 1, "one of the 4 vertices, counted from 0"),

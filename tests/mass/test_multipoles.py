@@ -216,7 +216,7 @@ def test_a_ring_about_the_axis_is_zonal_up_to_its_count() -> None:
         (lambda s: s.potential([0.0, 0.0, 2.0]), r"exterior series.*r = 2 m.*beyond 3 m"),
         (lambda s: s.potential([[0, 0, 9.0], [3.0, 0, 0]]), r"r = 3 m"),
         (lambda s: s.truncation_bound([0.0, 1.0, 0.0]), r"r = 1 m"),
-        (lambda s: s.moment(5, 0), r"n = 5, m = 0 is not there; allowed: n to 4"),
+        (lambda s: s.moment(5, 0), r"n = 5, m = 0 is not stored; allowed: n to 4"),
         (lambda s: s.moment(2, 3), "n = 2, m = 3"),
     ],
 )
@@ -246,7 +246,7 @@ test_wrong_input = refused(
     (
         lambda: multipoles.exterior_multipoles(1.0, [[2.0, 0, 0]], 2, radius=1.0),
         UndefinedError,
-        "radius = 1 m does not hold the mass at 2 m",
+        "radius = 1 m does not contain the mass at 2 m",
     ),
     (lambda: multipoles.exterior_multipoles(1.0, [[0.0, 0, 0]], 2), UndefinedError, "radius = 0 m"),
     (

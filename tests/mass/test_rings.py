@@ -169,6 +169,6 @@ test_wrong_input = refused(
     (
         lambda: rings.torque_on_masses(1.0, [1.0, 0, 0], 1.0, [[1.0, 0, 0], [-1.0, 0, 0]]),
         UndefinedError,
-        "stands on one of the masses",
+        "coincides with one of the masses",
     ),
 )

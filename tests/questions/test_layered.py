@@ -151,7 +151,7 @@ def test_an_earth_of_other_layers_keeps_its_sea() -> None:
 test_what_has_no_layers_is_told_in_one_line = refused(
     (lambda: EARTH.replace(interior=3), "give a name"),
     (lambda: earthspin.Body(name="x", gm=1.0, interior=3), "a table of layers or samples"),
-    (lambda: EARTH.replace(interior={"layers": []}), "grow from the centre"),
+    (lambda: EARTH.replace(interior={"layers": []}), "centre outwards"),
     (lambda: earthspin.love_numbers(body=EARTH.replace(interior="permm")), "'prem'"),
     (lambda: earthspin.nutation_ladder(body=EARTH.replace(interior=CORES)), "another mass"),
     (lambda: earthspin.love_numbers(body="mars"), "published numbers, but no layers"),
@@ -166,7 +166,7 @@ test_what_is_no_layered_body_is_one_line = refused(
     ({"name": "none"}, "either layers or samples"),
     ({"layers": [{"top": "1 km"}]}, "top, density, vp"),
     ({"layers": [{**TWO[0], "rho": 3}]}, "a layer has"),
-    ({"layers": TWO[::-1]}, "grow from the centre"),
+    ({"layers": TWO[::-1]}, "centre outwards"),
     ({"samples": {"radius": [0, 1]}}, "columns of one length"),
     ({"samples": {"radius": [1, 2], "density": [1, 1], "vp": [1, 1], "vs": [1, 1]}}, "at 0"),
     call=earthspin.love_numbers,

@@ -167,7 +167,7 @@ def test_speed_and_cone_at_the_ends() -> None:
         speed_and_cone(1.0, 0.5, 1.0, 2.0)
     with pytest.raises(UndefinedError, match="sphere"):
         speed_and_cone(1.0, 0.0, 1.0, 1.0)
-    with pytest.raises(UndefinedError, match="do not tell alpha"):
+    with pytest.raises(UndefinedError, match="do not determine alpha"):
         speed_and_cone(1.0, 0.0, 0.5, 1.0)
 
 
@@ -223,7 +223,7 @@ def test_a_value_outside_its_range_is_named(values: Any, words: str) -> None:
 
 
 def test_no_cone_has_no_rate() -> None:
-    with pytest.raises(UndefinedError, match="without a cone"):
+    with pytest.raises(UndefinedError, match="there is no cone"):
         wobble_rate_of_cones(1.0, 0.0, 0.0)
 
 

@@ -66,9 +66,9 @@ def test_a_leaf_is_a_body_in_spite_of_rounding() -> None:
         ([1.0, 2.0, 3.1], ["C = 3.1", "1 + 2"]),
         ([3.1, 2.0, 1.0], ["A = 3.1", "2 + 1"]),
         ([[1.0, 1.0, 1.0], [1.0, 5.0, 1.0]], ["B = 5.0", "1 + 1"]),
-        ([1.0, 2.0, -1.0], ["C = -1.0", "above zero"]),
-        ([0.0, 1.0, 1.0], ["A = 0.0", "above zero"]),
-        ({"A": 1.0, "B-A": -2.0, "C-A": 0.0}, ["B = -1.0", "above zero"]),
+        ([1.0, 2.0, -1.0], ["C = -1.0", "must be positive"]),
+        ([0.0, 1.0, 1.0], ["A = 0.0", "must be positive"]),
+        ({"A": 1.0, "B-A": -2.0, "C-A": 0.0}, ["B = -1.0", "must be positive"]),
         ({"A": 1.0, "B-A": 0.0, "C-A": 1.1}, ["C = 2.1", "1 + 1"]),
         ([1.0, 1.0, np.nan], ["moments = nan", "finite"]),
         ({"A": 1.0, "B-A": np.inf, "C-A": 0.0}, ["B-A = inf", "finite"]),
@@ -76,7 +76,7 @@ def test_a_leaf_is_a_body_in_spite_of_rounding() -> None:
         ([1.0, 2.0], ["shape of moments = (2,)", "three numbers"]),
         (1.0, ["shape of moments = ()", "three numbers"]),
         (["1", "2", "x"], ["'x'", "give numbers"]),
-        ({"A": np.ones(2), "B-A": np.zeros(3), "C-A": 0.0}, ["(2,), (3,)", "go together"]),
+        ({"A": np.ones(2), "B-A": np.zeros(3), "C-A": 0.0}, ["(2,), (3,)", "broadcast together"]),
     ],
 )
 def test_an_impossible_body_is_named(given_moments: Any, words: list[str]) -> None:

@@ -87,5 +87,5 @@ def test_times_between_steps_lie_on_the_same_path() -> None:
 def test_members_that_precess_at_other_rates_are_refused() -> None:
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
     starts = np.stack([leaning(0.4, normal), leaning(1.4, normal)], axis=1)
-    with pytest.raises(UndefinedError, match="like obliquity"):
+    with pytest.raises(UndefinedError, match="similar obliquity"):
         solve_many(earths(), EARTHS, starts, TIMES)

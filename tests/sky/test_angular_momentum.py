@@ -43,9 +43,9 @@ def test_one_file(file: Path) -> None:
     ("old", "new", "message"),
     [
         ("3.0e-07  1.0e-08 -2.0e-08 0.0\n 2000  1  1  6", "\n 2000  1  1  6", "7 columns"),
-        ("  3  51544.125", "  3  51544.200", "line 3: MJD 51544.20 stands beside"),
-        (" 51544.125", " 151544.125", "line 3: MJD 151544.1. stands beside"),
-        (" 51544.125", " nan", "line 3: MJD nan stands beside"),
+        ("  3  51544.125", "  3  51544.200", "line 3: MJD 51544.20 differs from the calendar"),
+        (" 51544.125", " 151544.125", "line 3: MJD 151544.1. differs from the calendar"),
+        (" 51544.125", " nan", "line 3: MJD nan differs from the calendar"),
         ("  1  3  51544.125", "  1  2  51544.08333", "line 3: the step changes before MJD"),
         ("  1  3  51544.125", "  1 12  51544.500", "line 4: .*time runs backwards"),
         (" 2000  1  1  6  51544", " x000  1  1  6  51544", "line 4: 1 line among the rows"),
@@ -156,7 +156,7 @@ def test_what_does_not_fit_together(folder: Path) -> None:
     with pytest.raises(SeriesError, match=r"step changes .* is a file missing"):
         read_angular_momentum(folder, ["AAM"])
     (folder / "notes.txt").write_text("")
-    with pytest.raises(SeriesError, match="does not tell its component"):
+    with pytest.raises(SeriesError, match="does not contain its component"):
         read_angular_momentum(folder)
     with pytest.raises(SeriesError, match="No such file"):
         read_angular_momentum(folder / "none")

@@ -167,7 +167,7 @@ def test_finals_with_another_calendar(file: Path) -> None:
     file.write_text("\n".join(rows))
     assert eop.read_polar_motion(file, "finals2000A").mjd[0] == 41684
     file.write_text("\n".join([*rows[:99], "73 4 1" + rows[99][6:], *rows[100:]]))
-    with pytest.raises(SeriesError, match=r"line 100: MJD .* beside the calendar's"):
+    with pytest.raises(SeriesError, match=r"line 100: MJD .* differs from the calendar date"):
         eop.read_polar_motion(file)
 
 
@@ -259,7 +259,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
         ),
         (
             below(lambda row: row.replace(row[16:26], f"{float(row[16:26]) + 1e5:10.2f}", 1)),
-            r"line 7: MJD 137665.00 stands beside the calendar's date of MJD 37665",
+            r"line 7: MJD 137665.00 differs from the calendar date, MJD 37665",
         ),
         (
             at(36, lambda row: row[:4] + "   2  30" + row[12:]),

@@ -167,7 +167,7 @@ def test_the_error_is_read_between_the_middles_of_windows() -> None:
 
 
 def test_a_table_needs_the_ending_that_numpy_gives(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"ends in \.npz"):
+    with pytest.raises(OutputError, match=r"end in \.npz"):
         table("mars").to_file(tmp_path / "mars.txt")
     with pytest.raises(OutputError, match="cannot be written"):
         table("mars").to_file(tmp_path / "no" / "mars.npz")

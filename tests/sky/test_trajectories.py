@@ -177,7 +177,9 @@ def test_with_an_accuracy_a_kernel_is_enough(kernel: SpiceKernel) -> None:
 
 def test_a_live_object_is_not_run_again_silently(orbit: VectorFunction) -> None:
     found = series("sun", Body(name="comet", gm=1e5, position=orbit))
-    with pytest.raises(earthspin.SceneError, match=r"C/X.*a live object, which no scene can hold"):
+    with pytest.raises(
+        earthspin.SceneError, match=r"C/X.*a Python object, which a scene cannot store"
+    ):
         earthspin.run(found)
 
 
@@ -220,7 +222,7 @@ test_what_is_no_place = refused(
             {"kernel": "de421", "centre": 0, "target": 3},
             {"kernel": "de421", "centre": 0, "target": 5},
         ],
-        "each segment starts where one ended",
+        "each segment must start where the previous",
     ),
     call=lambda position: SUN.replace(position=position),
     kind=earthspin.SceneError,

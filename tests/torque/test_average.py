@@ -170,5 +170,5 @@ def test_precessing_torque_against_a_small_turn(tilt: float, node: float, turn: 
 def test_an_upright_axis_has_no_longitude() -> None:
     up = np.array([0.0, 0.0, 1.0])
     for axis in (up, -up):
-        with pytest.raises(UndefinedError, match="upright"):
+        with pytest.raises(UndefinedError, match="normal to the orbit"):
             precessing_torque(np.ones((1, 3)), axis, up)

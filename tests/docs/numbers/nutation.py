@@ -167,7 +167,7 @@ MEASURED = [
     Sentence(PAGE, "would have it: $H$ {} % too small", h_too_small),
     Sentence(
         PAGE,
-        "its own nutation comes out at {} d |",
+        "its free core nutation comes out at {} d |",
         partial(hydrostatic, "free_core_nutation", "core-in-rigid-mantle"),
     ),
     Sentence(
