@@ -149,6 +149,11 @@ class PoleSeries:
         """Spacing, d."""
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
 
+    @property
+    def offsets(self) -> NDArray[np.complex128]:
+        """Celestial pole offsets as dX + i dY, rad, shape (n,)."""
+        return np.asarray(self.x + 1j * self.y)
+
     def between(self, first: float, last: float) -> PoleSeries:
         """Part of it, both dates included.
 
