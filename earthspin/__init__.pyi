@@ -271,6 +271,17 @@ def polar_motion(
     method: Literal["burg", "likelihood", "least-squares"] | None = ...,
     window: Value | None = ...,
 ) -> xr.Dataset: ...
+def pole_offsets(
+    *,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    span: tuple[Date, Date] | SkyfieldTime | None = ...,
+    file: str | PathLike[str] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
+    window: Value | None = ...,
+) -> xr.Dataset: ...
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
@@ -381,6 +392,7 @@ __all__ = [
     "polar_motion",
     "polar_motion_from",
     "pole",
+    "pole_offsets",
     "precession",
     "read",
     "read_excitation",
