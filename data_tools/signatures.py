@@ -1,14 +1,12 @@
 """Signatures of the public calls, for editors and type checkers, and the index of the reference.
 
-``python -m data_tools signatures`` writes earthspin/__init__.pyi, and the lists of calls and views
-in docs/reference/index.md, from the classes of the questions.
+``python -m data_tools signatures`` writes earthspin/__init__.pyi, and the list of questions in
+docs/reference/index.md, from the classes of the questions.
 """
 
 from __future__ import annotations
 
 import argparse
-import inspect
-from collections.abc import Iterable
 from pathlib import Path
 
 import earthspin
@@ -62,26 +60,11 @@ def signatures() -> str:
 
 
 def index() -> str:
-    """Text of the index of the reference: first the questions, then all other calls."""
-    calls = [question.call for question in QUESTIONS.values()]
-    names = [
-        name
-        for name in earthspin.__all__
-        if inspect.isfunction(getattr(earthspin, name)) and name != "Scene"
-    ]
-    views = [f"views.{question.views}" for question in QUESTIONS.values()]
+    """Text of the index of the reference, with the calls of all questions."""
     text = INDEX.read_text(encoding="utf-8")
-    text = _listed(text, "Calls", [*calls, *(name for name in names if name not in calls)])
-    return _listed(text, "Views", ["views.of_question", *views])
-
-
-def _listed(text: str, heading: str, names: Iterable[str]) -> str:
-    """A page with other names in the list under a heading."""
-    before, _, rest = text.partition(f"\n## {heading}\n")
-    head, _, tail = rest.partition("   :toctree: generated\n\n")
-    after = tail[tail.index("```") :]
-    listed = "".join(f"   {name}\n" for name in names)
-    return f"{before}\n## {heading}\n{head}   :toctree: generated\n\n{listed}{after}"
+    before, mark, rest = text.partition("   :toctree: generated\n\n")
+    calls = "".join(f"   {question.call}\n" for question in QUESTIONS.values())
+    return f"{before}{mark}{calls}{rest[rest.index('```') :]}"
 
 
 def _definition(question: type[Question]) -> list[str]:

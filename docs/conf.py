@@ -5,7 +5,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
+from jupyter_client.connect import ConnectionFileMixin
+
 import earthspin
+
+# Kernels are spoken to through files instead of ports, about which each would warn.
+ConnectionFileMixin.transport.default_value = "ipc"
 
 project = "earthspin"
 author = "the earthspin developers"
@@ -64,6 +69,8 @@ sphinx_gallery_conf = {
 }  # fmt: skip
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "attrs_block"]
 nb_execution_mode = "force"
+# {eval} on a page takes any expression, so that a page formats its own numbers.
+nb_eval_name_regex = r"^[^`]+$"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_merge_streams = True
@@ -80,14 +87,5 @@ def keep_absolute_values(app, what, name, obj, options, lines):
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
-def described_elsewhere(app, what, name, obj, skip, options):
-    """Leave out of a module's page what has a page of its own in the reference."""
-    own = Path(app.srcdir) / "reference" / "generated" / f"earthspin.{name}.rst"
-    if what == "module" and own.exists() and getattr(earthspin, name, None) is obj:
-        return True
-    return None
-
-
 def setup(app):
     app.connect("autodoc-process-docstring", keep_absolute_values, priority=900)
-    app.connect("autodoc-skip-member", described_elsewhere)

@@ -1,13 +1,14 @@
-"""How an oblate, spinning body answers to what pulls on it.
+"""Precession, nutation and Chandler wobble of the Earth and other bodies, with errors.
 
-Public names are handed on when they are first used, so that importing the package costs
-nothing and a question loads only what it needs.
+A module is imported when one of its public names is first used, so that importing the package
+costs nothing and a question loads only what it needs.
 """
 
 from __future__ import annotations
 
 from importlib import import_module as _import_module
 
+from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
 
 #: Every question by its public call, in the order in which they are listed, and the module of each.
@@ -74,11 +75,11 @@ __all__ = ["__version__", *sorted(_MODULE_OF)]
 
 
 def __getattr__(name: str) -> object:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'earthspin' has no attribute '{name}'")
-    value = getattr(_import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
+    if name in _MODULE_OF:
+        value = getattr(_import_module(_MODULE_OF[name]), name)
+        globals()[name] = value
+        return value
+    return _submodule(__name__, name)
 
 
 def __dir__() -> list[str]:

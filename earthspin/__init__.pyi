@@ -68,9 +68,6 @@ from earthspin._version import __version__ as __version__
 
 def precession(
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -82,15 +79,15 @@ def precession(
     source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     accuracy: Pure | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def torque_series(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -103,15 +100,15 @@ def torque_series(
     times: Dates | None = ...,
     equator: Literal["mean", "true"] | None = ...,
     accuracy: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def pole(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -133,15 +130,15 @@ def pole(
     | None = ...,
     response: Literal["fitted", "predicted"] | None = ...,
     accuracy: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def compare_iau(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -161,15 +158,15 @@ def compare_iau(
         ]
     ]
     | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def nutation_ladder(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -191,15 +188,15 @@ def nutation_ladder(
     | None = ...,
     coupling: Literal["none", "inferred"] | None = ...,
     anelastic_exponent: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def long_term(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -217,15 +214,15 @@ def long_term(
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
     accuracy: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def rotation(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     perturbers: Body
     | str
@@ -249,57 +246,61 @@ def rotation(
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
     accuracy: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def wobble_ladder(
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     ocean: Literal["real", "global", "none"] | None = ...,
     anelastic_exponent: Value | None = ...,
-) -> xr.Dataset: ...
-def polar_motion(
-    *,
+    k2: Value | None = ...,
+    core_fraction: Value | None = ...,
+    core_ellipticity: Value | None = ...,
+    ocean_love_number: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
+) -> xr.Dataset: ...
+def polar_motion(
+    *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     method: Literal["burg", "likelihood", "least-squares"] | None = ...,
     window: Value | None = ...,
-) -> xr.Dataset: ...
-def pole_offsets(
-    *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
+) -> xr.Dataset: ...
+def pole_offsets(
+    *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     window: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
     times: Values | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
     accuracy: Pure | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def heavy_top(
     times: Values | None = ...,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     duration: Value | None = ...,
     points: int | None = ...,
     transverse_moment: Value,
@@ -312,16 +313,19 @@ def heavy_top(
     phi: Value | None = ...,
     psi: Value | None = ...,
     accuracy: Pure | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def spheroid_field(
     position: Values,
     *,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     accuracy: Pure | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
 ) -> xr.Dataset: ...
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
@@ -335,19 +339,19 @@ def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     period: Value | None = ...,
     *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
-    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    anelastic_exponent: Value | None = ...,
 ) -> xr.Dataset: ...
 def compliances(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
-    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
 ) -> xr.Dataset: ...
 
 __all__ = [

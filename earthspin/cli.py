@@ -13,8 +13,9 @@ from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+import earthspin
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError, MissingExtraError, SceneError, printable
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
 from earthspin.process import CHECK_FAILED, RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
@@ -22,21 +23,21 @@ if TYPE_CHECKING:
 
     Command = Callable[[Namespace], int | None]
 
-#: Pages to play with.
+#: Interactive pages.
 PAGES = ("precession", "rotor", "top", "wobble")
 
-#: What the command says that is given alone; a line has at most 80 characters.
+#: Printed by the command without arguments; a line has at most 80 characters.
 WELCOME = """\
-earthspin: how an oblate, spinning body answers to what pulls on it.
+earthspin: precession, nutation and wobble of spinning bodies, with errors.
 
-Three to begin with:
+Start with:
   earthspin report --open     the precession of the Earth, with a page to read
-  earthspin play top --open   a heavy top, to play with
-  earthspin run torque        the pull of Sun and Moon through a year
+  earthspin play top --open   a heavy top with sliders
+  earthspin run torque        torques of Sun and Moon in a year
 
-And then:
-  earthspin scenes            what else is there to run
-  earthspin keys QUESTION     what can be changed, as in: keys precession
+More:
+  earthspin scenes            list of the shipped scenes
+  earthspin keys QUESTION     inputs of a question, such as: keys precession
   earthspin --help            all commands
 """
 
@@ -96,8 +97,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> ArgumentParser:
-    words = "How an oblate, spinning body answers to what pulls on it."
-    parser = _Parser(prog="earthspin", description=words)
+    parser = _Parser(prog="earthspin", description=(earthspin.__doc__ or "").split("\n")[0])
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
     parser.set_defaults(command=_welcome)
     commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
@@ -138,8 +138,9 @@ def _parser() -> ArgumentParser:
     add("--open", **opens)
 
     add = of_scene("run", _run, "run a scene").add_argument
-    words = "folder for a page and the data, or a .nc or .zarr file"
+    words = "folder for a page and the data, or a .nc, .zarr or .csv file"
     add("--out", metavar="DIR|FILE", help=words)
+    add("--plan", **flag, help="print the parts that ran, and their run times")
     add("--json", **flag, help="print the result as JSON")
     words = sections("none on the screen, all with --out")
     add("--sections", metavar="NAMES|all", help=words)
@@ -236,8 +237,12 @@ def _run(options: Namespace) -> None:
     data = page = None
     if options.out is not None:
         data, name = Path(options.out), Path(options.scene).stem
+        if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
+            raise OutputError(data, "unknown suffix", "give a folder, or a .nc, .zarr or .csv file")
+        if data.suffix == ".csv" and sections is not None:
+            raise SceneError("--sections", options.sections, "a .csv file has the answer alone")
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
-        if data.suffix not in (".nc", ".zarr"):
+        if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"
         drafts.check_writable(Path(options.out) if page else data.parent)
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
@@ -245,9 +250,13 @@ def _run(options: Namespace) -> None:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             _print_written(write_series(question, long))
             return
-        sections = "all" if sections is None else sections
+        if sections is None and data.suffix != ".csv":
+            sections = "all"
     tree = run_tree(question, sections or ())
-    if data is not None:
+    if data is not None and data.suffix == ".csv":
+        with drafts.replacing(data) as draft:
+            tree.to_dataset().earthspin.to_frame().to_csv(draft, index=False)
+    elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
         from earthspin.views import of_question
@@ -260,7 +269,7 @@ def _run(options: Namespace) -> None:
 
             write_json(tree, sys.stdout)
         else:
-            of_question.print_tables(tree)
+            of_question.print_tables(tree, with_plan=options.plan)
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")

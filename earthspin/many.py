@@ -75,7 +75,7 @@ def ensemble(
     25712.1 +/- 0.016 years
     """
     request = asked_of_members(load_scene(question), members, seed, impossible=impossible)
-    if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):
+    if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):  # type: ignore[redundant-expr]
         raise request.error("block", block, "give a whole number, 1 or more")
     if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")

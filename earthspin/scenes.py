@@ -425,14 +425,14 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Text of a scene, the file to name in messages, and a title."""
+    """Text of a scene, its place for messages, and a title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
         if text not in names:
             raise SceneError("scene", text, f"no such scene; {nearest(text, names)}, or a file")
         file = resources.files("earthspin") / "shipped" / f"{text}.toml"
-        return file.read_text(encoding="utf-8"), f"{text}.toml", text
+        return file.read_text(encoding="utf-8"), f"scene '{text}'", text
     path = Path(scene)
     if problem := no_plain_file(path):
         raise SceneError("scene", text, f"it cannot be read: {problem}")

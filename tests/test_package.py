@@ -107,8 +107,9 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
 
 # --- the architecture ----------------------------------------------------------------------------
 
-#: Folders that docs/architecture.md describes as a whole: one file an effect, a quantity, a world.
-AS_A_WHOLE = {"bodies", "motion/effects", "checks/ladders", "checks/cases"}
+#: Folders that docs/architecture.md describes as a whole: one file a question, an effect, a
+#: quantity, a world.
+AS_A_WHOLE = {"questions", "bodies", "motion/effects", "checks/ladders", "checks/cases"}
 
 
 def described() -> set[str]:

@@ -3,7 +3,7 @@
 In the course a formula with a label, ``$$ ... $$ (I.6.7)``, or the role ``{place}`I.6.7``` is
 the place of a number; on any page a number in brackets leads there. `equation-map` shows
 docs/equations.toml as tables that link each number to its place, its function and its test;
-`equation-tests` shows the tests themselves.
+`equation-code` shows the source of these functions or tests.
 """
 
 import ast
@@ -21,7 +21,7 @@ from sphinx.util.docutils import ReferenceRole, SphinxDirective
 from sphinx.util.nodes import make_refnode
 
 ROOT = Path(__file__).resolve().parents[2]
-MAP, TESTS_PAGE = "equations.toml", "equation_tests"
+MAP, CODE_PAGE = "equations.toml", "equation_code"
 NUMBER = re.compile(r"(?<=\()(I\.\d\.\d+[abc]?)(?=\))")
 COLUMNS = {"number": 13, "what": 38, "function": 25, "test": 24}  # widths, per cent
 
@@ -112,44 +112,58 @@ class EquationMap(SphinxDirective):
             reason = self.parse_inline(entry["why_not"], lineno=self.lineno)[0]
             row += cell(*reason, morecols=1, classes=["why-not"])
             return row
-        module, name = entry["function"].rsplit(".", 1)
-        function = reference("obj", f"{module}.{name}", nodes.literal("", name), here, "py")
-        page = self.env.app.builder.get_relative_uri(here, TESTS_PAGE)
-        test = nodes.reference(
-            "", in_words(entry["test"]), refuri=f"{page}#{test_anchor(entry['test'])}"
+        page = self.env.app.builder.get_relative_uri(here, CODE_PAGE)
+        function, test = (
+            nodes.reference("", "", words, refuri=f"{page}#{nodes.make_id(entry[kind])}")
+            for kind, words in (
+                ("function", nodes.literal("", entry["function"].rsplit(".", 1)[1])),
+                ("test", nodes.Text(in_words(entry["test"]))),
+            )
         )
         row += [cell(function), cell(test)]
         return row
 
 
-class EquationTests(SphinxDirective):
-    """The source of each test that the map names, by file."""
+class EquationCode(SphinxDirective):
+    """The source of each `function` or `test` that the map names, by file."""
+
+    required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
+        kind = self.arguments[0]
         self.env.note_dependency(MAP)
-        entries = read_map(self.env)["equation"]
-        named = sorted({entry["test"] for entry in entries if "test" in entry})
+        names = sorted({entry[kind] for entry in read_map(self.env)["equation"] if kind in entry})
         sections: list[nodes.Node] = []
-        for file, tests in groupby(named, key=lambda test: test.split("::")[0]):
+        for file, members in groupby(names, key=file_of):
             self.env.note_dependency(str(ROOT / file))
             section = nodes.section(ids=[nodes.make_id(file)])
-            section += nodes.title("", file.removeprefix("tests/"))
+            section += nodes.title("", file)
             source = (ROOT / file).read_text(encoding="utf-8")
-            for test in tests:
-                code = nodes.literal_block("", source_of(test, source), language="python")
-                section += nodes.rubric("", in_words(test), ids=[test_anchor(test)])
+            for name in members:
+                code = nodes.literal_block("", source_of(name, source), language="python")
+                title = in_words(name) if kind == "test" else name.rsplit(".", 1)[1]
+                section += nodes.rubric("", title, ids=[nodes.make_id(name)])
                 section += code
             sections.append(section)
         return sections
 
 
-def source_of(test: str, source: str) -> str:
-    """Return the lines of a test, its decorators included."""
-    name = test.split("::")[1]
+def file_of(name: str) -> str:
+    """Return the file of a test (``file::test``) or of a function (``module.function``)."""
+    if "::" in name:
+        return name.split("::")[0]
+    module = name.rsplit(".", 1)[0]
+    path = module.replace(".", "/")
+    return f"{path}.py" if (ROOT / f"{path}.py").exists() else f"{path}/__init__.py"
+
+
+def source_of(name: str, source: str) -> str:
+    """Return the lines of a function, a class or a test, its decorators included."""
     (node,) = (
         node
         for node in ast.parse(source).body
-        if isinstance(node, ast.FunctionDef) and node.name == name
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        and node.name == re.split(r"::|\.", name)[-1]
     )
     first = min(part.lineno for part in [node, *node.decorator_list])
     return "\n".join(source.splitlines()[first - 1 : node.end_lineno])
@@ -165,10 +179,6 @@ def short(number: str) -> str:
     return number if "exercise" not in number else number.split(": ")[0].split(" ", 1)[1]
 
 
-def test_anchor(test: str) -> str:
-    return nodes.make_id(test)
-
-
 def cell(*words: nodes.Node, **settings: Any) -> nodes.entry:
     return nodes.entry("", nodes.paragraph("", "", *words), **settings)
 
@@ -176,7 +186,7 @@ def cell(*words: nodes.Node, **settings: Any) -> nodes.entry:
 def setup(app: Sphinx) -> dict[str, bool]:
     app.add_role("place", Place())
     app.add_directive("equation-map", EquationMap)
-    app.add_directive("equation-tests", EquationTests)
+    app.add_directive("equation-code", EquationCode)
     app.connect("doctree-read", link_numbers)
     app.connect("missing-reference", to_the_place)
     return {"parallel_read_safe": True}

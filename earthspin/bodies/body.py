@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import InitVar, dataclass, field, fields
 from dataclasses import replace as _replace
 from functools import reduce
 from operator import and_
 from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
+
+import numpy as np
 
 from earthspin import constants as c
 from earthspin.bodies import sense
@@ -28,13 +30,14 @@ from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.sky.elements import Plane
 from earthspin.sky.pole_tables import Angles
-from earthspin.sky.poles import Direction, Pole, pole_of
+from earthspin.sky.poles import Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 
 #: What a table starts from that names every number of its body; and one whose figure follows from
 #: its layers.
 NOTHING, LAYERS = "nothing", "layers"
+_ONE_AXIS = "the pole already gives it; set one of pole and obliquity"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -102,6 +105,10 @@ class Body(FromMass):
         One standard deviation over value, by field name.
     reference : str
         Where the numbers come from.
+    obliquity : float
+        Instead of `pole`: angle from the normal of the orbit to the axis of spin, rad, 0 to pi. The
+        equinox stays where it is; that of a new body is the node of its orbit on the equator of the
+        ICRF. It is read, and kept as `pole`.
 
     Raises
     ------
@@ -147,6 +154,7 @@ class Body(FromMass):
         default_factory=dict
     )
     reference: Annotated[str, Text()] = ""
+    obliquity: InitVar[Any] = None
 
     words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
@@ -163,7 +171,11 @@ class Body(FromMass):
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         return super().__new__(cls)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, obliquity: Any) -> None:
+        if obliquity is not None:
+            if self.pole is not None:
+                raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
+            object.__setattr__(self, "pole", FixedPole(0.0, math.pi / 2))
         self._read_units()
         sense.check_kinds(self._fields(), self.UNITS)
         for name, read in (("pole", pole_of), ("orbit_pole", Direction.of)):
@@ -176,6 +188,23 @@ class Body(FromMass):
         if self.orbit is not None:
             self._read_orbit(self.orbit)
         sense.check_numbers(self._fields(), self.UNITS)
+        if obliquity is not None:
+            object.__setattr__(self, "pole", self._pole_at(obliquity))
+
+    def _pole_at(self, value: object) -> Pole:
+        """Pole at an obliquity, with the equinox of the present pole."""
+        angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
+        if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
+            raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
+        assert self.pole is not None
+        if self.orbit_pole is None:
+            allowed = "it is measured from the normal of the orbit: set orbit or orbit_pole"
+            raise BodyError(self.name, "obliquity", value, allowed)
+        if self.orbit is not None and self.orbit.plane == "equator":
+            allowed = "the orbit is given on the equator, which follows from it; choose a plane"
+            raise BodyError(self.name, "orbit.plane", "equator", allowed)
+        _, leaning, normal = self.pole.orbit_axes(self.orbit_pole)
+        return FixedPole.along(math.cos(angle) * normal + math.sin(angle) * leaning)
 
     def _fields(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in fields(self)}
@@ -427,9 +456,10 @@ class Body(FromMass):
         Parameters
         ----------
         **changes
-            Fields of `Body`, and besides ``mass`` (kg) for `gm`, and ``moments`` (three
-            principal moments, kg m2, the polar one last) for `j2`, `dynamical_flattening`
-            and `triaxiality`. `j2` given without `dynamical_flattening` keeps C / (M a2).
+            Fields of `Body`, and besides ``mass`` (kg) for `gm`, ``obliquity`` (rad) for `pole`,
+            and ``moments`` (three principal moments, kg m2, the polar one last) for `j2`,
+            `dynamical_flattening` and `triaxiality`. `j2` given without
+            `dynamical_flattening` keeps C / (M a2).
             Plain numbers are SI; text and Quantities carry their units (``"12 h"``).
 
         Raises
@@ -457,17 +487,37 @@ class Body(FromMass):
             if "gm" in changes:
                 raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
             changes["gm"] = c.G.value * changes.pop("mass")
+        obliquity = changes.pop("obliquity", None)
+        if obliquity is not None and changes.get("pole") is not None:
+            raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
         changes |= self._figure(changes)
-        if changes.get("orbit") is not None and self.orbit is not None:
-            changes = {"orbit_pole": None} | changes  # that of the orbit before
+        another_orbit = self.orbit is not None or obliquity is not None
+        if changes.get("orbit") is not None and another_orbit:
+            changes = {"orbit_pole": None} | changes  # the present one is that of the orbit before
         # A changed number is the user's own: what was known about the old one no longer holds.
         if "pole" in changes:
             changes.setdefault("pole_uncertainty", None)
         uncertainties = {k: v for k, v in self.relative_uncertainty.items() if k not in changes}
         changed = _replace(self, **({"relative_uncertainty": uncertainties} | changes))
+        if obliquity is not None:
+            changed = changed._tilted(obliquity)
         if "observed_wobble" in changes or not self._is_another(changes):
             return changed
         return _replace(changed, observed_wobble=None)
+
+    def _tilted(self, obliquity: object) -> Body:
+        """Return the body with the axis at another obliquity, and the normal of its orbit kept."""
+        if self.pole is None:
+            return _replace(self, obliquity=obliquity)
+        fixed = self
+        if self.pole.of_the_iau:  # its orbit is the ecliptic, unless another is given
+            ecliptic = Direction.along(self.pole.orbit_normal(None))
+            fixed = _replace(
+                self,
+                pole=FixedPole.along(self.pole.mean(np.zeros(1))[0]),
+                orbit_pole=ecliptic if self.orbit is None else None,
+            )
+        return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
         """What else changes, so that moments stay those of one body; takes `moments` away."""
@@ -511,7 +561,7 @@ class Body(FromMass):
 Body.KINDS = {
     name: hint.__metadata__[0]
     for name, hint in get_type_hints(Body, include_extras=True).items()
-    if get_origin(hint) is not ClassVar
+    if get_origin(hint) is not ClassVar and not isinstance(hint, InitVar)
 }
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
 Body.LABELLED = frozenset(Body.UNITS) - {
@@ -521,6 +571,7 @@ Body.LABELLED = frozenset(Body.UNITS) - {
 #: How all is read that a body can be made or changed by.
 _READ_AS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
+    "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
 
 #: What no body is without, by what its table starts from, and how one would write it.

@@ -335,7 +335,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
     SceneError
         If there is no such quantity.
     """
-    if not isinstance(quantity, str) or quantity not in QUANTITIES:
+    if not isinstance(quantity, str) or quantity not in QUANTITIES:  # type: ignore[redundant-expr]
         raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
     module = import_module(f"earthspin.checks.ladders.of_{quantity.replace('-', '_')}")
     ladder: Ladder = module.ladder(quick)

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 from importlib import import_module
 from itertools import product
@@ -67,8 +68,9 @@ class Answer:
     def to_frame(self) -> pd.DataFrame:
         """Give a tidy table of pandas: a row for each label, a column for each number.
 
-        Vectors along `component`, `quaternion` and `axis` spread into columns; each error stands
-        beside its value; numbers without labels of their own repeat.
+        The rows have the labels that most variables have. Further labels, and vectors along
+        `component`, `quaternion` and `axis`, become columns; each error follows its value. Numbers
+        without labels are left out where others have labels.
 
         Returns
         -------
@@ -86,7 +88,7 @@ class Answer:
         """
         spread = _spread(self._dataset)
         names: list[str] = []
-        for name in map(str, spread.data_vars):
+        for name in (str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes):
             beside = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
             names += [n for n in (name, *beside) if n not in names]
         if not spread.sizes:  # an answer without labels is one row
@@ -224,10 +226,16 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Vectors as one variable for each component."""
+    """Variables with the dimensions that most have; one for each label of any other dimension."""
     columns: dict[str, xr.DataArray] = {}
+    common = Counter(
+        frozenset(array.dims).difference(("component", "quaternion", "axis"))
+        for array in dataset.data_vars.values()
+        if array.ndim
+    )
+    rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
-        along = [str(dim) for dim in array.dims if dim in ("component", "quaternion", "axis")]
+        along = [str(dim) for dim in array.dims if dim not in rows]
         for labels in product(*(array[dim].values for dim in along)):
             column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
             columns["_".join([str(name), *map(str, labels)])] = column

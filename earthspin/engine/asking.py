@@ -44,17 +44,16 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
 
 def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Put start and stop together; either all of start, stop and step, or none."""
+    """Put start and stop together; both are given, or neither."""
     if "start" not in question.positional:
         return values
-    start, stop = (values.pop(end, None) for end in ENDS)
-    ends = {"start": start, "stop": stop, "step": values.get("step")}
-    missing = [name for name, value in ends.items() if value is None]
-    if values.get("times") is None and 0 < len(missing) < len(ends):
-        raise SceneError(missing[0], None, "give start, stop and step, or times")
-    if start is None and stop is None:
+    ends = {end: values.pop(end, None) for end in ENDS}
+    missing = [end for end, value in ends.items() if value is None]
+    if len(missing) == len(ENDS):
         return values
-    return values | {"span": (start, stop)}
+    if missing:
+        raise SceneError(missing[0], None, "give both start and stop, or times")
+    return values | {"span": tuple(ends.values())}
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
@@ -72,7 +71,7 @@ def signature_of(question: type[Question]) -> inspect.Signature:
         free = name in question.positional
         place = inspect.Parameter.POSITIONAL_OR_KEYWORD if free else inspect.Parameter.KEYWORD_ONLY
         default: Any = None
-        if entry is not None and not ("start" in question.positional and name == "step"):
+        if entry is not None:
             default = inspect.Parameter.empty if entry.required else _as_written(entry.shown)
         parameters.append(inspect.Parameter(name, place, default=default))
     return inspect.Signature(parameters)

@@ -139,9 +139,10 @@ def _every(question: Question) -> Iterator[Input]:
 
 
 def published(question: Question) -> dict[str, Distribution]:
-    """Normal distributions of the numbers whose uncertainty is published with a body.
+    """Distributions of the numbers whose uncertainty is published, by name of the input.
 
-    Of a body that only pulls, the mass alone counts. No correlation was published with any.
+    Those of bodies are normal; of a perturber, the mass alone counts. The question adds those of
+    its own keys. No correlation was published with any.
     """
     distributions: dict[str, Distribution] = {}
     for item in _every(question):
@@ -153,7 +154,8 @@ def published(question: Question) -> dict[str, Distribution]:
         if u and counts and np.ndim(getattr(body, item.field)) == 0:
             value = float(getattr(body, item.field))
             distributions[item.name] = Distribution("normal", (value, abs(value) * u))
-    return distributions
+    own = question.published_inputs()
+    return distributions | {name: Distribution(*entry) for name, entry in own.items()}
 
 
 def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]) -> Question:

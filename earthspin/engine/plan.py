@@ -181,7 +181,7 @@ def _named_sections(question: Question, sections: str | Iterable[str]) -> list[s
     except Exception:  # whatever it is, it is no list
         raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
     for name in named:
-        if not isinstance(name, str) or name not in known:
+        if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
             raise SceneError("sections", name, nearest(name, [*known, ALL]))
     return [name for name in known if name in named]
 

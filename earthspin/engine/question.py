@@ -292,6 +292,14 @@ class Question:
         """Value of every key by its name."""
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
+    def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
+        """Published distributions of keys that are numbers: shape and numbers, by key.
+
+        An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
+        The distributions of numbers of bodies follow from the bodies themselves.
+        """
+        return {}
+
     def replace(self, **changes: Any) -> Self:
         """Return the question with some keys changed, checked again."""
         return self._changed(changes, {})
@@ -334,9 +342,11 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 
 
 def keys_of(question: type[Question]) -> dict[str, Key]:
-    """Keys of a question by name, in the order in which its class has them."""
+    """Keys of a question by name: the title, its own in the order of its class, and shared ones."""
     if "key_table" not in vars(question):
         hints = get_type_hints(question, include_extras=True)
+        shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
+        entries = sorted(fields(question), key=lambda entry: entry.name in shared)  # type: ignore[arg-type]
         question.key_table = {
             entry.name: Key(
                 name=entry.name,
@@ -345,7 +355,7 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
                 shown=entry.default,
                 setting=entry.metadata["setting"],
             )
-            for entry in fields(question)  # type: ignore[arg-type]
+            for entry in entries
         }
     return question.key_table
 
@@ -440,7 +450,10 @@ def define_parts(
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK, *without}:
-                raise TypeError(f"{question.__name__}: {part.name} asks for '{parameter}'")
+                raise TypeError(
+                    f"{question.__name__}: {part.name} asks for '{parameter}', which is neither a "
+                    "key nor a part; add it, or name it in without= if the part can do without it"
+                )
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} does not say what it neglects")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}

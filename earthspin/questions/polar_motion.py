@@ -372,7 +372,7 @@ def fit_chandler(
         word = kind_of(Method).read("burg" if method is None else method, Where("method"))
         wobble = chandler(ds, word, length)
     else:
-        if not (method is None or (isinstance(method, str) and method == "likelihood")):
+        if not (method is None or (isinstance(method, str) and method == "likelihood")):  # type: ignore[redundant-expr]
             raise SceneError("method", method, "with an excitation it is 'likelihood'")
         from earthspin.wobble.observed import fit_with_excitation
 

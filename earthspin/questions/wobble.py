@@ -45,6 +45,14 @@ if TYPE_CHECKING:
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
+#: Keys that describe the interior, and the inputs of the ladder that they set.
+_INTERIOR = {
+    "k2": "k2",
+    "core_fraction": "core_fraction",
+    "core_ellipticity": "core_ellipticity",
+    "ocean_love_number": "ocean",
+    "anelastic_exponent": "anelastic_exponent",
+}
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
@@ -82,6 +90,18 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         doc="exponent of frequency in the mantle's quality factor; observed decay allows 0.04 to "
         "0.19 (Smith & Dahlen 1981)",
     )
+    k2: Annotated[float, Number("", "0.298", low=0.0)] | None = setting(
+        None, doc="elastic Love number, instead of that of the interior"
+    )
+    core_fraction: Annotated[float, Number("", "0.11", low=0.0, high=1.0)] | None = setting(
+        None, doc="moment of inertia of the core over that of the body, instead of the interior's"
+    )
+    core_ellipticity: Annotated[float, Number("", "0.0026")] | None = setting(
+        None, doc="(C - A)/A of the core, instead of the interior's"
+    )
+    ocean_love_number: Annotated[float, Number("", "0.047", low=0.0)] | None = setting(
+        None, doc="increase of k2 by the ocean, instead of the interior's; the ocean must be on"
+    )
 
     def check(self) -> None:
         """A body with a mass, and an interior that is known."""
@@ -90,6 +110,31 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
         refuse_break_up(self.body)
         layered.refuse_unknown(self, self.body)
+        rigid = why_rigid(self.body)
+        interior = None if rigid else layered.interior_of(self.body)
+        for name, field in _INTERIOR.items():
+            value = getattr(self, name)
+            if rigid and field != "anelastic_exponent" and value is not None:
+                raise self.error(name, value, f"the body is rigid: {rigid}")
+        dry = self.ocean == "none" or (interior is not None and interior.ocean is None)
+        if self.ocean_love_number is not None and dry:
+            raise self.error("ocean_love_number", self.ocean_love_number, "the body has no ocean")
+
+    def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
+        """Distributions of the interior's numbers and of the anelastic exponent."""
+        if why_rigid(self.body) or self.body.labelled:
+            return {}
+        ranges: dict[str, tuple[str, tuple[float, float]]] = {}
+        state = inside(**{name: getattr(self, name) for name in ("body", "ocean", *_INTERIOR)})
+        for name, field in _INTERIOR.items():
+            value = float(getattr(state.inputs, field))
+            if field == "anelastic_exponent":
+                if state.interior.layers is not None:
+                    ranges[name] = ("uniform", propagation.EXPONENT_RANGE)
+            elif value and field in state.interior.relative_uncertainty:
+                u = state.interior.relative_uncertainty[field]
+                ranges[name] = ("normal", (value, abs(value) * u))
+        return ranges
 
 
 def why_rigid(body: Body) -> str | None:
@@ -145,17 +190,35 @@ class Inside:
 
 
 @part(unless=why_rigid)
-def inside(body: Body, ocean: str, anelastic_exponent: float) -> Inside:
+def inside(
+    body: Body,
+    ocean: str,
+    anelastic_exponent: Numeric,
+    k2: Numeric | None = None,
+    core_fraction: Numeric | None = None,
+    core_ellipticity: Numeric | None = None,
+    ocean_love_number: Numeric | None = None,
+) -> Inside:
     """Inputs of the upper rungs, from the body, its interior and the ocean."""
     import xarray as xr
 
     interior = layered.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
-    numbers = xr.broadcast(*(xr.DataArray(body.needed(name)) for name in names))
-    values = {name: number.values for name, number in zip(names, numbers, strict=True)}
+    own = {
+        "k2": k2,
+        "core_fraction": core_fraction,
+        "core_ellipticity": core_ellipticity,
+        "ocean": ocean_love_number,
+        "anelastic_exponent": anelastic_exponent,
+    }
+    own = {name: value for name, value in own.items() if value is not None}
+    given = {name: body.needed(name) for name in names} | own
+    numbers = xr.broadcast(*map(xr.DataArray, given.values()))
+    values = {name: number.values for name, number in zip(given, numbers, strict=True)}
     spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
-    inputs = ladder.inputs_of(interior, spin, values, ocean, anelastic_exponent)
+    changed = {name: values.pop(name) for name in own}
+    inputs = replace(ladder.inputs_of(interior, spin, values, ocean), **changed)
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
     return Inside(inputs, spin, interior, ocean, tuple(map(str, numbers[0].dims)), uncertainty)
 
@@ -415,7 +478,7 @@ define_parts(
         "neglected": neglected,
     },
     parts=(inside,),
-    together=("body",),
+    together=("body", *_INTERIOR),
     widest=1024,
 )
 

@@ -177,7 +177,7 @@ def read_orbit(
     where = Where("read_orbit")
     axes = _axes(frame, where)
     for word, allowed, name in ((time, TIMES, "time"), (angles, ANGLES, "angles")):
-        if word is not None and not (isinstance(word, str) and word in allowed):
+        if word is not None and not (isinstance(word, str) and word in allowed):  # type: ignore[redundant-expr]
             raise where.at(name).error(word, nearest(word, allowed))
     if not isinstance(body, str):
         raise where.at("body").error(body, "give the name of a body, like 'mars'")

@@ -73,6 +73,12 @@ class Direction(NamedTuple):
         along = y * math.cos(obliquity) - z * math.sin(obliquity)
         return cls(math.atan2(along, x) % math.tau, math.asin(north))
 
+    @classmethod
+    def along(cls, vector: FloatArray) -> Self:
+        """Take the direction of a vector, shape (3,)."""
+        x, y, z = vector
+        return cls(math.atan2(y, x) % math.tau, math.atan2(z, math.hypot(x, y)))
+
     def __str__(self) -> str:
         ra, dec = (math.degrees(angle) for angle in self)
         return f"right ascension {ra:.5f} deg, declination {dec:.5f} deg"

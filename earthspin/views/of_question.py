@@ -102,14 +102,18 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 
-def print_tables(tree: Result) -> None:
-    """Print the tables of an answer, and the parts that ran for it, to the terminal."""
+def print_tables(tree: Result, *, with_plan: bool = False) -> None:
+    """Print the tables of an answer to the terminal, and its run time or the parts that ran."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
-    for table in [*tables_for(tree), *what_ran(tree)]:
+    parts = what_ran(tree)
+    for table in [*tables_for(tree), *(parts if with_plan else ())]:
         console.print_table(table)
         console.print()
+    if not with_plan:
+        for table in parts:
+            console.print(f"{table.cost}\n")
 
 
 def scene_page(tree: Result) -> str:

@@ -18,10 +18,13 @@ J2000 = 2451545.0
 ARCSEC = np.pi / 180 / 3600
 
 
-def test_every_question_has_a_row() -> None:
+def test_rows_of_models_name_questions() -> None:
     page = (DOCS / "frames.md").read_text(encoding="utf-8")
-    for word in QUESTIONS:
-        assert re.search(rf"^\| .*`{word}`", page, flags=re.MULTILINE), word
+    table = page.split("## Which model")[1].split("##")[0]
+    first_cells = re.findall(r"^\| (`.*?) \|", table, flags=re.MULTILINE)
+    words = {cell.split("`")[1] for cell in first_cells}
+    assert len(words) > 10
+    assert words <= set(QUESTIONS)
 
 
 @pytest.mark.parametrize("equator", ["mean", "true"])

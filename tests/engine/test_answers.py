@@ -80,10 +80,16 @@ def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
 
 
 def test_a_frame_has_a_row_for_each_label(answer: xr.Dataset) -> None:
+    """The rows have the labels of most variables: of `long_term`, epochs and not perturbers."""
     spread = {"component", "quaternion", "axis"}
+    if "epoch" in answer.sizes:
+        spread.add("perturber")
     rows = np.prod([size for dim, size in answer.sizes.items() if dim not in spread])
     frame = answer.earthspin.to_frame()
     assert len(frame) == rows
+    assert all(
+        frame[name].nunique() == answer.sizes[name] for name in answer.sizes if name in frame
+    )
     assert not frame.isna().any(axis=None)
 
 

@@ -448,7 +448,7 @@ test_bad_members_are_refused = refused(
     ({"n": 3, "uncertainty": "sample", "only": [3]}, "there are 3 members, from 0"),
     ({"n": 3, "uncertainty": "sample", "seed": -1}, "between 0 and"),
     ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
-    ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: body"),
+    ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: anelastic"),
     (
         {"n": 3, "uncertainty": "sample", "correlations": [["body.j2", "body.gm", 1.5]]},
         "between -1 and 1",

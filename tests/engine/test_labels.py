@@ -9,25 +9,9 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.labels import si
+from earthspin.engine.labels import FROM_SI, si
 from earthspin.engine.variables import SchemaError, Value, Variables, number
 from tests import shipped
-
-#: Physical type by unit: what a unit must mean for a variable that carries it.
-KINDS = {
-    "arcsec/yr": "angular speed",
-    "yr": "time",
-    "d": "time",
-    "s": "time",
-    "deg": "angle",
-    "arcsec": "angle",
-    "mas": "angle",
-    "uas": "angle",
-    "m": "length",
-    "N m": "torque",
-    "kg m2": "moment of inertia",
-    "1": "dimensionless",
-}
 
 
 @pytest.fixture(
@@ -56,9 +40,8 @@ def test_every_variable_is_described(nodes: dict[str, xr.Dataset]) -> None:
         assert variable.attrs["long_name"], name
         assert variable.dtype.kind in "fUM", name
         if variable.dtype.kind == "f":
-            unit = u.Unit(variable.attrs["units"])
-            kinds = str(unit.physical_type) if unit != u.one else "dimensionless"
-            assert KINDS[variable.attrs["units"]] in kinds, (name, kinds)
+            assert variable.attrs["units"] in FROM_SI, name
+            assert u.Unit(variable.attrs["units"]).physical_type != "unknown", name
 
 
 def test_errors_are_ancillary_and_positive(nodes: dict[str, xr.Dataset]) -> None:

@@ -1,5 +1,6 @@
 """Running: only what a scene needs, and the same every time."""
 
+import inspect
 from pathlib import Path
 
 import astropy.units as u
@@ -79,14 +80,22 @@ def test_times_need_not_be_sorted() -> None:
     "given",
     [
         {"start": "2000-01-01"},
-        {"start": "2000-01-01", "stop": "2000-01-02"},
+        {"stop": "2000-01-01"},
         {"start": "2000-01-01", "times": ["2000-01-01"]},
-        {"step": "1 h"},
+        {"step": "1 h", "times": ["2000-01-01"]},
     ],
 )
 def test_half_a_question(given: dict) -> None:
     with pytest.raises(SceneError):
         earthspin.torque_series(**given)
+
+
+@pytest.mark.parametrize("call", ["torque_series", "pole", "compare_iau", "long_term"])
+def test_a_span_alone_has_the_step_of_the_signature(call: str) -> None:
+    ask = getattr(earthspin, call)
+    span = ("-5 kyr", "0 kyr") if call == "long_term" else ("2000-01-01", "2000-03-01")
+    step = inspect.signature(ask).parameters["step"].default
+    assert ask(*span).identical(ask(*span, step))
 
 
 def test_spans_outside_the_kernel() -> None:

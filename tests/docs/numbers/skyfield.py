@@ -120,7 +120,6 @@ MEASURED = [
         "the plain function is {} years, and that of earthspin\n{} ± {}",
         periods,
     ),
-    Sentence("README.md", "this chain ends at {} years", lambda: periods()[0]),
     Sentence(
         SKYFIELD,
         "| torque, mean equator of date | 1900, 2000, 2052 | ${}$ |",

@@ -17,13 +17,12 @@ import earthspin
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.sky import orbit_table
-from tests import shipped
 from tests.docs.numbers.answers import value
 from tests.docs.numbers.sentence import ROOT, Part, Sentence, Told
 
 FILES = "docs/files.md"
 STABILITY, TESTING = "docs/stability.md", "docs/testing.md"
-FIRST, QUICK = "docs/index.md", "docs/quickstart.md"
+QUICK = "docs/quickstart.md"
 
 
 # --- stability -------------------------------------------------------------------------------
@@ -82,10 +81,6 @@ def malformed() -> float:
     return sum(COUNTS.values())
 
 
-def period() -> float:
-    return value("precession", "/", "precession_period", perturber="total")
-
-
 def epochs_of_the_example() -> float:
     """Minutes from 1900 to 2050, millions."""
     span = np.datetime64("2050-01-01") - np.datetime64("1900-01-01")
@@ -114,12 +109,6 @@ def tally() -> Sequence[float]:
     must = cases().must_hold.values
     counts = [int(np.sum(verdict == word)) for word in ("holds", "refused", "fails")]
     return [verdict.size, int(must.sum()), *counts]
-
-
-def unexplained() -> float:
-    """Closure of the rate of precession, millionths."""
-    known = shipped.tree("precession")["iau_2006"]
-    return 1e6 * abs(float(known.closure / known.iau_rate))
 
 
 MEASURED = [
@@ -160,20 +149,10 @@ MEASURED = [
         slow=True,
     ),
     Sentence(
-        "README.md",
-        "It needs git, make, Python {}\nor later",
-        lambda: float(project()["requires-python"].removeprefix(">=")),
-    ),
-    Sentence(
         "docs/architecture.md",
         "a float64 then keeps {} µs over a century, where a Julian\n  date keeps {} µs",
         lambda: [1e6 * DAY * np.spacing(days) / 2 for days in (36525.0, 2 * J2000_JD)],
         (0, 1),
-    ),
-    Sentence(
-        "README.md",
-        "eccentricity over ±{} million years",
-        reach_of_the_orbit,
     ),
     Sentence(TESTING, "`tests/fuzz` makes {} malformed scenes", malformed),
     Sentence(
@@ -182,8 +161,6 @@ MEASURED = [
         "`approx(a, rel=1e-15)` one of ${}$.",
         tolerances_not_named,
     ),
-    Sentence(FIRST, "once round in {} years", period, 0.5),
-    Sentence(FIRST, "The unexplained part is {} millionths of the rate", unexplained),
     Sentence(QUICK, '"torque.zarr")  # {} million epochs', epochs_of_the_example),
     Sentence(
         STABILITY,
@@ -193,29 +170,13 @@ MEASURED = [
     ),
 ]
 ERROR = "what an error is, by definition"
-BOX = "held by tests/docs/test_readme.py"
 TOLD: list[Told | Part] = [
-    *(
-        Told(page, text, BOX)
-        for page in ("README.md", FIRST)
-        for text in (
-            "| Sun and Moon, fixed ecliptic | {}(17) | known effects: {} yr |",
-            "| with all known effects | {}(17) | unexplained: {} yr | the equator; IAU 2006: {} |",
-            "moving ecliptic | {}(17) | unexplained: {} yr | equinox, seasons; IAU 2006: {} |",
-        )
-    ),
-    *(
-        Told(page, 'The "{} years" of textbooks', "the source text, I.8")
-        for page in ("README.md", FIRST)
-    ),
-    Told(FIRST, "Figures in brackets are {} % half-widths", ERROR),
     Told("docs/gallery/precession/plot_chain.py", "and read off {} years", "rounded; a suggestion"),
     Told(STABILITY, "published size, ${}$ arcsec/yr", "published: Capitaine et al. 2003, table 3"),
     Told(FILES, "h5py (HDF5 {})", "the version of a library"),
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
     Told(TESTING, "runs the same with Python {} and", "the version of a program"),
-    Told("README.md", "# {} % half-widths", ERROR),
     Told(QUICK, "are half-widths of {} % intervals", ERROR),
     Told(
         FILES,

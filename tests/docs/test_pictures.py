@@ -1,20 +1,9 @@
-"""The first page: its lines run, print what stands there, and draw a figure."""
+"""Pictures on pages come from scripts of the gallery."""
 
 import re
 from pathlib import Path
 
-from tests.processes import printed
-
 DOCS = Path(__file__).parents[2] / "docs"
-PAGE = (DOCS / "index.md").read_text(encoding="utf-8")
-
-
-def test_the_eight_lines_print_what_stands_below_them(tmp_path: Path) -> None:
-    (program,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
-    (shown,) = re.findall(r"```text\n(.*?)```", PAGE, flags=re.DOTALL)
-    assert len([line for line in program.splitlines() if line.strip()]) == 8
-    assert printed(program, cwd=tmp_path) == shown
-    assert (tmp_path / "torque.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_pictures_on_pages_come_from_scripts() -> None:
