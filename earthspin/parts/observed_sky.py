@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import DAYS_PER_CENTURY
+from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.dates import Epochs, Span
 from earthspin.engine.part import part
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
@@ -35,13 +35,13 @@ def observed_series() -> PoleSeries:
     return read_pole_offsets()
 
 
-def not_observed_then(span: Span) -> str | None:
-    """Leave out a span in which the pole was not observed."""
+def not_observed_then(span: Span, step: float) -> str | None:
+    """Leave out series of which too few dates have an observed pole."""
     first, last = span.days
-    mjd = observed_series().mjd
-    if first <= mjd[-1] - MJD and last >= FIRST_DAY:
+    first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
+    if (last - first) * DAY >= FEWEST * step:
         return None
-    return "the table C04 holds no celestial pole offsets in this span, or only those before 1990"
+    return f"fewer than {FEWEST} dates lie between 1990 and the last observed offset of C04"
 
 
 @dataclass(frozen=True)
@@ -103,18 +103,11 @@ class ObservedSky:
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
     """Observed celestial pole offsets at the dates of the series, and the core nutation in them."""
-    from earthspin.errors import UndefinedError
-
     table = observed_series()
     time = table.mjd - MJD
     days = days_of(epochs)
     rows = (days >= FIRST_DAY) & (days <= time[-1])
     days = days[rows]
-    if days.size < FEWEST:
-        raise UndefinedError(
-            f"{days.size} dates of the series lie between 1990 and the last observed celestial "
-            f"pole offset; {FEWEST} are needed for the section 'observed'"
-        )
     core = core_nutation.fit(time, table.offsets).at(days)
     return ObservedSky(
         rows,

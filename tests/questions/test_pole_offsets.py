@@ -6,6 +6,7 @@ import xarray as xr
 from astropy.utils.iers import IERS_B
 
 import earthspin
+from earthspin import SceneError
 from earthspin.constants import MAS
 from earthspin.nutation import core_nutation
 from earthspin.sky.eop import read_pole_offsets
@@ -115,11 +116,15 @@ def test_the_core_nutation_is_part_of_what_is_left(sizes: xr.Dataset) -> None:
     assert taken.values == pytest.approx([np.var(core.real), np.var(core.imag)], rel=0.15)
 
 
-def test_spans_without_observations() -> None:
-    scene = earthspin.load_scene("iau", {"span": ["1960-01-01", "1970-01-01"]})
-    plan = earthspin.plan(scene, sections=["observed"])
-    assert "observed" not in earthspin.run_tree(scene, sections=["residual_sizes"]).children
-    assert "no celestial pole offsets in this span" in str(plan)
+@pytest.mark.parametrize(
+    "span",
+    [("1960-01-01", "1970-01-01"), ("1989-12-01", "1990-01-20"), ("2030-01-01", "2040-01-01")],
+)
+def test_spans_without_observations(span: tuple[str, str]) -> None:
+    scene = earthspin.load_scene("iau", {"span": list(span)})
+    with pytest.raises(SceneError, match="fewer than 10 dates lie between 1990 and the last"):
+        earthspin.plan(scene, sections=["observed"])
+    assert "fewer than 10 dates" in str(earthspin.plan(scene, sections="all"))
 
 
 def test_rungs_against_the_sky() -> None:
