@@ -14,11 +14,16 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
 from earthspin.parts.observed_table import C04, MJD, Daily, TableFile, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
+from earthspin.wobble.record import shortest_span
+
+#: The period is fitted from 1984 on: the offsets before are noisier by a factor of four.
+FIRST_MJD = 45700.0
 
 
 class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
@@ -113,7 +118,28 @@ class CoreNutation(Variables, along=("middle",)):
     middle: Labels = labels("middle of a window")
 
 
-@part
+def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
+    """Leave out a span that is shorter than a window."""
+    if span is None or _length(span) >= (core.WINDOW if window is None else window):
+        return None
+    return "the span is shorter than a window, which is three years if not given"
+
+
+def too_short_for_a_period(span: Span | None) -> str | None:
+    """Leave out a span in which the free core nutation does not separate from a year."""
+    needed = 2 * shortest_span()
+    if span is None or _length(span) >= needed:
+        return None
+    return f"the span is shorter than {needed / 365.25:.0f} years, which the fit of a period needs"
+
+
+def _length(span: Span) -> float:
+    """Length of a span, d."""
+    first, last = span.days
+    return last - first
+
+
+@part(unless=shorter_than_a_window)
 def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutation:
     """Amplitude and phase of the free core nutation in sliding windows."""
     time, eta = offset_table.mjd - MJD, offset_table.offsets
@@ -147,14 +173,19 @@ class CorePeriod(Variables):
     )
 
 
-@part
+@part(unless=too_short_for_a_period)
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Period of the free core nutation, fitted as that of an oscillator driven at random."""
+    """Period of the free core nutation since 1984, that of an oscillator driven at random."""
     from earthspin.wobble.observed import fit
 
-    time, eta = offset_table.mjd - MJD, offset_table.offsets
-    # The conjugate turns forwards, with nearly the period of the free wobble of polar motion.
-    mode = fit(time, np.conj(eta), "likelihood")
+    good = offset_table.mjd >= FIRST_MJD
+    time, eta = offset_table.mjd[good] - MJD, offset_table.offsets[good]
+    try:
+        # The conjugate turns forwards, with nearly the period of the free wobble of polar motion.
+        mode = fit(time, np.conj(eta), "likelihood")
+    except UndefinedError as error:
+        problem = f"the method of the free wobble finds no free core nutation: {error}"
+        raise UndefinedError(problem) from None
     published = OBSERVED_CORE_NUTATION
     return CorePeriod(
         core_nutation_period=(-mode.period * DAY, mode.period_error * DAY),

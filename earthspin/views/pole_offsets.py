@@ -121,8 +121,11 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     drawing.band(
         ax, time, size, error, drawing.BLUE, alpha=0.2, lowest=0.0, lw=0.8, ls=":", zorder=2
     )
-    seen = np.where(detected, size, np.nan)
-    ax.plot(time, seen, color=drawing.BLUE, lw=1.8, label="amplitude, detected")
+    label = "amplitude, detected"
+    for run in np.split(np.arange(time.size), np.flatnonzero(np.diff(detected)) + 1):
+        if detected[run[0]]:
+            ax.plot(time[run], size[run], color=drawing.BLUE, lw=1.8, label=label)
+            label = "_repeated"
     ax.plot(time, fit.detection_limit, color=drawing.GREY, lw=1, ls="--", label="detection limit")
     if not detected[-1]:
         last = time[detected][-1] if detected.any() else time[0]

@@ -3,9 +3,9 @@ What IAU 2006/2000A lacks
 =========================
 
 Observed offsets dX, dY of the celestial pole from IAU 2006/2000A: the daily series C04 of the IERS,
-from very long baseline interferometry, with its 95 % half-widths in grey. The errors fell from half
-a milliarcsecond in 1985 to a twentieth of one. The wave of about 430 days is the free core
-nutation, which no model predicts.
+from very long baseline interferometry, with its half-widths in grey. The errors fell tenfold since
+the first years. The wave of fourteen months is the free core nutation, which is no part of the
+model (Mathews, Herring & Buffett 2002), because nobody can predict it for long.
 
 *Next:* ``earthspin.pole_offsets(file="finals")`` reads the rapid series of the IERS instead.
 """
