@@ -19,6 +19,7 @@ from data_tools import (
     long_term,
     lunar_rotation,
     neglected,
+    pole_offsets,
     readme_picture,
     references,
     secular_orbits,
@@ -67,6 +68,10 @@ VERBS = {
     "readme-picture": (readme_picture.main, "draw the picture of the README"),
     "references": (references.main, "make the stored references of the checks again"),
     "signatures": (signatures.main, "write the signatures of the public calls for editors"),
+    "pole-offsets": (
+        pole_offsets.main,
+        "measure predictions of the celestial pole offsets, for docs/pole_offsets.md",
+    ),
     "worlds": (worlds.main, "measure the precession of every world, for docs/worlds.md"),
     "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }

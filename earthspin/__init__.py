@@ -22,6 +22,7 @@ _QUESTIONS = {
     "rotation": "earthspin.questions.rotation",
     "wobble_ladder": "earthspin.questions.wobble",
     "polar_motion": "earthspin.questions.polar_motion",
+    "pole_offsets": "earthspin.questions.pole_offsets",
     "free_rotor": "earthspin.questions.free_rotor",
     "heavy_top": "earthspin.questions.top",
     "spheroid_field": "earthspin.questions.spheroid",

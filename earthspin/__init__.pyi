@@ -276,6 +276,17 @@ def polar_motion(
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
+def pole_offsets(
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    span: tuple[Date, Date] | SkyfieldTime | None = ...,
+    file: str | PathLike[str] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
+    window: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
+) -> xr.Dataset: ...
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
@@ -386,6 +397,7 @@ __all__ = [
     "polar_motion",
     "polar_motion_from",
     "pole",
+    "pole_offsets",
     "pole_stars",
     "precession",
     "read",

@@ -55,6 +55,15 @@ CORE_NUTATION = Constant(
     "(MHB_2000)",
     "code MHB_2000 in public repositories: the period; its uncertainty " + UNVERIFIED,
 )
+#: The same from very long baseline interferometry, 1984 to 2011, with the tides of the solid Earth;
+#: 1.00273790935 sidereal days are a mean solar day.
+OBSERVED_CORE_NUTATION = Constant(
+    -431.18 / 1.00273790935,
+    "d",
+    0.10 / 1.00273790935,
+    "Krasna, Boehm & Schuh 2013, A&A 555, A29: -431.18 +/- 0.10 sidereal days",
+    "abstract of the paper, aanda.org/articles/aa/full_html/2013/07/aa21585-13",
+)
 CORE_NUTATION_QUALITY = Constant(
     20000.0,
     "",

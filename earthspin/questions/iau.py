@@ -32,6 +32,7 @@ from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
+from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
     INTERIOR,
     Comparison,
@@ -381,6 +382,13 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
     )
 
 
+@part
+def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
+    """How large the differences from the observed celestial pole are, model by model."""
+    plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
+    return observed_sky.sizes(plain, differences.error)
+
+
 _ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _SHARE = "share of the neighbour in the amplitude of IAU 2000A"
 _SERIES = "coefficients of the adopted series"
@@ -613,13 +621,14 @@ define_parts(
         "residuals": residuals,
         "residuals_by_model": residuals_by_model,
         "residual_sizes": residual_sizes,
+        "observed": observed,
         "nutation": nutation,
         "core": core,
         "angles": angles,
         "inferred_flattening": inferred_flattening,
         "neglected": neglected,
     },
-    parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences),
+    parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences, observed_sky),
 )
 
 compare_iau = public_call(IAU)

@@ -29,6 +29,7 @@ from earthspin.engine.variables import (
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
+from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
     Comparison,
     PoleComparison,
@@ -117,6 +118,8 @@ class RungResiduals:
     days : ndarray, shape (t,)
     series : dict of str to ndarray, shape (t, 2)
         dpsi sin(eps0) and deps, rad, by rung.
+    plain : dict of str to ndarray, shape (t, 2)
+        The same with nothing removed.
     error : float
         95 % half-width of either angle, from the integration and H; what the interior adds is what
         the ladder is about.
@@ -124,6 +127,7 @@ class RungResiduals:
 
     days: NDArray[np.float64]
     series: dict[str, NDArray[np.float64]]
+    plain: dict[str, NDArray[np.float64]]
     error: float
 
     def rms(self, names: list[str]) -> NDArray[np.float64]:
@@ -155,14 +159,14 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    series = {}
+    series, plain = {}, {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
-            angles = np.stack([eta.real, eta.imag], axis=1)
-            series[name] = without_line(days / DAYS_PER_CENTURY, angles)
+            plain[name] = np.stack([eta.real, eta.imag], axis=1)
+            series[name] = without_line(days / DAYS_PER_CENTURY, plain[name])
             advance(1)
-    return RungResiduals(days, series, residual_error(done, body, theirs, days))
+    return RungResiduals(days, series, plain, residual_error(done, body, theirs, days))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -363,6 +367,12 @@ def residuals(left: RungResiduals, models: Prediction) -> Residuals:
     )
 
 
+@part
+def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
+    """Differences from the observed celestial pole, rung by rung."""
+    return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
+
+
 class Compliances(
     Variables,
     along=("compliance_name",),
@@ -400,9 +410,10 @@ define_parts(
         "transfer": transfer,
         "compliances": compliances,
         "residuals": residuals,
+        "observed": observed,
         "neglected": neglected,
     },
-    parts=(*PULLS, pole_analysis, models, left),
+    parts=(*PULLS, pole_analysis, models, left, observed_sky),
 )
 
 nutation_ladder = public_call(NutationLadder)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, Body, in_a_sentence
+from earthspin.bodies import EARTH, Body
 from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64, days
 from earthspin.engine.asking import public_call
@@ -20,9 +20,8 @@ from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
-from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.observed_table import C04, MJD, Daily, TableFile, not_observed, within
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
-from earthspin.sky.columns import is_table
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import (
     Days,
@@ -54,24 +53,6 @@ SMALLEST = 0.1
 FASTEST = 3 / 365.25
 #: Sum of the amplitudes of the tidal terms of x, mas: Q1, O1, P1, K1, N2, M2, S2, K2.
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
-#: Day of the modified Julian date 0 from J2000.0.
-_MJD = 51544.5
-
-
-#: Word for the daily table of the IERS that astropy carries.
-C04 = "c04"
-
-
-class TableFile(FileName):
-    """Kind of a table of polar motion: a known one, or a local file."""
-
-    words = '"c04" or the path of a file'
-    known = (C04,)
-    content = "a table of polar motion"
-
-    def begins(self, head: bytes) -> bool:
-        """Whether it begins as a table does."""
-        return is_table(head)
 
 
 class PolarMotion(Question, word="polar-motion", call="polar_motion", table="polar_motion"):
@@ -102,7 +83,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
     file: Annotated[str, TableFile()] = setting(
-        C04, doc="the daily table of the IERS that astropy carries, or a local file"
+        C04, doc="a daily table of the IERS that astropy carries, or a local file"
     )
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
@@ -115,12 +96,6 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     )
 
 
-class Daily(Variables, along=("time",)):
-    """Variables at the days of a table."""
-
-    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
-
-
 class ObservedPole(Daily):
     """Observed polar motion."""
 
@@ -129,11 +104,6 @@ class ObservedPole(Daily):
     polar_radius: Value = number(
         "m", "polar radius of the body", along=(), no_error="a given number of the body"
     )
-
-
-def not_observed(body: Body) -> str | None:
-    """Leave out a body whose pole no table holds."""
-    return f"no polar motion of {in_a_sentence(body.name)} is kept" if no_iau_model(body) else None
 
 
 @part(unless=not_observed)
@@ -147,13 +117,10 @@ def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> Obse
     """Observed polar motion from a table of the IERS."""
     from earthspin.mass.figure import polar_radius
 
-    series = pole_table
-    if span is not None:
-        first, last = span.days
-        series = series.between(first + _MJD, last + _MJD)
+    series = within(pole_table, span)
     source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
     return ObservedPole(
-        time=datetime64(series.mjd - _MJD),
+        time=datetime64(series.mjd - MJD),
         x=(series.x, NORMAL_95 * series.x_error),
         y=(series.y, NORMAL_95 * series.y_error),
         polar_radius=polar_radius(body.needed("radius"), body.needed("flattening")),
@@ -650,7 +617,7 @@ def read_excitation(
     paths = Several(FileName()).read(path, Where("path"))
     table = read_angular_momentum([Path(name) for name in paths], components, daily=daily)
     chi = sum(getattr(table, term) for term in set(terms))
-    result = Excitation(time=datetime64(table.mjd - _MJD), chi1=chi.real, chi2=chi.imag).dataset()
+    result = Excitation(time=datetime64(table.mjd - MJD), chi1=chi.real, chi2=chi.imag).dataset()
     names = " + ".join(components or ("all components",))
     return result.assign_attrs(source=f"{names} ({', '.join(terms)})")
 

@@ -1,9 +1,9 @@
-"""Observed polar motion, read from files.
+"""Observed polar motion and observed celestial pole offsets, read from files.
 
 Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, ten rows per year, twenty since
-1890) and finals2000A (daily, with predictions, which are ignored). C04 is included in astropy;
-nothing is downloaded. Invalid rows raise an error that gives the line; defects with an unambiguous
-correction are repaired and reported.
+1890) and finals2000A (daily, with predictions, which are ignored). C04 and finals2000A are included
+in astropy; nothing is downloaded. Invalid rows raise an error that gives the line; defects with an
+unambiguous correction are repaired and reported.
 """
 
 from __future__ import annotations
@@ -32,13 +32,6 @@ from earthspin.sky.columns import (
 
 Array = NDArray[np.float64]
 
-#: Largest valid polar motion, arcsec; it has never exceeded 0.7, so larger values have another unit
-#: or are from another column.
-LARGEST = 2.0
-#: Smallest valid maximum of polar motion, arcsec; smaller values have another unit.
-SMALLEST = 1e-3
-#: Largest motion of the pole in a day, arcsec, and additional tolerance for a jump, arcsec.
-FASTEST, JUMP = 0.01, 0.1
 #: Longest gap that is interpolated linearly, in steps and in days; the oldest tables have ten rows
 #: per year.
 LONGEST_BRIDGE, LONGEST_DAYS = 10, 37.0
@@ -48,23 +41,85 @@ LOST = 0.01
 DATE_ROUNDING = 1e-3
 #: Period of the free wobble, used to report the error of interpolation, d.
 FREE_WOBBLE = 433.0
-#: By number of columns: index of the MJD, which x and y follow, and index of the error of x.
-_C04_LAYOUTS = {16: (3, 10), 21: (4, 13)}
-#: Number of columns of the table by date.
+#: Number of columns of the table C01 by date.
 _C01_COLUMNS = 29
 _ERRORS = ("x_error", "y_error")
 
 
 @dataclass(frozen=True)
+class _Coordinates:
+    """Two coordinates of the pole in the tables: their columns, and which values are possible.
+
+    Attributes
+    ----------
+    name, words : str
+        Name of the two together, and of each, in messages.
+    columns : dict of int to tuple of int
+        By number of columns of a row: the columns of the MJD, of the first coordinate, which the
+        second follows, and of the error of the first.
+    flag : int
+        Column of finals2000A that holds "I" if the row was observed and "P" if it was predicted.
+    cells : tuple of slice
+        First coordinate, second coordinate and their errors in a row of finals2000A.
+    unit : float
+        Unit of these cells, arcsec.
+    largest, smallest : float
+        Larger values, and tables whose largest value is smaller, are in another unit, arcsec.
+    fastest, jump : float
+        Largest motion in a day, and what is no jump yet beside it, arcsec.
+    """
+
+    name: str
+    words: str
+    columns: dict[int, tuple[int, int, int]]
+    flag: int
+    cells: tuple[slice, slice, slice, slice]
+    unit: float
+    largest: float
+    smallest: float
+    fastest: float
+    jump: float
+
+
+#: Polar motion has never passed 0.7 arcsec, and never stayed within a milliarcsecond of the origin.
+_POLAR_MOTION = _Coordinates(
+    "polar motion",
+    "x, y",
+    {16: (3, 4, 10), 21: (4, 5, 13), _C01_COLUMNS: (0, 1, 6)},
+    flag=16,
+    cells=(slice(18, 27), slice(37, 46), slice(27, 36), slice(46, 55)),
+    unit=1.0,
+    largest=2.0,
+    smallest=1e-3,
+    fastest=0.01,
+    jump=0.1,
+)
+#: Offsets from IAU 2006/2000A have never passed 4 mas; those from IAU 1980 are larger than 20 mas.
+_POLE_OFFSETS = _Coordinates(
+    "celestial pole offsets",
+    "dX, dY",
+    {16: (3, 8, 14), 21: (4, 8, 16), _C01_COLUMNS: (0, 4, 9)},
+    flag=95,
+    cells=(slice(97, 106), slice(116, 125), slice(106, 115), slice(125, 134)),
+    unit=1e-3,
+    largest=0.02,
+    smallest=1e-5,
+    fastest=1e-4,
+    jump=5e-3,
+)
+
+
+@dataclass(frozen=True)
 class PoleSeries:
-    """Observed polar motion.
+    """Observed polar motion, or observed celestial pole offsets.
 
     Attributes
     ----------
     mjd : array, shape (n,)
         Modified Julian dates, evenly spaced; 0h UTC in daily tables.
     x, y : array, shape (n,)
-        Coordinates of the pole, rad; x along the Greenwich meridian, y along 90 degrees west.
+        Coordinates of the pole, rad: x along the Greenwich meridian, y along 90 degrees west; or
+        the celestial pole offsets dX, dY, added to X, Y of IAU 2006/2000A.
     x_error, y_error : array, shape (n,)
         Standard deviations from the file, rad.
     name : str
@@ -93,6 +148,11 @@ class PoleSeries:
     def step(self) -> float:
         """Spacing of the dates, d."""
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
+
+    @property
+    def offsets(self) -> NDArray[np.complex128]:
+        """Celestial pole offsets as dX + i dY, rad, shape (n,)."""
+        return np.asarray(self.x + 1j * self.y)
 
     def between(self, first: float, last: float) -> PoleSeries:
         """Part of the series between two dates, both included.
@@ -128,13 +188,24 @@ def c04_path() -> Path:
     return Path(IERS_B_FILE)
 
 
+def finals_path() -> Path:
+    """The finals2000A file that astropy carries."""
+    from astropy_iers_data import IERS_A_FILE
+
+    return Path(IERS_A_FILE)
+
+
+#: Files that astropy carries, by name.
+CARRIED = {"c04": c04_path, "finals": finals_path}
+
+
 def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
     """Read polar motion from a file.
 
     Parameters
     ----------
     path : str or Path
-        A file, or ``"c04"`` for the one included in astropy.
+        A file, or ``"c04"`` or ``"finals"`` for those included in astropy.
     kind : str, optional
         ``"c04"``, ``"c01"`` or ``"finals2000A"``; detected from the file by default.
 
@@ -143,45 +214,75 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
     SeriesError
         If the file is invalid; the message gives the line.
     """
-    file = c04_path() if str(path) == "c04" else Path(path)
+    return _read(path, kind, _POLAR_MOTION)
+
+
+def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
+    """Read observed celestial pole offsets dX, dY, as `x` and `y` of the series.
+
+    Rows that finals2000A flags as predicted in column 96, and the zeros with which C04 and C01
+    begin, before there were observations, are left out.
+
+    Parameters
+    ----------
+    path, kind
+        As of `read_polar_motion`.
+
+    Raises
+    ------
+    SeriesError
+        If the file cannot be used; it names the line.
+    """
+    return _read(path, kind, _POLE_OFFSETS)
+
+
+def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
+    """Read two coordinates, and refuse or repair what is wrong."""
+    carried = CARRIED.get(str(path))
+    file = carried() if carried else Path(path)
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
     if kind not in _READERS:
         raise SeriesError(file, f"kind {kind!r} is unknown", f"allowed: {', '.join(_READERS)}")
-    rows = list(_READERS[kind](file, lines))
+    rows = list(_READERS[kind](file, lines, pair))
     repairs: list[str] = []
     _check_dates(file, rows)
     rows = _drop_missing(file, rows, text_between(lines, _IS_ROW[kind]), repairs)
+    if pair is _POLE_OFFSETS:
+        rows = _drop_zeros(rows, repairs)
     if len(rows) < 2:
-        raise SeriesError(file, f"it holds {len(rows)} rows of polar motion", "is it complete?")
-    _check_size(file, rows)
+        raise SeriesError(file, f"it holds {len(rows)} rows of {pair.name}", "is it complete?")
+    _check_size(file, rows, pair)
     rows = _in_order(file, rows, repairs)
-    _check_jumps(file, rows)
+    _check_jumps(file, rows, pair)
     return replace(_even(file, rows, kind, repairs), sha256=checksum(file))
 
 
 # --- the kinds of table --------------------------------------------------------------------------
 
 
-def _c04(file: Path, lines: list[str]) -> Iterator[_Row]:
-    """Rows of C04: date, with hour (20 C04) or without (14 C04 and earlier), then MJD, x, y."""
+def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
+    """Rows of C04: date, with hour (20 C04) or without (14 C04 and earlier), MJD, and values."""
     columns = 0
+    layouts = {count: layout for count, layout in pair.columns.items() if count != _C01_COLUMNS}
     for number, words in rows_of(lines):
         columns = columns or len(words)
-        if len(words) != columns or columns not in _C04_LAYOUTS:
-            allowed = " or ".join(map(str, _C04_LAYOUTS))
+        if len(words) != columns or columns not in layouts:
+            allowed = " or ".join(map(str, layouts))
             remedy = (
                 f"{allowed} are expected, as many in each row; is it cut off, or a column lost?"
             )
             raise SeriesError(file, f"{len(words)} columns", remedy, number)
-        first, errors = _C04_LAYOUTS[columns]
-        *calendar, mjd, x, y = numbers(file, number, words[: first + 3])
+        date, value, error = layouts[columns]
+        *calendar, mjd = numbers(file, number, words[: date + 1])
         check_calendar(file, number, [*calendar, 0.0][:4], mjd)
-        x_error, y_error = numbers(file, number, words[errors : errors + 2])
+        x, y, x_error, y_error = numbers(
+            file, number, words[value : value + 2] + words[error : error + 2]
+        )
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
-def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
+def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
     """Rows of C01, in the present format by MJD or the former format by Besselian years.
 
     By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
@@ -194,8 +295,13 @@ def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
             problem = f"{len(words)} columns"
             raise SeriesError(file, problem, "5 or more are expected, as many in each row", number)
         if columns == _C01_COLUMNS:
-            mjd, x, y = numbers(file, number, words[:3])
-            x_error, y_error = numbers(file, number, words[6:8])
+            date, value, error = pair.columns[columns]
+            (mjd,) = numbers(file, number, words[date : date + 1])
+            x, y = numbers(file, number, words[value : value + 2])
+            x_error, y_error = numbers(file, number, words[error : error + 2])
+        elif pair is _POLE_OFFSETS:
+            remedy = f"take a table by MJD, which has {_C01_COLUMNS} columns"
+            raise SeriesError(file, "a table C01 by year holds no dX, dY", remedy, number)
         else:
             year, x, x_error, y, y_error = numbers(file, number, words[:5])
             if not 1800 <= year <= 2200:
@@ -206,23 +312,24 @@ def _c01(file: Path, lines: list[str]) -> Iterator[_Row]:
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
-def _finals(file: Path, lines: list[str]) -> Iterator[_Row]:
+def _finals(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
     """Rows of finals2000A, with fixed columns; predictions ("P") and empty rows are ignored."""
     for number, line in enumerate(lines, start=1):
-        if not line.strip() or line[16:17] != "I":
+        if not line.strip() or line[pair.flag : pair.flag + 1] != "I":
             continue
-        if len(line.rstrip("\n")) < 55:
+        if len(line.rstrip("\n")) < pair.cells[-1].stop:
             raise SeriesError(file, "it ends early", "is the file cut off?", number)
-        cells = (line[7:15], line[18:27], line[37:46], line[27:36], line[46:55])
-        mjd, x, y, x_error, y_error = numbers(file, number, list(cells))
+        (mjd,) = numbers(file, number, [line[7:15]])
+        x, y, x_error, y_error = numbers(file, number, [line[cell] for cell in pair.cells])
         year, month, day = numbers(file, number, [line[0:2], line[2:4], line[4:6]])
         # Two-digit years: 73 is 1973, and 72 is 2072.
         century = 1900 if year >= 73 else 2000
         check_calendar(file, number, [century + year, month, day, mjd % 1 * 24], mjd)
-        yield _Row(number, mjd, (x, y, x_error, y_error))
+        u = pair.unit
+        yield _Row(number, mjd, (u * x, u * y, u * x_error, u * y_error))
 
 
-_READERS: dict[str, Callable[[Path, list[str]], Iterator[_Row]]] = {
+_READERS: dict[str, Callable[[Path, list[str], _Coordinates], Iterator[_Row]]] = {
     "c04": _c04,
     "c01": _c01,
     "finals2000A": _finals,
@@ -282,33 +389,42 @@ def _check_dates(file: Path, rows: list[_Row]) -> None:
             raise SeriesError(file, f"the date is {row.mjd}", "give each row a date", row.line)
 
 
-def _check_size(file: Path, rows: list[_Row]) -> None:
+def _drop_zeros(rows: list[_Row], repairs: list[str]) -> list[_Row]:
+    """Leave out the zeros with which tables begin, where nothing was observed."""
+    first = next((i for i, row in enumerate(rows) if any(row.values[:2])), len(rows))
+    if first:
+        repairs.append(f"{first} rows of zeros at the start, before observations, left out")
+    return rows[first:]
+
+
+def _check_size(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
     for row in rows:
         x, y, *errors = row.values
-        if max(abs(x), abs(y)) > LARGEST:
-            remedy = "polar motion stays below one; is it in milliarcseconds?"
-            raise SeriesError(file, f"x, y = {x:g}, {y:g} arcsec", remedy, row.line)
+        if max(abs(x), abs(y)) > pair.largest:
+            remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
+            if pair is _POLE_OFFSETS:
+                remedy = "offsets from IAU 2006/2000A stay below 0.01; are they from IAU 1980?"
+            raise SeriesError(file, f"{pair.words} = {x:g}, {y:g} arcsec", remedy, row.line)
         if min(errors) < 0:
-            problem = f"errors of x, y = {errors[0]:g}, {errors[1]:g} arcsec"
+            problem = f"errors of {pair.words} = {errors[0]:g}, {errors[1]:g} arcsec"
             raise SeriesError(file, problem, "errors are not negative; is a column lost?", row.line)
     farthest = max(rows, key=lambda row: math.hypot(*row.values[:2]))
-    if 0 < math.hypot(*farthest.values[:2]) < SMALLEST:
-        problem = (
-            f"x, y = {farthest.values[0]:g}, {farthest.values[1]:g} arcsec, and no more elsewhere"
-        )
-        remedy = f"the pole moves farther than {SMALLEST:g} arcsec; is it in radians?"
+    if 0 < math.hypot(*farthest.values[:2]) < pair.smallest:
+        x, y, *_ = farthest.values
+        problem = f"{pair.words} = {x:g}, {y:g} arcsec, and no more elsewhere"
+        remedy = f"the pole moves farther than {pair.smallest:g} arcsec; is it in radians?"
         raise SeriesError(file, problem, remedy, farthest.line)
 
 
-def _check_jumps(file: Path, rows: list[_Row]) -> None:
+def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
     """Refuse a step larger than the motion of the pole and the stated errors allow."""
     for last, row in pairwise(rows):
         x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
         days = row.mjd - last.mjd
         scatter = sum(error for error in (*last.values[2:], *row.values[2:]) if error > 0)
-        if max(x, y) > JUMP + FASTEST * days + 3 * scatter:
+        if max(x, y) > pair.jump + pair.fastest * days + 3 * scatter:
             problem = f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d"
-            remedy = f"it moves by less than {FASTEST:g} arcsec a day; is a digit wrong?"
+            remedy = f"it moves by less than {pair.fastest:g} arcsec a day; is a digit wrong?"
             raise SeriesError(file, problem, remedy, row.line)
 
 

@@ -8,6 +8,7 @@ import xarray as xr
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.iau import observed
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.table import Column, Table, date, quality, table_along, with_error
 
@@ -105,7 +106,13 @@ def compliances(tree: Result) -> Table:
 
 TABLES = [
     ("", ladder),
-    *[("beside", beside), ("modes", modes), ("terms", terms), ("compliances", compliances)],
+    *[
+        ("observed", observed),
+        ("beside", beside),
+        ("modes", modes),
+        ("terms", terms),
+        ("compliances", compliances),
+    ],
 ]
 
 

@@ -20,6 +20,7 @@ PAGES = (
     "nutation",
     "wobble",
     "observed_pole",
+    "pole_offsets",
     "trust",
     "rotors",
     "skyfield",

@@ -1,0 +1,215 @@
+"""Observed celestial pole offsets, and the free core nutation in them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from earthspin.bodies import EARTH, Body
+from earthspin.constants import DAY, NORMAL_95
+from earthspin.dates import Span, datetime64
+from earthspin.engine.asking import public_call
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.errors import UndefinedError
+from earthspin.interior.published import OBSERVED_CORE_NUTATION
+from earthspin.nutation import core_nutation as core
+from earthspin.parts.observed_table import C04, MJD, Daily, TableFile, not_observed, within
+from earthspin.sky.eop import PoleSeries, read_pole_offsets
+from earthspin.units import Days
+from earthspin.wobble.record import shortest_span
+
+#: The period is fitted from 1984 on: the offsets before are noisier by a factor of four.
+FIRST_MJD = 45700.0
+
+
+class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
+    """Observed celestial pole offsets, and the free core nutation in them.
+
+    The offsets dX, dY are what very long baseline interferometry adds to the X, Y of IAU
+    2006/2000A. Predicted rows, and rows before there were observations, are left out.
+
+    Returns
+    -------
+    Dataset
+        Over `time`: `dX`, `dY` (mas) with their 95 % half-widths. `earthspin.run_tree` gives the
+        amplitude and phase of the free core nutation as the section `core_nutation`, over
+        `middle`, the middles of sliding windows, and its period, from the whole series, as the
+        section `period`.
+
+    Raises
+    ------
+    EarthspinError
+        Whatever is wrong with the file or the span, in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> offsets = earthspin.pole_offsets(span=("2000-01-01", "2020-01-01"))
+    >>> print(offsets.dX.attrs["units"], offsets.time.size)
+    mas 7306
+    """
+
+    views, page = "pole_offsets", "pole_offsets"
+
+    body: Body = key(EARTH, doc="body whose pole was observed")
+    span: Span | None = key(None, doc="first and last date; the whole table if not given")
+    file: Annotated[str, TableFile()] = setting(
+        C04, doc="a daily table of the IERS that astropy carries, or a local file"
+    )
+    kind: Literal["c04", "c01", "finals2000A"] | None = setting(
+        None, doc="layout of the table; recognised from the file if not given"
+    )
+    window: Days | None = setting(
+        None, doc="length of the sliding windows; three years if not given"
+    )
+
+
+class ObservedOffsets(Daily):
+    """Observed celestial pole offsets."""
+
+    dX: Pair = measured("mas", "observed X of the celestial pole minus that of IAU 2006/2000A")
+    dY: Pair = measured("mas", "observed Y of the celestial pole minus that of IAU 2006/2000A")
+
+
+@part(unless=not_observed)
+def offset_table(file: str, kind: str | None, span: Span | None) -> PoleSeries:
+    """Celestial pole offsets in a table of the IERS, over the span."""
+    return within(read_pole_offsets(file, kind), span)
+
+
+@part(unless=not_observed)
+def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
+    """Observed celestial pole offsets from a table of the IERS."""
+    series = offset_table
+    source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
+    return ObservedOffsets(
+        time=datetime64(series.mjd - MJD),
+        dX=(series.x, NORMAL_95 * series.x_error),
+        dY=(series.y, NORMAL_95 * series.y_error),
+    ).with_attributes(dX=source, dY=source)
+
+
+_TEST = "a test, in which noise alone passes in 1 % of the windows"
+
+
+class CoreNutation(Variables, along=("middle",)):
+    """The free core nutation in sliding windows."""
+
+    core_nutation_amplitude: Pair = measured(
+        "uas",
+        "amplitude of the free core nutation",
+        cell_methods="middle: mean (one window)",
+        short="amplitude",
+    )
+    core_nutation_phase: Pair = measured(
+        "deg", "phase of the free core nutation against a steady circle of its published period"
+    )
+    detection_limit: Value = number(
+        "uas", "amplitude that noise alone exceeds in 1 % of the windows", no_error=_TEST
+    )
+    detected: Value = number(
+        "1", "1 where the amplitude is above the detection limit, else 0", no_error=_TEST
+    )
+    window_length: Value = number("d", "length of a window", along=(), no_error="it is chosen")
+    middle: Labels = labels("middle of a window")
+
+
+def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
+    """Leave out a span that is shorter than a window."""
+    if span is None or _length(span) >= (core.WINDOW if window is None else window):
+        return None
+    return "the span is shorter than a window, which is three years if not given"
+
+
+def too_short_for_a_period(span: Span | None) -> str | None:
+    """Leave out a span in which the free core nutation does not separate from a year."""
+    needed = 2 * shortest_span()
+    if span is None or _length(span) >= needed:
+        return None
+    return f"the span is shorter than {needed / 365.25:.0f} years, which the fit of a period needs"
+
+
+def _length(span: Span) -> float:
+    """Length of a span, d."""
+    first, last = span.days
+    return last - first
+
+
+@part(unless=shorter_than_a_window)
+def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutation:
+    """Amplitude and phase of the free core nutation in sliding windows."""
+    time, eta = offset_table.mjd - MJD, offset_table.offsets
+    length = core.WINDOW if window is None else window
+    fit = core.fit(time, eta, length)
+    return CoreNutation(
+        core_nutation_amplitude=(np.abs(fit.amplitude), fit.error),
+        core_nutation_phase=(np.unwrap(np.angle(fit.amplitude)), fit.phase_error),
+        detection_limit=fit.limit,
+        detected=fit.detected.astype(int),
+        window_length=length * DAY,
+        middle=datetime64(fit.time),
+    )
+
+
+class CorePeriod(Variables):
+    """The period of the free core nutation from the whole series."""
+
+    core_nutation_period: Pair = measured(
+        "d",
+        "period of the free core nutation in space, negative because retrograde",
+        comment="maximum likelihood of an oscillator driven at random, beside seasonal terms, "
+        "a cubic drift and red noise",
+        short="period",
+    )
+    core_nutation_period_published: Pair = measured(
+        "d",
+        "published period of the free core nutation",
+        references=OBSERVED_CORE_NUTATION.source,
+        short="published period",
+    )
+
+
+@part(unless=too_short_for_a_period)
+def period(offset_table: PoleSeries) -> CorePeriod:
+    """Period of the free core nutation since 1984, that of an oscillator driven at random."""
+    from earthspin.wobble.observed import fit
+
+    good = offset_table.mjd >= FIRST_MJD
+    time, eta = offset_table.mjd[good] - MJD, offset_table.offsets[good]
+    try:
+        # The conjugate turns forwards, with nearly the period of the free wobble of polar motion.
+        mode = fit(time, np.conj(eta), "likelihood")
+    except UndefinedError as error:
+        problem = f"the method of the free wobble finds no free core nutation: {error}"
+        raise UndefinedError(problem) from None
+    published = OBSERVED_CORE_NUTATION
+    return CorePeriod(
+        core_nutation_period=(-mode.period * DAY, mode.period_error * DAY),
+        core_nutation_period_published=(
+            published.value * DAY,
+            NORMAL_95 * (published.uncertainty or 0.0) * DAY,
+        ),
+    )
+
+
+@part
+def neglected() -> Neglected:
+    """What the fit of the free core nutation leaves out."""
+    return Neglected(
+        unknown="retrograde annual terms that IAU 2006/2000A lacks, which three years do not "
+        "separate from the free core nutation"
+    )
+
+
+define_parts(
+    PoleOffsets,
+    answer=observed_offsets,
+    sections={"core_nutation": core_nutation, "period": period, "neglected": neglected},
+    parts=(offset_table,),
+)
+
+pole_offsets = public_call(PoleOffsets)
