@@ -265,7 +265,7 @@ class ApartError(UndefinedError):
     ...     earthspin.long_term("-1 Myr", "0 kyr", "1 kyr", body=body)
     ... except earthspin.ApartError as error:
     ...     print(error)
-    Newton's method in time does not settle for all at once; ask for each alone, or in an ensemble
+    Newton's method in time does not converge for all axes; ask for each alone, or in an ensemble
     """
 
     def __init__(self, why: str) -> None:
