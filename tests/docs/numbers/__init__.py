@@ -28,7 +28,6 @@ PAGES = (
     "long_term",
     "worlds",
     "rotation",
-    "ensembles",
     "course",
     "examples",
     "gallery",
