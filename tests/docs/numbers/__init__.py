@@ -29,7 +29,6 @@ PAGES = (
     "long_term",
     "worlds",
     "rotation",
-    "ensembles",
     "course",
     "examples",
     "gallery",

@@ -164,7 +164,6 @@ MEASURED = [
 TOLD: list[Told | Part] = [
     Told("docs/gallery/precession/plot_chain.py", "and read off {} years", "rounded; a suggestion"),
     Told(STABILITY, "published size, ${}$ arcsec/yr", "published: Capitaine et al. 2003, table 3"),
-    Told(FILES, "h5py (HDF5 {})", "the version of a library"),
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
     Told(TESTING, "runs the same with Python {} and", "the version of a program"),
