@@ -5,12 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
-from jupyter_client.connect import ConnectionFileMixin
-
 import earthspin
-
-# Kernels are spoken to through files instead of ports, about which each would warn.
-ConnectionFileMixin.transport.default_value = "ipc"
 
 project = "earthspin"
 author = "the earthspin developers"

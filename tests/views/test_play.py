@@ -320,8 +320,13 @@ def test_a_slider_changes_the_picture_and_a_number(browser: str, name: str, tmp_
         slider.dispatchEvent(new Event("input"));
         told.after = read("{words}");
         told.changed = picture.toDataURL() !== first;
+        const playback = document.getElementById("playback");
+        if (playback) playback.value = 2;
         document.getElementById("again").click();
         told.again = picture.toDataURL() === first && read("{words}") === told.before;
+        told.playback = playback ? Number(playback.value) : 0;
+        const names = [...document.querySelectorAll("[id]")].map((e) => e.id);
+        told.once = new Set(names).size === names.length;
         """,
     )
     before, after = expected(name)
@@ -329,6 +334,8 @@ def test_a_slider_changes_the_picture_and_a_number(browser: str, name: str, tmp_
     assert first_number(told["after"]) == pytest.approx(after, rel=1e-5, abs=0)
     assert told["changed"]
     assert told["again"]
+    assert told["playback"] == 0
+    assert told["once"]
 
 
 @pytest.mark.slow

@@ -141,7 +141,7 @@ const play = (() => {
     function run(playing) {
       if (state.playing) goOn();
       state.playing = playing;
-      button.textContent = playing ? "pause" : "play";
+      button.textContent = playing ? "Pause" : "Play";
       state.last = performance.now();
       if (playing) requestAnimationFrame(tick);
     }
@@ -177,6 +177,8 @@ const play = (() => {
         find(name).dispatchEvent(new Event("input"));
         set(name, value); // itself, not the slider's nearest step
       }
+      if (!still) find("playback").value = 0;
+      state.speed = 1;
       state.time = 0;
       state.last = performance.now();
       show();
@@ -186,7 +188,7 @@ const play = (() => {
     if (!still) {
       button.addEventListener("click", () => run(!state.playing));
       find("step").addEventListener("click", () => one(1));
-      find("speed").addEventListener("input", (e) => { state.speed = 2 ** Number(e.target.value); });
+      find("playback").addEventListener("input", (e) => { state.speed = 2 ** Number(e.target.value); });
       makeTouchable(canvas, turn, zoom, {
         " ": () => run(!state.playing), ".": () => one(1), ",": () => one(-1),
       });

@@ -15,8 +15,8 @@
 
   play.start({
     settings: [
-      { name: "mass", words: "mass of the Moon", unit: "× ours", min: 0, max: 4, step: 0.01, value: 1 },
-      { name: "distance", words: "distance of the Moon", unit: "× ours", min: 0.5, max: 2, step: 0.005, value: 1 },
+      { name: "mass", words: "mass of the Moon", unit: "× present", min: 0, max: 4, step: 0.01, value: 1 },
+      { name: "distance", words: "distance of the Moon", unit: "× present", min: 0.5, max: 2, step: 0.005, value: 1 },
       { name: "obliquity", words: "obliquity", unit: "°", min: 1, max: 89, step: 0.01, value: given.obliquity / degrees },
       { name: "flattening", words: "dynamical flattening H", unit: "/ 1000", min: 0.1, max: 10, step: 0.0001, value: given.flattening * 1000 },
     ],

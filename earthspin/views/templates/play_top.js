@@ -20,7 +20,7 @@
       { name: "radius", words: "radius of the top", unit: "cm", min: 1.5, max: 6, step: 0.05, value: 3.5 },
       { name: "theta", words: "inclination at the start", unit: "°", min: 5, max: 85, step: 0.5, value: 35 },
       { name: "spin", words: "spin", unit: "rad/s", min: 10, max: 300, step: 1, value: 210 },
-      { name: "push", words: "push: first rate of precession", unit: "rad/s", min: -12, max: 12, step: 0.05, value: 0 },
+      { name: "push", words: "initial rate of precession", unit: "rad/s", min: -12, max: 12, step: 0.05, value: 0 },
     ],
     motion,
     pace: 0.12,

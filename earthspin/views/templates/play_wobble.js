@@ -19,10 +19,10 @@
     settings: [
       { name: "flattening", words: "dynamical flattening H", unit: "/ 1000", min: 2.5, max: 6, step: 0.0001, value: given.flattening * 1000 },
       { name: "k2", words: "Love number k₂", unit: "", min: 0.05, max: 0.5, step: 0.0001, value: given.k2 },
-      { name: "core", words: "share of the core in the moment", unit: "", min: 0.01, max: 0.4, step: 0.0001, value: given.coreFraction },
+      { name: "core", words: "core fraction of the moment of inertia", unit: "", min: 0.01, max: 0.4, step: 0.0001, value: given.coreFraction },
       { name: "ellipticity", words: "ellipticity of the core", unit: "/ 1000", min: 1, max: 5, step: 0.0001, value: given.coreEllipticity * 1000 },
-      { name: "ocean", words: "yielding of the ocean Δk", unit: "", min: 0, max: 0.1, step: 0.0001, value: given.ocean },
-      { name: "exponent", words: "exponent of anelasticity α", unit: "", min: 0, max: 0.3, step: 0.001, value: given.exponent },
+      { name: "ocean", words: "Love number of the ocean Δk", unit: "", min: 0, max: 0.1, step: 0.0001, value: given.ocean },
+      { name: "exponent", words: "anelastic exponent α", unit: "", min: 0, max: 0.3, step: 0.001, value: given.exponent },
     ],
     motion,
     pace: 1,
