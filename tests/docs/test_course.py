@@ -78,8 +78,8 @@ PRINTED = {
         (rf"by hand {NUMBER}, library {NUMBER} arcsec a year", 1e-4),
         (rf"swings by {NUMBER}°, to first order {NUMBER}°", 2e-2),
         (rf"by hand {NUMBER}°, library {NUMBER}°", 1e-3),
-        (rf"the two part by {NUMBER}°", 0.05),
-        (rf"by the plane alone {NUMBER}, found {NUMBER} arcsec", 1e-3),
+        (rf"they differ by {NUMBER}°", 0.05),
+        (rf"from the plane alone {NUMBER}, library {NUMBER} arcsec", 1e-3),
         (rf"{NUMBER} W/m² by hand, {NUMBER} by the library", 1e-4),
     ],
 }

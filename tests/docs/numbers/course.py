@@ -115,7 +115,9 @@ MEASURED = [
     Sentence(ROTOR, "once in {} days if it were rigid", lambda: rigid_wobble()[1]),
     Sentence(ROTOR, "An amplitude of {} arcsec is\n{} m at the pole", at_the_pole),
     Sentence(ROTOR, "a period of {} days or so", lambda: of_c04("burg")[0], 5.0),
-    Sentence(OBLATE, "round the ecliptic in {} thousand years", partial(thousand_years, "total")),
+    Sentence(
+        OBLATE, "instead,** with a period of {} thousand years", partial(thousand_years, "total")
+    ),
     Sentence(
         OBLATE,
         "The Sun alone would take {} thousand years, Sun and Moon take less than {} thousand",
@@ -123,7 +125,7 @@ MEASURED = [
     ),
     Sentence(
         OBLATE,
-        "{}° ± {}°, as the node goes round in {} years: {}° and {}°, the major",
+        "{}° ± {}°, with the period of the lunar node, {} years: {}° and {}°, the major",
         standstills,
     ),
     Sentence(OBLATE, "inclination itself swing between {}° and {}°", inclinations),
