@@ -13,7 +13,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.dates import Epochs, Span
 from earthspin.engine.part import part
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
-from earthspin.parts.observed_table import MJD
+from earthspin.parts.pole_table import MJD
 from earthspin.parts.times import days_of
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import FloatArray
