@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import fdtri, stdtrit
 
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
@@ -118,6 +117,8 @@ def fit(
     UndefinedError
         If the window is shorter than `SHORTEST` periods, or longer than the series.
     """
+    from scipy.special import fdtri, stdtrit
+
     spacing = (time[-1] - time[0]) / (time.size - 1)
     block = max(1, round(BLOCK / spacing))
     count = time.size // block

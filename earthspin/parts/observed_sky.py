@@ -13,9 +13,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.dates import Epochs, Span
 from earthspin.engine.part import part
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
-from earthspin.nutation import core_nutation
-from earthspin.nutation.circles import without_line
-from earthspin.parts.observed_table import MJD
+from earthspin.parts.pole_table import MJD
 from earthspin.parts.times import days_of
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import FloatArray
@@ -79,6 +77,8 @@ class ObservedSky:
         error : float
             95 % half-width of a residual of the models.
         """
+        from earthspin.nutation.circles import without_line
+
         series = {IAU: np.zeros((self.rows.size, 2)), **models}
         residual = np.stack([model[self.rows] - self.offsets for model in series.values()], axis=1)
         without_core = residual + self.core[:, np.newaxis]
@@ -103,6 +103,8 @@ class ObservedSky:
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
     """Observed celestial pole offsets at the dates of the series, and the core nutation in them."""
+    from earthspin.nutation import core_nutation
+
     table = observed_series()
     time = table.mjd - MJD
     days = days_of(epochs)

@@ -20,7 +20,7 @@ from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
-from earthspin.parts.observed_table import C04, MJD, Daily, TableFile, not_observed, within
+from earthspin.parts.pole_table import C04, MJD, Daily, TableFile, not_observed, within
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import (

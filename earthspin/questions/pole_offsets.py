@@ -17,7 +17,7 @@ from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, m
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.observed_table import C04, MJD, Daily, TableFile, not_observed, within
+from earthspin.parts.pole_table import C04, MJD, Daily, TableFile, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
