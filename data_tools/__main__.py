@@ -13,6 +13,7 @@ from data_tools import (
     coverage,
     earth_rotation,
     error_models,
+    forecast,
     free_wobble,
     hashes,
     kernels,
@@ -58,6 +59,10 @@ VERBS = {
     "free-wobble": (
         free_wobble.main,
         "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
+    ),
+    "forecast": (
+        forecast.main,
+        "measure the skill of the forecast of the pole, for docs/forecast.md",
     ),
     "core-resonance": (
         core_resonance.main,

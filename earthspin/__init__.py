@@ -23,6 +23,7 @@ _QUESTIONS = {
     "wobble_ladder": "earthspin.questions.wobble",
     "polar_motion": "earthspin.questions.polar_motion",
     "pole_offsets": "earthspin.questions.pole_offsets",
+    "forecast": "earthspin.questions.forecast",
     "free_rotor": "earthspin.questions.free_rotor",
     "heavy_top": "earthspin.questions.top",
     "spheroid_field": "earthspin.questions.spheroid",

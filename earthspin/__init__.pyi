@@ -287,6 +287,18 @@ def pole_offsets(
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
+def forecast(
+    days: Value | None = ...,
+    step: Value | None = ...,
+    origin: Date | float | None = ...,
+    file: str | PathLike[str] | xr.Dataset | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    parameters: Literal["shipped", "fitted"] | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
+) -> xr.Dataset: ...
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
@@ -386,6 +398,7 @@ __all__ = [
     "ensemble",
     "excitation",
     "fit_chandler",
+    "forecast",
     "free_rotor",
     "heavy_top",
     "load_scene",

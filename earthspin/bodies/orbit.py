@@ -21,7 +21,7 @@ _ONE_OF = 'give a or period, like a = "384399 km" or period = "27.32 d"'
 class Epoch:
     """Converter of a date that is stored as days from J2000.0 TDB."""
 
-    words, hint = 'a date, like "2000-01-01T12:00"', "str | datetime | datetime64 | Time | float"
+    words, hint = 'a date, like "2000-01-01T12:00"', "Date | float"
 
     def read(self, value: object, where: Where) -> float:
         """Read a date, or a number of days from J2000.0 TDB."""

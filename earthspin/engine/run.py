@@ -31,10 +31,12 @@ class Run:
     @property
     def provenance(self) -> dict[str, str]:
         """Sources of its numbers: versions, and checksums of files."""
-        sources: dict[str, str] = {}
-        for value in self.results.values():
-            sources |= getattr(value, "provenance", {})
-        return sources
+        return _sources(self.results.values())
+
+    def provenance_of(self, parts: Iterable[str]) -> dict[str, str]:
+        """Sources of the numbers of some parts, and of the keys of the question."""
+        others = {part.name for part in self.plan.parts} - behind(self.plan, parts)
+        return _sources(value for name, value in self.results.items() if name not in others)
 
     def numbers(self) -> xr.Dataset:
         """Merge the datasets of the answer, without the attributes of the whole."""
@@ -57,6 +59,9 @@ class Run:
         effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
         sections = self.plan.question.graph.sections
         nodes = {name: self._merged(sections[name], effects) for name in self.plan.sections}
+        for name, node in nodes.items():
+            sources = self.provenance_of(sections[name])
+            node.attrs |= {key: word for key, word in sources.items() if key not in answer.attrs}
         return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
 
     def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
@@ -69,6 +74,23 @@ class Run:
         for other in others:
             first = first.merge(other, join="exact", combine_attrs="override")
         return first.copy()
+
+
+def _sources(values: Iterable[Any]) -> dict[str, str]:
+    """Merge the sources that results and keys name."""
+    sources: dict[str, str] = {}
+    for value in values:
+        sources |= getattr(value, "provenance", {})
+    return sources
+
+
+def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
+    """Names of parts and of all that they are computed from."""
+    names = {*parts}
+    for part in reversed(plan.parts):
+        if part.name in names:
+            names |= {*part.needs, *part.uses}
+    return names
 
 
 class Rerun:
@@ -105,10 +127,7 @@ def run_choosing(question: Question) -> list[Any]:
     question : Question
     """
     plan = plan_parts(question)
-    needed = {part.name for part in plan.parts if part.chooses}
-    for part in reversed(plan.parts):
-        if part.name in needed:
-            needed |= {*part.needs, *part.uses}
+    needed = behind(plan, (part.name for part in plan.parts if part.chooses))
     few = tuple(part for part in plan.parts if part.name in needed)
     results = run_parts(replace(plan, parts=few)).results
     return [results[part.name] for part in few if part.chooses]
@@ -210,7 +229,7 @@ def _attributes(run: Run) -> dict[str, str]:
         elif isinstance(value, tuple) and value and all(isinstance(item, str) for item in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    attributes |= run.provenance
+    attributes |= run.provenance_of([*question.graph.answer, NEGLECTED])
     attributes[NEGLECTED] = run.results[NEGLECTED].largest
     attributes[SCENE] = scene_text(question)
     return attributes

@@ -1,18 +1,33 @@
-"""Tables of the observed pole: the key that names one, and the days of its rows."""
+"""Tables of the observed pole: files, days of their rows, and labelled polar motion."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
 from earthspin.bodies import Body, in_a_sentence
-from earthspin.dates import Span
+from earthspin.constants import ARCSEC, MAS
+from earthspin.dates import Span, days
+from earthspin.engine.labels import si
 from earthspin.engine.variables import Labels, Variables, labels
+from earthspin.errors import SceneError, Where
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import CARRIED, PoleSeries
-from earthspin.units import FileName
+from earthspin.units import FileName, FloatArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ComplexArray = NDArray[np.complex128]
 
 #: Day of the modified Julian date 0 from J2000.0.
 MJD = 51544.5
-#: Word for the daily table C04 of the IERS that astropy carries.
+#: The pole moves farther than this from the conventional pole, mas.
+SMALLEST = 0.1
+#: Word for the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
 
 
@@ -51,3 +66,70 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
         return series
     first, last = span.days
     return series.between(first + MJD, last + MJD)
+
+
+def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
+    """Days from J2000.0 and x - i y in mas of labelled polar motion, whole and in order.
+
+    Raises
+    ------
+    SceneError
+        If it has no x and y with units along time, or its days repeat or go back.
+    """
+    from earthspin.wobble.resonance import pole_of
+
+    time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
+    for name, values in (("x", x), ("y", y)):
+        largest = float(abs(values).max())
+        if largest > 2 * ARCSEC:
+            raise SceneError(
+                f"largest {name}",
+                f"{largest / ARCSEC:.3g} arcsec",
+                "polar motion stays below one; is the unit right?",
+            )
+    p = pole_of(x, y) / MAS
+    if 0 < np.max(abs(p)) < SMALLEST:
+        raise SceneError(
+            "largest distance of the pole",
+            f"{np.max(abs(p)):.3g} mas",
+            f"it goes farther than {SMALLEST:g} mas; is the unit right?",
+        )
+    return time, p
+
+
+def labelled_series(
+    series: Any, names: tuple[str, str], units: tuple[str, ...]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Days from J2000.0 of a Dataset, and two series in SI that say their units.
+
+    Raises
+    ------
+    SceneError
+        If it is no such Dataset, has fewer than two days, or its days repeat or go back.
+    """
+    if not hasattr(series, "data_vars"):
+        problem = f"give a Dataset with {' and '.join(names)}"
+        raise SceneError("series", type(series).__name__, problem)
+    for name in names:
+        if name not in series or series[name].dims != ("time",):
+            names_given = list(map(str, series.data_vars))
+            raise SceneError("series", names_given, f"'{name}' along 'time' is needed")
+        unit, kind = series[name].attrs.get("units"), series[name].dtype
+        if kind.kind != "f" or series["time"].dtype.kind != "M":
+            raise SceneError(name, str(kind), "give numbers along dates without a zone")
+        if unit not in units:
+            allowed = " or ".join(f"'{u}'" for u in units)
+            raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
+    if series.time.size < 2:
+        raise SceneError("time", f"{series.time.size} days", "give two or more")
+    time = days(series.time, Where("time"))
+    backward = np.diff(time) <= 0
+    if np.any(backward):
+        raise SceneError(
+            "time",
+            str(series.time.values[1:][backward][0]),
+            "days repeat or go back; sort them with ds.sortby('time') and drop "
+            "copies with ds.drop_duplicates('time')",
+        )
+    first, second = (si(series[name]).values for name in names)
+    return time, first, second

@@ -10,17 +10,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body
-from earthspin.constants import ARCSEC, DAY, MAS, NORMAL_95
-from earthspin.dates import Span, datetime64, days
+from earthspin.constants import DAY, MAS, NORMAL_95
+from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
-from earthspin.engine.labels import si
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
-from earthspin.parts.pole_table import C04, MJD, Daily, TableFile, not_observed, within
+from earthspin.parts.pole_table import (
+    C04,
+    MJD,
+    Daily,
+    TableFile,
+    complex_pole,
+    labelled_series,
+    not_observed,
+    within,
+)
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import (
@@ -47,8 +55,6 @@ ComplexArray = NDArray[np.complex128]
 Method = Literal["burg", "likelihood", "least-squares"]
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
-#: Nearer to the conventional pole than this, in mas, the pole never stays.
-SMALLEST = 0.1
 #: Cycles per day up to which a spectrum is given: three in a year.
 FASTEST = 3 / 365.25
 #: Sum of the amplitudes of the tidal terms of x, mas: Q1, O1, P1, K1, N2, M2, S2, K2.
@@ -227,73 +233,6 @@ def spectrum(observed_pole: xr.Dataset) -> Spectrum:
     return Spectrum(spectral_amplitude=size[slow] * MAS, frequency=frequency[slow])
 
 
-def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
-    """Days from J2000.0 and x - i y in mas of labelled polar motion, whole and in order.
-
-    Raises
-    ------
-    SceneError
-        If it has no x and y with units along time, or its days repeat or go back.
-    """
-    from earthspin.wobble.resonance import pole_of
-
-    time, x, y = _series(pole, ("x", "y"), ("arcsec", "mas"))
-    for name, values in (("x", x), ("y", y)):
-        largest = float(abs(values).max())
-        if largest > 2 * ARCSEC:
-            raise SceneError(
-                f"largest {name}",
-                f"{largest / ARCSEC:.3g} arcsec",
-                "polar motion stays below one; is the unit right?",
-            )
-    p = pole_of(x, y) / MAS
-    if 0 < np.max(abs(p)) < SMALLEST:
-        raise SceneError(
-            "largest distance of the pole",
-            f"{np.max(abs(p)):.3g} mas",
-            f"it goes farther than {SMALLEST:g} mas; is the unit right?",
-        )
-    return time, p
-
-
-def _series(
-    series: Any, names: tuple[str, str], units: tuple[str, ...]
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Days from J2000.0 of a Dataset, and two series in SI that say their units.
-
-    Raises
-    ------
-    SceneError
-        If it is no such Dataset, has fewer than two days, or its days repeat or go back.
-    """
-    if not hasattr(series, "data_vars"):
-        problem = f"give a Dataset with {' and '.join(names)}"
-        raise SceneError("series", type(series).__name__, problem)
-    for name in names:
-        if name not in series or series[name].dims != ("time",):
-            names_given = list(map(str, series.data_vars))
-            raise SceneError("series", names_given, f"'{name}' along 'time' is needed")
-        unit, kind = series[name].attrs.get("units"), series[name].dtype
-        if kind.kind != "f" or series["time"].dtype.kind != "M":
-            raise SceneError(name, str(kind), "give numbers along dates without a zone")
-        if unit not in units:
-            allowed = " or ".join(f"'{u}'" for u in units)
-            raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
-    if series.time.size < 2:
-        raise SceneError("time", f"{series.time.size} days", "give two or more")
-    time = days(series.time, Where("time"))
-    backward = np.diff(time) <= 0
-    if np.any(backward):
-        raise SceneError(
-            "time",
-            str(series.time.values[1:][backward][0]),
-            "days repeat or go back; sort them with ds.sortby('time') and drop "
-            "copies with ds.drop_duplicates('time')",
-        )
-    first, second = (si(series[name]).values for name in names)
-    return time, first, second
-
-
 @part
 def neglected() -> Neglected:
     """What tables of the pole leave out by convention."""
@@ -410,7 +349,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Days from J2000.0 of the middles of the steps, and chi1 + i chi2 in mas."""
     from earthspin.wobble.resonance import excitation_of
 
-    time, chi1, chi2 = _series(chi, ("chi1", "chi2"), ("mas",))
+    time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
     return time, excitation_of(chi1, chi2) / MAS
 
 

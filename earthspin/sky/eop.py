@@ -199,6 +199,11 @@ def finals_path() -> Path:
 CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
+def _file(path: str | Path) -> Path:
+    """File of a path, or of a word for one that astropy includes."""
+    return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
+
+
 def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
     """Read polar motion from a file.
 
@@ -238,8 +243,7 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
     """Read two coordinates, and refuse or repair what is wrong."""
-    carried = CARRIED.get(str(path))
-    file = carried() if carried else Path(path)
+    file = _file(path)
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
     if kind not in _READERS:
@@ -312,10 +316,35 @@ def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
         yield _Row(number, mjd, (x, y, x_error, y_error))
 
 
-def _finals(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Rows of finals2000A, with fixed columns; predictions ("P") and empty rows are ignored."""
+def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
+    """Read the pole predicted by Bulletin A, from the rows after the observed ones.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file or a word, as for `read_polar_motion`.
+
+    Returns
+    -------
+    PoleSeries or None
+        None if the table has no predictions.
+    """
+    file = _file(path)
+    lines = lines_of(file)
+    if _kind(file, lines) != "finals2000A":
+        return None
+    rows = list(_finals(file, lines, _POLAR_MOTION, "P"))
+    if len(rows) < 2:
+        return None
+    _check_dates(file, rows)
+    _check_size(file, rows, _POLAR_MOTION)
+    return replace(_even(file, rows, "Bulletin A", []), sha256=checksum(file))
+
+
+def _finals(file: Path, lines: list[str], pair: _Coordinates, flag: str = "I") -> Iterator[_Row]:
+    """Rows of finals2000A, with fixed columns: observed ("I") or predicted ("P") ones."""
     for number, line in enumerate(lines, start=1):
-        if not line.strip() or line[pair.flag : pair.flag + 1] != "I":
+        if not line.strip() or line[pair.flag : pair.flag + 1] != flag:
             continue
         if len(line.rstrip("\n")) < pair.cells[-1].stop:
             raise SeriesError(file, "it ends early", "is the file cut off?", number)

@@ -30,6 +30,8 @@ PAGES = {
     "rotation": "The whole attitude",
     "nutation": "From a rigid Earth to half a milliarcsecond",
     "frames": "Which model, which time, which frame",
+    "pole_offsets": "Celestial pole offsets and the free core nutation",
+    "forecast": "Forecast of the pole",
 }
 ERRORS = ("accuracy", "Errors and run times")
 

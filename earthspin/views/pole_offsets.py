@@ -61,7 +61,7 @@ def core_nutation(tree: Result) -> Table:
         "the other sense. Noise alone exceeds the detection limit in 1 % of the windows."
     )
     headers = "middle of the window", "amplitude, uas", "detection limit, uas", "detected"
-    return Table("Free core nutation", headers, rows[::-1], words)
+    return Table("Free core nutation by window", headers, rows[::-1], words)
 
 
 def period(tree: Result) -> Table:

@@ -49,7 +49,8 @@ def test_an_answer_names_what_it_neglects(answer: xr.Dataset) -> None:
         assert words.startswith(f"{largest}: ")
         assert f"{float(sizes.sel(effect=largest)):.3g} {sizes.attrs['units']}" in words
     else:
-        assert words == sizes.attrs["long_name"]
+        unknown = sizes.attrs.get("of_unknown_size")
+        assert words == (f"of unknown size: {unknown}" if unknown else sizes.attrs["long_name"])
 
 
 def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:

@@ -38,7 +38,7 @@ def variables_of(nodes: dict[str, xr.Dataset]) -> Iterator[tuple[str, xr.DataArr
 def test_every_variable_is_described(nodes: dict[str, xr.Dataset]) -> None:
     for name, variable in variables_of(nodes):
         assert variable.attrs["long_name"], name
-        assert variable.dtype.kind in "fUM", name
+        assert variable.dtype.kind in "fiUM", name
         if variable.dtype.kind == "f":
             assert variable.attrs["units"] in FROM_SI, name
             assert u.Unit(variable.attrs["units"]).physical_type != "unknown", name

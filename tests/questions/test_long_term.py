@@ -354,7 +354,7 @@ def test_members_have_the_same_bits_alone_where_half_widths_are_sampled() -> Non
 
 
 def test_an_upright_axis_has_no_longitudes() -> None:
-    with pytest.raises(UndefinedError, match="stands upright on the orbit"):
+    with pytest.raises(UndefinedError, match="is normal to the orbit"):
         earthspin.long_term(times=["0 kyr"], body=upright(0.0), perturbers=["sun"])
 
 

@@ -32,10 +32,10 @@ def test_table_of_the_path(pole: xr.Dataset) -> None:
 
 def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
     tables = tables_for(iau)
-    assert len(tables) == 6
+    assert len(tables) == 7
     budget = tables[0]
     assert float(budget.rows[-1][1]) == pytest.approx(float(iau.closure) * 1e5, abs=1e-3)
-    assert len(tables[2].rows) == 30
+    assert len(tables[3].rows) == 30
 
 
 def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:

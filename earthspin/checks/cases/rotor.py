@@ -248,7 +248,7 @@ def _batch() -> Distances:
         yield alone.attitude - whole.attitude[n]
 
 
-@refused("exceeds the sum of the other two")
+@refused("may exceed the sum of the other two")
 def _triangle() -> None:
     """C one part in 10^9 above A + B
 

@@ -1,0 +1,185 @@
+"""Skill of the forecast of the pole: hindcasts, and releases of the tables with Bulletin A.
+
+Hindcasts use C04 with origins from 2005 to 2025, beside least squares with autoregression. Monthly
+releases of astropy-iers-data hold what Bulletin A predicted at the time; pip downloads them, one
+after the other, into a folder that later runs use again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import subprocess
+import sys
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.constants import MAS, NORMAL_95
+from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
+from earthspin.wobble.burg import burg
+from earthspin.wobble.forecast import PERIOD, SKILL, forecast
+from earthspin.wobble.record import YEAR
+
+Array = NDArray[np.float64]
+HORIZONS = (1, 3, 5, 10, 30, 90, 180, 365, 730)
+#: Modified Julian dates of 2005-01-01, 2014-01-01 and 2026-01-01, and days between origins.
+FIRST, MIDDLE, LAST, EVERY = 53371, 56658, 61041, 30
+#: The usual way: years of the least squares, and order of the autoregression.
+USUAL_YEARS, USUAL_ORDER = 8, 40
+#: Name of the set of releases.
+RELEASED = "releases"
+PACKAGE = "astropy-iers-data"
+RELEASES = Path.home() / ".cache" / "earthspin" / PACKAGE
+PAGE = Path(__file__).parent.parent / "docs" / "measured" / "forecast-skill.inc"
+
+
+def usual(p: Any, days: int) -> Any:
+    """Least squares with a free wobble, seasons and a line, and autoregression of the residual."""
+    count = round(USUAL_YEARS * YEAR)
+    t = np.arange(-count + 1, days + 1) / YEAR
+    rates = 2j * np.pi * np.array([1, -1, 2, -2, YEAR / PERIOD])
+    columns = np.column_stack([np.exp(np.outer(t, rates)), np.ones_like(t), t])
+    past, future = columns[:count], columns[count:]
+    fitted = np.linalg.lstsq(past, p[-count:], rcond=None)[0]
+    residual = list(p[-count:] - past @ fitted)
+    filter_ = burg(np.array(residual), USUAL_ORDER)
+    for _ in range(days):
+        residual.append(-np.dot(filter_[1:], residual[: -USUAL_ORDER - 1 : -1]))
+    return future @ fitted + np.array(residual[count:])
+
+
+def pole(table: PoleSeries) -> Any:
+    """Return x - i y in mas."""
+    return (table.x - 1j * table.y) / MAS
+
+
+def at_horizons(values: Any) -> Array:
+    """Coordinates x and y at the horizons, NaN beyond the last day."""
+    rows = np.full((len(HORIZONS), 2), np.nan)
+    for row, day in zip(rows, HORIZONS, strict=True):
+        if day <= len(values):
+            row[:] = values[day - 1].real, -values[day - 1].imag
+    return rows
+
+
+def half_widths(covariance: Array) -> Array:
+    """Half-widths of x and y at the horizons."""
+    variances = np.array([np.diag(covariance[day - 1]) for day in HORIZONS])
+    return np.asarray(NORMAL_95 * np.sqrt(variances))
+
+
+def hindcasts() -> tuple[Array, Array, Array, Array]:
+    """Origins, errors, half-widths, and errors of the usual way, from C04."""
+    table = read_polar_motion("c04")
+    p = pole(table)
+    origins = np.arange(FIRST, min(LAST, int(table.mjd[-1]) - 1), EVERY)
+    errors, widths, others = [], [], []
+    for origin in origins:
+        after = int(np.searchsorted(table.mjd, origin)) + 1
+        truth = at_horizons(p[after:])
+        ahead = forecast(p[:after], HORIZONS[-1])
+        errors.append(at_horizons(ahead.pole) - truth)
+        widths.append(half_widths(ahead.covariance))
+        others.append(at_horizons(usual(p[:after], HORIZONS[-1])) - truth)
+    return origins.astype(float), np.array(errors), np.array(widths), np.array(others)
+
+
+def monthly() -> list[str]:
+    """Versions of the first release of each month, from pip."""
+    words = [sys.executable, "-m", "pip", "index", "versions", PACKAGE]
+    text = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    (line,) = re.findall(r"Available versions: (.*)", text)
+    versions = line.split(", ")
+    by_month = {tuple(version.split(".")[1:3]): version for version in versions}
+    return list(by_month.values())
+
+
+def releases(folder: Path) -> Iterator[Path]:
+    """Files finals2000A.all of the monthly releases, the newest last."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for version in reversed(monthly()):
+        name = f"{PACKAGE.replace('-', '_')}-{version}-py3-none-any.whl"
+        if not (folder / name).exists():
+            words = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps"]
+            subprocess.run([*words, "--dest", str(folder), f"{PACKAGE}=={version}"], check=True)
+            time.sleep(1)
+        with zipfile.ZipFile(folder / name) as wheel, TemporaryDirectory() as place:
+            yield Path(wheel.extract("astropy_iers_data/data/finals2000A.all", place))
+
+
+def of_releases(folder: Path) -> tuple[Array, Array, Array]:
+    """Errors and half-widths on the releases, and errors of Bulletin A."""
+    observed = read_polar_motion("finals")
+    truth = pole(observed)
+    errors, widths, others = [], [], []
+    for file in releases(folder):
+        table, bulletin = read_polar_motion(file), read_bulletin_a(file)
+        after = int(np.searchsorted(observed.mjd, table.mjd[-1])) + 1
+        if bulletin is None or after >= truth.size:
+            continue
+        ahead = forecast(pole(table), HORIZONS[-1])
+        later = at_horizons(truth[after:])
+        errors.append(at_horizons(ahead.pole) - later)
+        widths.append(half_widths(ahead.covariance))
+        others.append(at_horizons(pole(bulletin)) - later)
+    return np.array(errors), np.array(widths), np.array(others)
+
+
+def numbers(name: str, errors: Array, widths: Array, others: Array) -> list[dict[str, Any]]:
+    """Skill by horizon, a row for each at which both forecasts can be compared."""
+    rows = []
+    for k, day in enumerate(HORIZONS):
+        known = np.isfinite(errors[:, k] + others[:, k]).all(axis=1)
+        if not known.any():
+            continue
+        error = errors[known, k]
+        columns = {
+            "mae": abs(error).mean(axis=0),
+            "rms": np.sqrt((error**2).mean(axis=0)),
+            "coverage": (abs(error) <= widths[known, k]).mean(axis=0),
+            "other_mae": abs(others[known, k]).mean(axis=0),
+        }
+        rounded = {column: [round(float(v), 3) for v in pair] for column, pair in columns.items()}
+        rows.append({"set": name, "horizon": day, "origins": int(known.sum())} | rounded)
+    return rows
+
+
+def table(name: str, rows: list[dict[str, Any]]) -> str:
+    """Table of the page."""
+    other = "Bulletin A" if name == RELEASED else "least squares + AR"
+    lines = [f"**{name}**", ""]
+    lines.append(f"| days | origins | MAE x, y (mas) | RMS x, y | coverage x, y | {other} x, y |")
+    lines.append("|---|---|---|---|---|---|")
+    for row in rows:
+        cells = [str(row["horizon"]), str(row["origins"])]
+        for column in ("mae", "rms", "coverage", "other_mae"):
+            cells.append(", ".join(f"{value:.2f}" for value in row[column]))
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join([*lines, ""])
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Measure, and write the table that the package ships and the one of the page."""
+    origins, *scores = hindcasts()
+    early = origins < MIDDLE
+    scored = {
+        "C04 2005-2013": [score[early] for score in scores],
+        "C04 2014-2025": [score[~early] for score in scores],
+        "C04 2005-2025": scores,
+        RELEASED: list(of_releases(RELEASES)),
+    }
+    sets = {name: numbers(name, *values) for name, values in scored.items()}
+    rows = [json.dumps(row) for name in sets for row in sets[name]]
+    SKILL.write_text("[\n" + ",\n".join(rows) + "\n]\n", encoding="utf-8")
+    page = "\n".join(table(name, rows_of) for name, rows_of in sets.items())
+    PAGE.write_text(page, encoding="utf-8")
+    print(page)
+    return 0

@@ -1,0 +1,388 @@
+"""Forecast of polar motion."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+
+from earthspin.bodies import EARTH, Body
+from earthspin.bodies.orbit import Epoch
+from earthspin.constants import DAY, MAS, NORMAL_95
+from earthspin.dates import Step, datetime64
+from earthspin.engine.asking import public_call
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.variables import (
+    Labels,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+    words,
+)
+from earthspin.errors import SceneError, Where
+from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
+from earthspin.parts.reasons import no_iau_model
+from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
+from earthspin.units import FloatArray, Number, Plain, pack, unpack
+from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
+from earthspin.wobble.forecast import Forecast as Predicted
+
+if TYPE_CHECKING:
+    pass
+
+#: Day of the modified Julian date 0 from J2000.0.
+_MJD = 51544.5
+#: How far a date may be from midnight, d.
+_MIDNIGHT = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class GivenPole:
+    """Polar motion given as a Dataset.
+
+    Attributes
+    ----------
+    rows : array, shape (3, n)
+        Days from J2000.0, and x and y in mas.
+    """
+
+    rows: FloatArray
+
+
+class ObservedPole(TableFile):
+    """Kind of a table of polar motion, or of a Dataset of `polar_motion`."""
+
+    words = '"c04", "finals", the path of a file or a Dataset of polar_motion'
+    hint = "str | PathLike[str] | xr.Dataset"
+
+    def read(self, value: Any, where: Where) -> Any:
+        """Read a Dataset, what `write` gives for it, a word or a path."""
+        if isinstance(value, GivenPole):
+            return value
+        if hasattr(value, "data_vars"):
+            time, p = complex_pole(value)
+            return GivenPole(np.array([time, p.real, -p.imag]))
+        if isinstance(value, dict):
+            return GivenPole(unpack(value, where))
+        return super().read(value, where)
+
+    def write(self, value: Any) -> Plain:
+        """Give a word or a path, and the rows of a Dataset as bytes."""
+        return pack(value.rows) if isinstance(value, GivenPole) else super().write(value)
+
+
+class Forecast(
+    Question, word="forecast", call="forecast", positional=("days", "step", "origin", "file")
+):
+    """Forecast of polar motion with its 95 % half-widths.
+
+    Only observed rows up to the origin are used.
+
+    Returns
+    -------
+    Dataset
+        Over `time`, from the day after the origin: `x`, `y` (arcsec) with their 95 % half-widths,
+        and `correlation_xy`, the correlation of the errors. `earthspin.run_tree` adds `components`
+        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon, and
+        `bulletin_a`, the prediction of Bulletin A from the same table if it has one.
+
+    Raises
+    ------
+    EarthspinError
+        If the table has gaps or less than 15 years before the origin, if the origin is outside
+        it, or if the horizon is longer than 730 days; in one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> ahead = earthspin.forecast(30, origin="2020-01-01", file="c04")
+    >>> last = ahead.isel(time=-1)
+    >>> print(f"{last.x:.3f} ± {last.x_error:.3f}, {last.y:.3f} ± {last.y_error:.3f} arcsec")
+    0.043 ± 0.018, 0.311 ± 0.010 arcsec
+    """
+
+    views, page = "forecast", "forecast"
+
+    body: Body = key(EARTH, doc="body whose pole is forecast")
+    days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
+        365.0, doc="horizon, 730 days at most"
+    )
+    step: Step = key("1 d", doc="time between two epochs, a whole number of days")
+    origin: Annotated[float, Epoch()] | None = key(
+        None, doc="last day whose observation is used; the newest observed one if not given"
+    )
+    file: Annotated[Any, ObservedPole()] = key(
+        "finals", doc="table of the IERS that astropy carries, a local file, or polar motion"
+    )
+    parameters: Literal["shipped", "fitted"] = key(
+        "shipped", doc="whether the fast excitation is as shipped or fitted before the origin"
+    )
+
+    def check(self) -> None:
+        """Require whole days, and a horizon for which skill was measured."""
+        if self.days > LONGEST:
+            problem = f"a forecast reaches {LONGEST} d at most; take fewer days"
+            raise SceneError("days", f"{self.days:g} d", problem)
+        step = self.step / DAY
+        if step != round(step) or self.days < step:
+            raise SceneError("step", f"{step:g} d", "give whole days, at most as many as `days`")
+
+
+@dataclass(frozen=True)
+class Record:
+    """Observed pole up to the origin.
+
+    Attributes
+    ----------
+    time : array, shape (n,)
+        Days from J2000.0, one after the other.
+    p : complex array, shape (n,)
+        x - i y, mas.
+    name : str
+        Series.
+    sha256 : str
+        Of the file; empty for a Dataset.
+    """
+
+    time: FloatArray
+    p: ComplexArray
+    name: str
+    sha256: str = ""
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Checksum of the file, for the attributes of an answer."""
+        return {"table_sha256": self.sha256} if self.sha256 else {}
+
+
+@part(unless=no_iau_model)
+def record(file: Any, origin: float | None) -> Record:
+    """Observed pole, daily and without gaps, up to the origin."""
+    if isinstance(file, GivenPole):
+        time, x, y = file.rows
+        p: ComplexArray = (x - 1j * y).astype(complex)
+        whole = Record(time, p, "polar_motion")
+    else:
+        table = read_polar_motion(file)
+        if "bridged" in table.repairs:
+            raise SceneError("file", str(file), f"{table.repairs}; a forecast needs every day")
+        p = ((table.x - 1j * table.y) / MAS).astype(complex)
+        whole = Record(table.mjd - _MJD, p, f"IERS {table.name}", table.sha256)
+    steps = np.diff(whole.time)
+    if np.any(abs(steps - 1) > _MIDNIGHT):
+        wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
+        problem = "a forecast needs one row for each day"
+        raise SceneError("file", f"a step of {steps.max():g} d after {_day(wrong)}", problem)
+    return _until(whole, origin)
+
+
+def _until(whole: Record, origin: float | None) -> Record:
+    """Rows up to the origin."""
+    if origin is None:
+        return whole
+    first, last = whole.time[[0, -1]]
+    if not first <= origin < last + 1:
+        problem = f"the observed rows cover {_day(first)} to {_day(last)}; choose a day inside"
+        raise SceneError("origin", _day(origin), problem)
+    count = int(np.floor(origin - first + _MIDNIGHT)) + 1
+    return Record(whole.time[:count], whole.p[:count], whole.name, whole.sha256)
+
+
+def _day(time: float) -> str:
+    """Date of a day from J2000.0."""
+    return str(datetime64(np.array([time]))[0])[:10]
+
+
+@part
+def predicted(record: Record, days: float, parameters: str) -> Predicted:
+    """Pole and covariance day by day."""
+    from earthspin.wobble import forecast as model
+
+    fast = model.SHIPPED if parameters == "shipped" else model.fit(record.p)
+    return model.forecast(record.p, int(days), fast)
+
+
+class AheadOfOrigin(Variables, along=("time",)):
+    """Variables at the days of a forecast."""
+
+    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
+
+
+class ForecastPole(AheadOfOrigin):
+    """Forecast of polar motion."""
+
+    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    correlation_xy: Value = number(
+        "1", "correlation of the errors of x and y", no_error="it belongs to the errors"
+    )
+
+
+def _shown(days: float, step: float) -> Any:
+    """Rows of daily values that an answer has."""
+    every = round(step / DAY)
+    return slice(every - 1, int(days), every)
+
+
+def _times(record: Record, days: float, step: float) -> Any:
+    """Dates of an answer."""
+    return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)])
+
+
+@part
+def ahead(
+    record: Record,
+    predicted: Predicted,
+    days: float,
+    step: float,
+    parameters: str,
+    origin: float | None,
+) -> ForecastPole:
+    """Forecast of the pole, with the covariance of its error."""
+    newest = float(record.time[-1])
+    shown = _shown(days, step)
+    p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
+    sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
+    source = {
+        "references": record.name,
+        "origin": _day(newest if origin is None else origin),
+        "newest_row": _day(newest),
+        "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
+        "parameters": f"{parameters}: {_words(predicted.fast)}",
+    }
+    return ForecastPole(
+        time=_times(record, days, step),
+        x=(p.real, NORMAL_95 * sx),
+        y=(-p.imag, NORMAL_95 * sy),
+        correlation_xy=covariance[:, 0, 1] / (sx * sy),
+    ).with_attributes(x=source, y=source)
+
+
+def _words(fast: FastExcitation) -> str:
+    """Parameters of the fast excitation in one line."""
+    return ", ".join(f"{name} = {value:.4g}" for name, value in fast.as_mapping().items())
+
+
+class Components(AheadOfOrigin):
+    """Parts of a forecast of the pole."""
+
+    component_x: Pair = measured("mas", "part of x", along=("component", "time"))
+    component_y: Pair = measured("mas", "part of y", along=("component", "time"))
+    component: Labels = labels(default=list(COMPONENTS))
+
+
+@part
+def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
+    """Chandler, annual and semiannual wobble and slow pole."""
+    shown = _shown(days, step)
+    p = np.array([values[shown] for values in predicted.components.values()]) * MAS
+    variance = np.array([values[shown] for values in predicted.component_variance.values()])
+    half_width = NORMAL_95 * np.sqrt(variance) * MAS
+    return Components(
+        time=_times(record, days, step),
+        component_x=(p.real, half_width[..., 0]),
+        component_y=(-p.imag, half_width[..., 1]),
+    )
+
+
+_COUNTED = "counted over the origins of the table"
+
+
+class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
+    """Measured skill by horizon."""
+
+    mean_absolute_error: Value = number("mas", "mean absolute error of the forecast", short="MAE")
+    root_mean_square: Value = number("mas", "root mean square error of the forecast", short="RMS")
+    coverage: Value = number("1", "share of 95 % intervals that hold the observed pole")
+    other_mean_absolute_error: Value = number(
+        "mas",
+        "mean absolute error of Bulletin A on the same releases, or of least squares with "
+        "autoregression on the same origins",
+        short="other MAE",
+    )
+    skill_set: Value = words("table and origins", along=("case",))
+    horizon: Value = number("d", "days after the origin", along=("case",))
+    origins: Value = number("1", "number of origins", along=("case",))
+    case: Labels = labels()
+    coordinate: Labels = labels(default=["x", "y"])
+
+
+@part
+def skill() -> Skill:
+    """Skill as measured with hindcasts and with releases of the tables of the IERS."""
+    table = json.loads(SKILL.read_text(encoding="utf-8"))
+
+    def of(name: str) -> FloatArray:
+        return np.array([row[name] for row in table], dtype=float)
+
+    return Skill(
+        mean_absolute_error=of("mae") * MAS,
+        root_mean_square=of("rms") * MAS,
+        coverage=of("coverage"),
+        other_mean_absolute_error=of("other_mae") * MAS,
+        skill_set=[row["set"] for row in table],
+        horizon=of("horizon") * DAY,
+        origins=of("origins"),
+        case=[f"{row['set']}, {row['horizon']} d" for row in table],
+    )
+
+
+class BulletinA(AheadOfOrigin):
+    """Prediction of Bulletin A."""
+
+    bulletin_a_x: Pair = measured("arcsec", "x as Bulletin A predicts it")
+    bulletin_a_y: Pair = measured("arcsec", "y as Bulletin A predicts it")
+
+
+def not_in_file(file: Any, origin: float | None) -> str | None:
+    """Leave Bulletin A out where the table has no prediction from the same origin."""
+    if origin is not None:
+        return "Bulletin A predicts from the newest observed day; leave origin out"
+    if isinstance(file, GivenPole) or read_bulletin_a(file) is None:
+        return "the table holds no predictions of Bulletin A"
+    return None
+
+
+@part(unless=not_in_file)
+def bulletin_a(file: Any, record: Record, days: float, step: float) -> BulletinA:
+    """Prediction of Bulletin A in the same table, with 1.96 times its standard deviations."""
+    table = read_bulletin_a(file)
+    assert isinstance(table, PoleSeries)
+    shown = (table.mjd - _MJD - record.time[-1]) <= days
+    rows = np.flatnonzero(shown)[_shown(days, step)]
+    return BulletinA(
+        time=datetime64(table.mjd[rows] - _MJD),
+        bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
+        bulletin_a_y=(table.y[rows], NORMAL_95 * table.y_error[rows]),
+    )
+
+
+@part
+def neglected() -> Neglected:
+    """What the forecast leaves out."""
+    return Neglected(
+        unknown="forecasts of the angular momentum of air, water and ground; "
+        "tides of a day and of half a day, which tables of the pole leave out by convention"
+    )
+
+
+define_parts(
+    Forecast,
+    answer=ahead,
+    sections={
+        "components": components,
+        "skill": skill,
+        "bulletin_a": bulletin_a,
+        "neglected": neglected,
+    },
+    parts=(record, predicted),
+)
+
+forecast = public_call(Forecast)

@@ -1,0 +1,138 @@
+"""Forecast of polar motion: bands in time, and the path of the pole."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from earthspin.units import FloatArray
+from earthspin.views import drawing
+from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.table import Table, along, date, measured
+
+#: Days after the origin at which a table has a row and the path an ellipse.
+ROWS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
+#: Half-width of an interval over the standard deviation, and the same of an ellipse of 95 %.
+ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
+
+
+def at_horizons(tree: Result) -> Table:
+    """Pole at a few horizons."""
+    answer = answer_of(tree)
+    days = _days(answer)
+    rows = [
+        (f"{day:.0f}", date(row.time), measured(row, "x"), measured(row, "y"))
+        for day, (_, row) in zip(days, along(answer, "time"), strict=True)
+        if round(day) in ROWS
+    ]
+    attrs = answer.x.attrs
+    words = (
+        f"Observations: {attrs['references']} up to {attrs['origin']}. Parameters: "
+        f"{attrs['parameters'].split(':')[0]}. Half-widths are 95 %."
+    )
+    headers = ("days ahead", "date", "x, arcsec", "y, arcsec")
+    return Table("Forecast of polar motion", headers, rows, words)
+
+
+def skill(tree: Result) -> Table:
+    """Measured skill by horizon."""
+    data = needed(tree, "skill")
+    rows = []
+    for _, row in along(data, "case"):
+        numbers = [
+            " / ".join(f"{value:.2f}" for value in row[variable].values)
+            for variable in ("mean_absolute_error", "coverage", "other_mean_absolute_error")
+        ]
+        rows.append(
+            (str(row.skill_set.values), f"{row.horizon:.0f}", f"{row.origins:.0f}", *numbers)
+        )
+    headers = ("origins of", "days", "number", "MAE x / y, mas", "coverage", "other MAE, mas")
+    words = (
+        "The other forecast is that of Bulletin A on releases, and least squares with "
+        "autoregression on C04."
+    )
+    return Table("Measured skill", headers, rows, words)
+
+
+TABLES = [("", at_horizons), ("skill", skill)]
+
+
+def _days(answer: xr.Dataset) -> FloatArray:
+    """Days after the origin."""
+    origin = np.datetime64(answer.x.attrs["origin"])
+    days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
+    return days
+
+
+def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Forecast of x and y with 95 % bands, and that of Bulletin A if it is there.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    figure : Figure, optional
+        Drawn on one of its own by default.
+    """
+    answer, bulletin = answer_of(result), section(result, "bulletin_a")
+    figure, panels = drawing.stacked(2, 5.2, figure, width=7.5)
+    for ax, name, colour in zip(panels, ("x", "y"), (drawing.BLUE, drawing.GREEN), strict=True):
+        value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
+        drawing.band(ax, answer.time.values, value, error, colour, label=f"{name}, 95 %")
+        if bulletin is not None:
+            predicted = bulletin[f"bulletin_a_{name}"] * 1e3
+            words = "Bulletin A"
+            ax.plot(bulletin.time, predicted, color=drawing.RED, lw=1, ls="--", label=words)
+        ax.set_ylabel(f"{name} (mas)")
+        ax.legend(loc="best")
+    return figure
+
+
+def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Forecast path of the pole, with ellipses of 95 % after 30, 90 and 365 days.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    ax : Axes, optional
+    """
+    from matplotlib.patches import Ellipse
+
+    ax = axes(ax, 6.0, 6.0)
+    answer = answer_of(result)
+    x, y = answer.x.values * 1e3, answer.y.values * 1e3
+    ax.plot(y, x, color=drawing.BLUE, lw=1.4)
+    for day in ELLIPSES:
+        near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
+        if near.size == 0:
+            continue
+        row = answer.isel(time=int(near[0]))
+        sx, sy = (1e3 * float(row[name]) / ONE_COORDINATE for name in ("x_error", "y_error"))
+        across = float(row.correlation_xy) * sx * sy
+        values, vectors = np.linalg.eigh([[sy**2, across], [across, sx**2]])
+        width, height = 2 * BOTH * np.sqrt(values)
+        turn = np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0]))
+        centre = float(row.y) * 1e3, float(row.x) * 1e3
+        ax.add_patch(Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, lw=1))
+        ax.plot(*centre, "o", color=drawing.RED, ms=4)
+        note(ax, f"{day} d", centre, (5, 4), color=drawing.RED)
+    ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
+    ax.set_xlabel("y, towards 90° west (mas)")
+    return ax
+
+
+FIGURES = [
+    PageFigure(
+        "Forecast of both coordinates",
+        "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A.",
+        plot_coordinates,
+        section="bulletin_a",
+    ),
+    PageFigure(
+        "Path of the pole",
+        "Forecast path of the pole over the ground; ellipses hold it in 95 % of cases.",
+        plot_path,
+    ),
+]

@@ -1,0 +1,266 @@
+"""Forecast of polar motion by a driven oscillator, annual and semiannual circles and a slow pole.
+
+With p = x - i y in mas,
+
+    p' = i s (p - chi),   chi = fast + slow,   s = 2 pi / T (1 + i / 2 Q),
+
+where the slow part of the excitation forgets within `SLOW_MEMORY` and the fast part is noise,
+unequal and correlated in the two coordinates, that passes two filters of first order. Circles of
+a year and of half a year, forward and backward, change their amplitudes at random, and so do the
+level and the slope of the slow pole. A Kalman filter follows all of it through the last 15 years.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from earthspin.errors import UndefinedError
+from earthspin.wobble.burg import burg
+from earthspin.wobble.record import YEAR
+from earthspin.wobble.resonance import chandler_frequency
+from earthspin.wobble.state_space import Array, Complex, Filter, StateSpace
+
+#: Measured skill; `python -m data_tools forecast` writes it.
+SKILL = Path(__file__).with_name("forecast_skill.json")
+#: Days of observations that a forecast uses.
+RECORD = 5478
+#: Horizon up to which skill was measured, d.
+LONGEST = 730
+#: Periods of the free wobble, d, and its quality factor.
+PERIOD, QUALITY = 433.0, 80.0
+#: Slow part of the excitation: standard deviation, mas, and memory, d.
+SLOW, SLOW_MEMORY = 10.0, 300.0
+#: Random walks of the amplitudes of a year and of half a year, of the level, mas/sqrt(d), and of
+#: the slope, mas/d/sqrt(d).
+ANNUAL_WALK, SEMIANNUAL_WALK, LEVEL_WALK, SLOPE_WALK = 0.01, 0.005, 0.1, 1e-6
+#: Standard deviation of an observation, mas.
+OBSERVATION = 0.03
+#: Standard deviations before the first observation, mas: free wobble, the two states of the fast
+#: excitation, the slow one, circles of a year and of half a year, level; and slope, mas/d.
+BEFORE = np.array([200.0, 50.0, 50.0, SLOW, 100.0, 100.0, 20.0, 20.0, 500.0, 0.05])
+#: Order of the autoregression of the innovations, days from which it is fitted, and days that it
+#: extrapolates.
+ORDER, FITTED_OVER, EXTRAPOLATED = 20, 3650, 40
+#: Days between observations in a fit of the fast excitation, and its largest number of iterations.
+THINNED, ITERATIONS = 10, 12
+
+#: What is observed: free wobble, circles and level.
+_OBSERVED = np.array([[1, 0, 0, 0, 1, 1, 1, 1, 1, 0]], dtype=complex)
+#: Which states belong to which component.
+COMPONENTS = {
+    "Chandler": [0],
+    "annual": [4, 5],
+    "semiannual": [6, 7],
+    "slow pole": [8],
+}
+
+
+@dataclass(frozen=True)
+class FastExcitation:
+    """Fast part of the excitation: noise that passes two filters of first order.
+
+    Attributes
+    ----------
+    first_decay, second_decay : float
+        1/d.
+    first_turn, second_turn : float
+        Rates at which the states of the filters turn, rad/d.
+    x, y : float
+        Noise that enters the first filter, mas/sqrt(d).
+    correlation : float
+        Of the noise in x and y.
+    """
+
+    first_decay: float
+    first_turn: float
+    second_decay: float
+    second_turn: float
+    x: float
+    y: float
+    correlation: float
+
+    @property
+    def density(self) -> Array:
+        """Covariance that the noise adds in a day, of the real and the imaginary part."""
+        across = -self.correlation * self.x * self.y
+        return np.array([[self.x**2, across], [across, self.y**2]])
+
+    @property
+    def free(self) -> Array:
+        """The seven numbers without bounds, for a search."""
+        logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
+        turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
+        return np.array([*logs, *turns])
+
+    @classmethod
+    def from_free(cls, free: Array) -> FastExcitation:
+        """Inverse of `free`."""
+        first, second, x, y = map(float, np.exp(free[:4]))
+        return cls(first, float(free[4]), second, float(free[5]), x, y, float(np.tanh(free[6])))
+
+    def as_mapping(self) -> Mapping[str, float]:
+        """The numbers by name, for the attributes of an answer."""
+        return dict(vars(self))
+
+
+#: Chosen on C04 from 2005 to 2013 by the likelihood of forecasts 1 to 365 days ahead.
+SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)
+
+
+def model(fast: FastExcitation = SHIPPED) -> StateSpace:
+    """Model of the pole, day by day; its ten complex states are in the order of `BEFORE`."""
+    rate = 1j * chandler_frequency(PERIOD, QUALITY)
+    year = 2j * np.pi / YEAR
+    diagonal = [
+        rate,
+        -fast.first_decay + 1j * fast.first_turn,
+        -fast.second_decay + 1j * fast.second_turn,
+        -1 / SLOW_MEMORY,
+        *(year, -year, 2 * year, -2 * year),
+        *(0, 0),
+    ]
+    rates = np.diag(np.array(diagonal, dtype=complex))
+    rates[0, 2:4] = -rate
+    rates[2, 1] = fast.second_decay
+    rates[8, 9] = 1
+    slow = SLOW * np.sqrt(2 / SLOW_MEMORY)
+    walks = [0, 0, 0, slow, ANNUAL_WALK, ANNUAL_WALK, SEMIANNUAL_WALK, SEMIANNUAL_WALK]
+    size = len(BEFORE)
+    density = np.diag(np.tile([*walks, LEVEL_WALK, SLOPE_WALK], 2) ** 2)
+    density[np.ix_([1, 1 + size], [1, 1 + size])] = fast.density
+    error = OBSERVATION**2 * np.eye(2)
+    return StateSpace.sampled(rates, density, _OBSERVED, error, np.diag(np.tile(BEFORE, 2) ** 2))
+
+
+@cache
+def _filter(fast: FastExcitation) -> Filter:
+    """Filter of a whole record."""
+    return Filter.of(model(fast), RECORD)
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Predicted pole, day by day from the first after the last observation.
+
+    Attributes
+    ----------
+    pole : complex array, shape (n,)
+        x - i y, mas.
+    covariance : array, shape (n, 2, 2)
+        Of x and y, mas squared, error of observation included.
+    components : mapping of str to complex array, shape (n,)
+        Parts of the pole, mas.
+    component_variance : mapping of str to array, shape (n, 2)
+        Variances of x and y of each part, mas squared.
+    fast : FastExcitation
+        Parameters that were used.
+    """
+
+    pole: Complex
+    covariance: Array
+    components: Mapping[str, Complex]
+    component_variance: Mapping[str, Array]
+    fast: FastExcitation
+
+
+def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED) -> Forecast:
+    """Forecast of the pole from its past.
+
+    Parameters
+    ----------
+    p : complex array, shape (n,)
+        x - i y, mas, daily; the last `RECORD` days are used.
+    days : int
+        How many days ahead.
+    fast : FastExcitation
+
+    Raises
+    ------
+    UndefinedError
+        If the record is too short.
+    """
+    record = last_of(p)
+    kalman = _filter(fast)
+    state, innovations = kalman.run(np.column_stack([record.real, record.imag]))
+    future = _extrapolated(innovations @ np.array([1, 1j]), min(days, EXTRAPOLATED))
+    system, gain, covariance = kalman.model, kalman.gains[-1], kalman.covariance
+    rows = {name: _rows(states) for name, states in COMPONENTS.items()}
+    pole, spread = np.empty((days, 2)), np.empty((days, 2, 2))
+    parts = {name: np.empty((days, 2)) for name in rows}
+    variances = {name: np.empty((days, 2)) for name in rows}
+    for day in range(days):
+        state = system.transition @ state
+        covariance = system.propagated(covariance)
+        pole[day], spread[day] = system.observed @ state, system.of_observation(covariance)
+        if day < len(future):
+            pole[day] += future[day]
+            state = state + gain @ future[day]
+        for name, row in rows.items():
+            parts[name][day] = row @ state
+            variances[name][day] = np.diag(row @ covariance @ row.T)
+    spread *= np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
+    complex_parts = {name: part @ np.array([1, 1j]) for name, part in parts.items()}
+    return Forecast(pole @ np.array([1, 1j]), spread, complex_parts, variances, fast)
+
+
+def last_of(p: Complex) -> Complex:
+    """Last `RECORD` days of a record.
+
+    Raises
+    ------
+    UndefinedError
+        If it is shorter.
+    """
+    if p.size < RECORD:
+        raise UndefinedError(
+            f"the record up to the origin has {p.size} days; a forecast needs {RECORD} (15 years)"
+        )
+    return p[-RECORD:]
+
+
+def _rows(states: list[int]) -> Array:
+    """Matrix that adds some of the states, real and imaginary part."""
+    row = np.zeros(len(BEFORE))
+    row[states] = 1
+    return np.asarray(np.kron(np.eye(2), row), dtype=float)
+
+
+def _extrapolated(innovations: Complex, days: int) -> Array:
+    """Innovations of the next days by autoregression, shape (days, 2)."""
+    filter_ = burg(innovations[-FITTED_OVER:], ORDER)
+    series = list(innovations[-ORDER:])
+    for _ in range(days):
+        series.append(-np.dot(filter_[1:], series[: -ORDER - 1 : -1]))
+    future = np.array(series[ORDER:], dtype=complex)
+    return np.column_stack([future.real, future.imag])
+
+
+def fit(p: Complex) -> FastExcitation:
+    """Fast excitation of maximum likelihood, from every tenth day of a record.
+
+    Parameters
+    ----------
+    p : complex array, shape (n,)
+        As of `forecast`.
+    """
+    record = last_of(p)[::-1][::THINNED][::-1]
+    data = np.column_stack([record.real, record.imag])
+
+    def height(free: Array) -> float:
+        system = model(FastExcitation.from_free(free)).every(THINNED)
+        kalman = Filter.of(system, len(data))
+        return kalman.minus_twice_log(kalman.run(data)[1])
+
+    start = SHIPPED.free
+    options: dict[str, Any] = {"maxiter": ITERATIONS, "eps": 1e-4}
+    best = minimize(
+        height, start, method="L-BFGS-B", bounds=[(v - 1, v + 1) for v in start], options=options
+    )
+    return FastExcitation.from_free(best.x)

@@ -1,0 +1,155 @@
+"""Linear Gaussian models in discrete time: Kalman filter, likelihood and forecast.
+
+A state z obeys z' = A z + n with complex A, and is observed at even steps with an error. The noise
+may be unequal and correlated in the real and the imaginary part, which a complex covariance alone
+cannot say, so that everything is computed with the real and the imaginary parts side by side:
+
+    z[k + 1] = F z[k] + n[k],   d[k] = H z[k] + e[k],   cov(n) = Q,   cov(e) = R.
+
+Source: Anderson & Moore (1979), Optimal Filtering, sections 3.1 and 6.2; Van Loan (1978), IEEE
+Transactions on Automatic Control 23, 395, for F and Q.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def side_by_side(matrix: Complex) -> Array:
+    """Real matrix that acts on real parts followed by imaginary parts as a complex matrix does."""
+    return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
+
+
+@dataclass(frozen=True)
+class StateSpace:
+    """A discretised model.
+
+    Attributes
+    ----------
+    transition : array, shape (m, m)
+        F, from one step to the next.
+    noise : array, shape (m, m)
+        Q, covariance of what is added in a step.
+    observed : array, shape (k, m)
+        H, from the state to what is observed.
+    error : array, shape (k, k)
+        R, covariance of the errors of observation.
+    start : array, shape (m, m)
+        Covariance of the state before the first observation; its mean is zero.
+    """
+
+    transition: Array
+    noise: Array
+    observed: Array
+    error: Array
+    start: Array
+
+    @classmethod
+    def sampled(
+        cls, rates: Complex, density: Array, observed: Complex, error: Array, start: Array
+    ) -> StateSpace:
+        """Sample a model in continuous time once a day.
+
+        Parameters
+        ----------
+        rates : complex array, shape (n, n)
+            A, 1/d.
+        density : array, shape (2 n, 2 n)
+            Covariance that the noise adds in a day, real parts before imaginary ones.
+        observed : complex array, shape (1, n)
+        error : array, shape (2, 2)
+        start : array, shape (2 n, 2 n)
+        """
+        matrix = side_by_side(rates)
+        size = len(matrix)
+        block = np.block([[-matrix, density], [np.zeros_like(matrix), matrix.T]])
+        exponential = expm(block)
+        transition = exponential[size:, size:].T
+        noise = transition @ exponential[:size, size:]
+        return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
+
+    def every(self, steps: int) -> StateSpace:
+        """The same model, observed at every so many steps."""
+        transition, noise = self.transition, self.noise
+        for _ in range(steps - 1):
+            transition = self.transition @ transition
+            noise = self.transition @ noise @ self.transition.T + self.noise
+        return StateSpace(transition, noise, self.observed, self.error, self.start)
+
+    def propagated(self, covariance: Array) -> Array:
+        """Covariance of the state one step later."""
+        return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
+
+    def of_observation(self, covariance: Array) -> Array:
+        """Covariance of an observation, for that of the state."""
+        return np.asarray(self.observed @ covariance @ self.observed.T + self.error)
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Kalman filter of a model, whose gains depend on no observation.
+
+    Attributes
+    ----------
+    model : StateSpace
+    gains : array, shape (n, m, k)
+    innovation : array, shape (n, k, k)
+        Covariances of the innovations.
+    covariance : array, shape (m, m)
+        Of the state after the last observation.
+    """
+
+    model: StateSpace
+    gains: Array
+    innovation: Array
+    covariance: Array
+
+    @classmethod
+    def of(cls, model: StateSpace, count: int) -> Filter:
+        """Compute the gains of so many observations."""
+        predicted, after = model.start, model.start
+        gains = np.empty((count, len(predicted), len(model.observed)))
+        innovation = np.empty((count, len(model.observed), len(model.observed)))
+        for k in range(count):
+            across = predicted @ model.observed.T
+            innovation[k] = model.observed @ across + model.error
+            gains[k] = np.linalg.solve(innovation[k], across.T).T
+            after = predicted - gains[k] @ across.T
+            after = (after + after.T) / 2
+            predicted = model.propagated(after)
+        return cls(model, gains, innovation, after)
+
+    def run(self, data: Array) -> tuple[Array, Array]:
+        """State after the last of the observations, and the innovations.
+
+        Parameters
+        ----------
+        data : array, shape (n, k)
+            As many observations as there are gains.
+
+        Returns
+        -------
+        state : array, shape (m,)
+        innovations : array, shape (n, k)
+        """
+        state, after = np.zeros(len(self.model.start)), np.zeros(len(self.model.start))
+        innovations = np.empty_like(data)
+        for k, (gain, row) in enumerate(zip(self.gains, data, strict=True)):
+            innovations[k] = row - self.model.observed @ state
+            after = state + gain @ innovations[k]
+            state = self.model.transition @ after
+        return after, innovations
+
+    def minus_twice_log(self, innovations: Array) -> float:
+        """Minus twice the logarithm of the likelihood of the observations, from `run`."""
+        weighted = np.linalg.solve(self.innovation, innovations[..., None])[..., 0]
+        size = innovations.size * np.log(2 * np.pi)
+        determinants = np.linalg.slogdet(self.innovation)[1].sum()
+        return float(size + determinants + np.sum(innovations * weighted))

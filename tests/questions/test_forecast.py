@@ -1,0 +1,173 @@
+"""Forecast of the pole: what it uses, what it refuses, and what was observed later."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin.constants import MAS
+from earthspin.sky import eop
+from earthspin.views import forecast as views
+
+ORIGIN = "2018-06-01"
+
+
+@pytest.fixture(scope="module")
+def lines() -> list[str]:
+    """Lines of C04."""
+    return eop.c04_path().read_text(encoding="ascii").splitlines()
+
+
+@pytest.fixture(scope="module")
+def ahead() -> xr.Dataset:
+    return earthspin.forecast(365, origin=ORIGIN, file="c04")
+
+
+def number_of_row(lines: list[str], date: str) -> int:
+    year, month, day = map(int, date.split("-"))
+    return next(
+        k for k, line in enumerate(lines) if line.split()[:3] == [str(year), str(month), str(day)]
+    )
+
+
+def test_a_known_hindcast_against_later_observations(ahead: xr.Dataset) -> None:
+    """Errors of 2018-06-01 in mas; 95 % half-widths were measured over 256 origins."""
+    seen = earthspin.polar_motion(span=(ORIGIN, "2019-06-02")).sel(time=ahead.time)
+    for name in ("x", "y"):
+        inside = abs(ahead[name] - seen[name]) <= ahead[f"{name}_error"]
+        assert float(inside.mean()) > 0.8
+        ten_days = float(abs(ahead[name] - seen[name])[:10].max())
+        assert ten_days < 0.009  # the largest move that was seen beyond a forecast of ten days
+
+
+def test_rows_after_the_origin_change_no_bit(
+    ahead: xr.Dataset, lines: list[str], tmp_path: Path
+) -> None:
+    end = number_of_row(lines, ORIGIN)
+    changed = [
+        line if k <= end else line[:26] + f"{0.05 + 1e-5 * (k - end):12.6f}" + line[38:]
+        for k, line in enumerate(lines[: end + 400])
+    ]
+    file = tmp_path / "pole.txt"
+    file.write_text("\n".join(changed), encoding="ascii")
+    assert not np.array_equal(
+        eop.read_polar_motion(file).x[-5:], eop.read_polar_motion("c04").x[-5:]
+    )
+    again = earthspin.forecast(365, origin=ORIGIN, file=str(file))
+    for name in ahead.data_vars:
+        assert np.array_equal(ahead[name], again[name])
+
+
+def test_predicted_rows_are_never_used(tmp_path: Path) -> None:
+    lines = eop.finals_path().read_text(encoding="ascii").splitlines()
+    observed = [line for line in lines if line[16:17] == "I"]
+    file = tmp_path / "finals.txt"
+    file.write_text("\n".join(observed) + "\n", encoding="ascii")
+    whole, cut = earthspin.forecast(30), earthspin.forecast(30, file=str(file))
+    assert np.array_equal(whole.x, cut.x)
+    newest = np.datetime64(whole.x.attrs["origin"])
+    mjd = (newest - np.datetime64("1858-11-17")) / np.timedelta64(1, "D")
+    assert float(observed[-1][7:15]) == mjd
+    assert whole.time.values[0] == newest + np.timedelta64(1, "D")
+
+
+def test_a_dataset_of_polar_motion_and_its_scene(ahead: xr.Dataset) -> None:
+    seen = earthspin.polar_motion(span=("2003-01-01", ORIGIN))
+    given = earthspin.forecast(365, file=seen)
+    assert np.allclose(given.x, ahead.x, rtol=0, atol=1e-12)
+    again = earthspin.run(given)
+    assert np.array_equal(again.x, given.x)
+
+
+def test_polar_motion_reads_finals() -> None:
+    pole = earthspin.polar_motion(span=("2010-01-01", "2010-02-01"), file="finals")
+    assert pole.x.attrs["references"] == "IERS finals2000A"
+
+
+def test_steps_are_rows_of_the_daily_forecast(ahead: xr.Dataset) -> None:
+    weekly = earthspin.forecast(365, "7 d", ORIGIN, "c04")
+    assert np.array_equal(weekly.x, ahead.x[6::7])
+    assert np.array_equal(weekly.time, ahead.time[6::7])
+
+
+def test_components_add_up_to_the_pole() -> None:
+    """After the innovations' extrapolation the parts differ from the pole by rounding."""
+    tree = earthspin.run_tree(earthspin.load_scene("forecast", {"origin": ORIGIN, "file": "c04"}))
+    parts = tree["components"].to_dataset()
+    late = slice(60, None)
+    for name in ("x", "y"):
+        total = parts[f"component_{name}"].sum("component").values[late] * MAS
+        whole = tree.to_dataset()[name].values[late] * 1e3 * MAS
+        assert np.allclose(total, whole, rtol=0, atol=1e-9 * MAS)
+
+
+def test_bulletin_a_is_that_of_astropys_reader() -> None:
+    from astropy.utils.iers import IERS_A
+
+    tree = earthspin.run_tree(earthspin.load_scene("forecast", {"days": "60 d"}))
+    bulletin = tree["bulletin_a"].to_dataset()
+    table = IERS_A.open(str(eop.finals_path()))
+    mjd = (bulletin.time.values - np.datetime64("1858-11-17")) / np.timedelta64(1, "D")
+    rows = np.searchsorted(table["MJD"].value, mjd)
+    assert set(table["PolPMFlag_A"][rows]) == {"P"}
+    assert np.allclose(bulletin.bulletin_a_x, table["PM_x_A"][rows].value, rtol=0, atol=1e-12)
+    assert np.allclose(bulletin.bulletin_a_y, table["PM_y_A"][rows].value, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"origin": "1970-01-01"}, "15 years"),
+        ({"origin": "1950-01-01"}, "1962-01-01"),
+        ({"origin": "2100-01-01"}, "choose a day inside"),
+        ({"days": 731}, "730"),
+        ({"days": 0}, "0"),
+        ({"step": "6 h"}, "whole days"),
+        ({"step": "40 d", "days": 30}, "whole days"),
+        ({"body": "mars"}, "mars"),
+    ],
+)
+def test_refusals(keys: dict[str, Any], words: str) -> None:
+    with pytest.raises(earthspin.EarthspinError, match="(?i)" + words) as error:
+        earthspin.forecast(**({"file": "c04"} | keys))
+    assert "\n" not in str(error.value)
+
+
+def test_gaps_are_refused(lines: list[str], tmp_path: Path) -> None:
+    end = number_of_row(lines, ORIGIN)
+    file = tmp_path / "pole.txt"
+    file.write_text("\n".join([*lines[: end - 90], *lines[end - 88 : end]]), encoding="ascii")
+    with pytest.raises(earthspin.EarthspinError, match="every day"):
+        earthspin.forecast(30, file=str(file))
+    seen = earthspin.polar_motion(span=("2000-01-01", ORIGIN))
+    with pytest.raises(earthspin.EarthspinError, match="each day"):
+        earthspin.forecast(30, file=seen.drop_isel(time=[100]))
+
+
+def test_the_ellipse_holds_as_many_draws_as_it_claims(ahead: xr.Dataset) -> None:
+    from matplotlib.patches import Ellipse
+
+    ax = views.plot_path(ahead)
+    ellipse = [patch for patch in ax.patches if isinstance(patch, Ellipse)][1]
+    row = ahead.isel(time=89)
+    sx, sy = (1e3 * float(row[f"{name}_error"]) / 1.959964 for name in ("x", "y"))
+    across = float(row.correlation_xy) * sx * sy
+    draws = np.random.default_rng(0).multivariate_normal(
+        [1e3 * float(row.y), 1e3 * float(row.x)], [[sy**2, across], [across, sx**2]], 20000
+    )
+    turn, centre = np.radians(ellipse.angle), np.array(ellipse.center)
+    along = (draws - centre) @ [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    inside = (2 * along / [ellipse.width, ellipse.height]) ** 2
+    assert abs(np.mean(inside.sum(axis=1) <= 1) - 0.95) < 0.006
+
+
+def test_days_that_repeat_are_refused() -> None:
+    seen = earthspin.polar_motion(span=("2000-01-01", ORIGIN))
+    twice = seen.isel(time=[*range(10), *range(9, seen.time.size)])
+    with pytest.raises(earthspin.EarthspinError, match="repeat"):
+        earthspin.forecast(30, file=twice)
