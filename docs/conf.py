@@ -42,6 +42,7 @@ exclude_patterns = [
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "auto_gallery",
+    "nested_sections": False,
     "subsection_order": [
         f"gallery/{section}"
         for section in (

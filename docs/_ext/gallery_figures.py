@@ -1,7 +1,7 @@
-"""What each script of the gallery keeps to: one style, one figure, axes that name their units.
+"""Rules of the gallery's pictures: one style, one figure in each part, axes that name their units.
 
 ``python docs/_ext/gallery_figures.py SCRIPT ...`` runs scripts, and prints a line of JSON
-for each: its path and what is wrong with its figure.
+for each: its path and the faults of its figures.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from io import StringIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,18 +44,19 @@ UNIT = re.compile(
 
 
 def journal(_conf: object = None, _script: object = None) -> None:
-    """Draw the next script in the style of the gallery, on a clean desk."""
+    """Set the style of the gallery, and close all figures."""
     plt.close("all")
     plt.rcdefaults()
     plt.rcParams.update(JOURNAL)
 
 
-def faults(figures: list[Figure]) -> list[str]:
-    """Say what is wrong with the figures of one script; nothing, if all is well."""
-    if len(figures) != 1:
-        return [f"it draws {len(figures)} figures, not one"]
-    figures[0].canvas.draw()
-    return [fault for ax in figures[0].axes for fault in _faults_of(ax)]
+def faults(figures: list[Figure], expected: int) -> list[str]:
+    """List the faults of some figures, of which `expected` should be drawn."""
+    if len(figures) != expected:
+        return [f"{len(figures)} figures are drawn, not {expected}"]
+    for figure in figures:
+        figure.canvas.draw()
+    return [fault for figure in figures for ax in figure.axes for fault in _faults_of(ax)]
 
 
 def _faults_of(ax: Axes) -> Iterator[str]:
@@ -89,18 +91,19 @@ def _axes_with_numbers(ax: Axes) -> Iterator[tuple[str, Axis]]:
 
 
 def one_figure(block: Any, variables: Any, conf: Any) -> str:
-    """Take the picture of a script into its page, or say why it is none (for sphinx-gallery)."""
+    """Save the picture of a part of a script, and refuse one with faults (for sphinx-gallery)."""
     from sphinx_gallery.scrapers import matplotlib_scraper
 
     figures = [plt.figure(number) for number in plt.get_fignums()]
-    if wrong := faults(figures):
+    # the first block of a script has its imports
+    if wrong := faults(figures, min(len(figures), 1)):
         raise ValueError(f"{variables['src_file']}: {'; '.join(wrong)}")
     page: str = matplotlib_scraper(block, variables, conf, dpi=110)
     return page
 
 
 def main(scripts: list[str]) -> None:
-    """Run each script on a clean desk, and print what is wrong with its figure."""
+    """Run each script with a style that is set anew, and print the faults of its figures."""
     plt.switch_backend("Agg")
     for script in scripts:
         journal()
@@ -108,7 +111,9 @@ def main(scripts: list[str]) -> None:
         with redirect_stdout(printed):
             runpy.run_path(script, run_name="__main__")
         figures = [plt.figure(number) for number in plt.get_fignums()]
-        print(json.dumps({"script": script, "faults": faults(figures)}), flush=True)
+        parts = Path(script).read_text(encoding="utf-8").count("\n# %%\n")
+        line = {"script": script, "faults": faults(figures, max(parts, 1))}
+        print(json.dumps(line), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,9 @@
-"""The directive `gallery-picture`: a picture of the gallery on a page, with its script's own words.
+"""The directive `gallery-picture`: a picture of the gallery on a page, with its caption.
 
-Its title and first paragraph are the caption, so that a caption changes with what it describes; the
-picture leads to the script.
+The heading and the first paragraph above the code are the caption, so that a caption changes with
+what it describes; the picture leads to the script.
 """
 
-import ast
 from pathlib import Path
 
 from docutils import nodes
@@ -13,27 +12,29 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 
-def caption_of(script: Path) -> tuple[str, str]:
-    """Title and first paragraph of what a script says of its picture, in reST."""
-    words = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or ""
-    title, _, rest = words.partition("\n")
-    paragraph = rest.split("\n\n")[1]
-    return title, " ".join(paragraph.split())
+def captions(script: Path) -> list[tuple[str, str]]:
+    """Heading and first paragraph, in reST, of each picture of a script."""
+    pictures = []
+    for block in script.read_text(encoding="utf-8").split("\n# %%\n")[1:]:
+        title, _, *rest = (line.removeprefix("#").strip() for line in block.splitlines())
+        pictures.append((title, " ".join(rest[: rest.index("")])))
+    return pictures
 
 
 class GalleryPicture(SphinxDirective):
-    """``gallery-picture`` with a script's path in the gallery, as ``pole/plot_pole_path``."""
+    """``gallery-picture`` with a script's path in the gallery and the number of its picture."""
 
-    required_arguments = 1
+    required_arguments = 2
 
     def run(self) -> list[nodes.Node]:
-        section, name = self.arguments[0].split("/")
+        path, number = self.arguments
+        section, name = path.split("/")
         script = Path(self.env.srcdir) / "gallery" / section / f"{name}.py"
         self.env.note_dependency(str(script))
-        title, words = caption_of(script)
+        title, words = captions(script)[int(number) - 1]
         folder = f"/auto_gallery/{section}"
         lines = [
-            f".. figure:: {folder}/images/sphx_glr_{name}_001.png",
+            f".. figure:: {folder}/images/sphx_glr_{name}_{int(number):03d}.png",
             f"   :alt: {title}",
             "",
             f"   **{title}.** {words} (:doc:`Script <{folder}/{name}>`)",

@@ -1,12 +1,8 @@
 r"""
-A top slows down and sinks
-==========================
+A custom torque: a top with friction
+====================================
 
-Gravity and friction are a torque of one's own, along the body's axes. The top nods (I.7), slower
-and lower as friction takes its spin: below, with the law by which it would go if the top stood
-upright (dashed).
-
-*Next:* leave friction out, and compare with ``earthspin.heavy_top``.
+Gravity and friction as a torque that the user writes, along the axes of the body.
 """
 
 import matplotlib.pyplot as plt
@@ -14,6 +10,14 @@ import numpy as np
 
 import earthspin
 from earthspin.numerics.quaternion import conjugate, rotate
+
+# %%
+# A top slows down and sinks
+# --------------------------
+# The top nutates (I.7) and sinks while friction reduces its spin. Below: the spin, with the law
+# for an upright top (dashed).
+#
+# *Next:* leave friction out, and compare with ``earthspin.heavy_top``.
 
 MASS, RADIUS, FLAT, BULGE = 0.2, 0.03, 0.3, 0.15
 C = BULGE / FLAT * MASS * RADIUS**2

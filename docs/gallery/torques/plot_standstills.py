@@ -2,12 +2,7 @@ r"""
 Standstills of the Moon
 =======================
 
-The Moon's greatest declination in a month is not the Sun's, as its orbit leans by five degrees
-and the line of nodes goes once round between two major standstills (figure I.8.6 and the text
-below). Months come out as a dense band; its edges breathe. The marked extremes are those found in
-the series; the Sun has no such swing.
-
-*Next:* look at a single year by giving another span, with a step of an hour.
+The Moon's extreme declinations in each month vary over nineteen years.
 """
 
 import matplotlib.pyplot as plt
@@ -15,6 +10,15 @@ import numpy as np
 
 import earthspin
 from earthspin.views.drawing import note
+
+# %%
+# Declinations of Sun and Moon over two periods of the node
+# ---------------------------------------------------------
+# The Moon's orbit is inclined by five degrees to the ecliptic, and its line of nodes turns once
+# between two major standstills (figure I.8.6 and the text below). The months merge into a band
+# whose edges vary; the extremes in the series are marked. The Sun's extremes do not vary.
+#
+# *Next:* look at a single year by another span, with a step of an hour.
 
 sky = earthspin.torque_series("1985-01-01", "2030-01-01", "12 h").declination
 extremes = earthspin.run_tree("precession", sections=["standstills"])["standstills"].to_dataset()
