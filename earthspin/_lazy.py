@@ -1,4 +1,4 @@
-"""Modules that are imported when they are first used as an attribute of their package."""
+"""Modules that are imported on first use as an attribute of their package."""
 
 from importlib import import_module
 

@@ -1,4 +1,4 @@
-"""The version, in one place; the build reads it from here. And those of other packages."""
+"""Version of this package, read by the build, and versions of installed packages."""
 
 from functools import lru_cache
 

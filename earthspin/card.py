@@ -1,4 +1,4 @@
-"""What a notebook shows of a body, a question or a plan: a caption and a table."""
+"""HTML cards that a notebook shows for a body, a question or a plan."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ More:
 
 
 class _Parser(ArgumentParser):
-    """A parser whose complaints are one line."""
+    """Argument parser that prints errors on one line."""
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
@@ -56,10 +56,10 @@ class _Parser(ArgumentParser):
 
 
 class _ShowHelp(Action):
-    """Help of a command, and of the scene's keys where one is named before it."""
+    """Option `--help` of a command; after the name of a scene it also lists its keys."""
 
     def __call__(self, parser: ArgumentParser, options: Namespace, *_: object) -> NoReturn:
-        """Print and leave."""
+        """Print the help and exit."""
         parser.print_help()
         if options.scene is not None:
             try:
@@ -362,7 +362,7 @@ def _keys(options: Namespace) -> None:
 
 
 def _info(options: Namespace) -> None:
-    """Versions and kernels; or what is known of bodies."""
+    """Print versions and kernels, or the numbers of bodies."""
     from importlib.metadata import PackageNotFoundError, version
 
     if options.what:
@@ -384,7 +384,7 @@ def _info(options: Namespace) -> None:
 
 
 def _verify(options: Namespace) -> None:
-    """Hold a result on disk to its checksums."""
+    """Compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
     print(f"{printable(str(verify(options.file)))} is what was written")
@@ -402,7 +402,7 @@ def _stability(options: Namespace) -> int:
 
 
 def _completion(options: Namespace) -> None:
-    """Print what a shell needs to complete."""
+    """Print the script with which a shell completes commands."""
     try:
         from argcomplete.shell_integration import shellcode
     except ImportError:
@@ -428,7 +428,7 @@ def _open(page: Path) -> None:
 
 @contextmanager
 def _note_of_results(data: str | Path | None) -> Iterator[None]:
-    """Add to whatever ends the views where the results are, which are stored before."""
+    """Add the place of the stored results to the message of an error that ends the views."""
     try:
         yield
     except BaseException as error:
@@ -438,7 +438,7 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
 
 
 def _sections(options: Namespace) -> str | list[str] | None:
-    """Names after --sections; None if they are not named."""
+    """Names that follow --sections; None if the option is absent."""
     if options.sections is None or options.sections.strip() == "all":
         return options.sections and "all"
     return [name.strip() for name in options.sections.split(",") if name.strip()]
@@ -455,7 +455,7 @@ def _keys_of(scene: str) -> str:
 
 
 def _question(options: Namespace) -> Question:
-    """Question of the command line: the scene, then --set, then --ephemeris."""
+    """Build the question of a command from the scene, then --set, then --ephemeris."""
     from earthspin.scenes import files_of, typed_scene
 
     changes = dict(_setting(text) for text in options.settings)
@@ -470,7 +470,7 @@ def _question(options: Namespace) -> Question:
 
 
 def _setting(text: str) -> tuple[str, Any]:
-    """Read KEY=VALUE; the value as TOML if it is that, as text otherwise."""
+    """Read KEY=VALUE; a value that is valid TOML is read as TOML, any other as text."""
     import tomllib
 
     from earthspin.scenes import toml
@@ -490,7 +490,7 @@ def _setting(text: str) -> tuple[str, Any]:
 
 
 def _complete(parser: ArgumentParser) -> None:
-    """Answer a shell that asks for words, and leave; do nothing for anyone else."""
+    """Print completions and exit if a shell asks for them; otherwise do nothing."""
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
 
@@ -498,7 +498,7 @@ def _complete(parser: ArgumentParser) -> None:
 
 
 def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> list[str]:
-    """Words for an argument: the scenes, kernels, keys, sections and files that there are."""
+    """Candidates for an argument: scenes, kernels, keys, sections and files."""
     from argcomplete.completers import FilesCompleter
 
     from earthspin.checks.work_precision import QUANTITIES

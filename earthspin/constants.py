@@ -1,4 +1,4 @@
-"""Each physical number once: value, unit, uncertainty, source, and where it was read.
+"""Physical constants with value, unit, uncertainty, source, and the copy in which they were read.
 
 Uncertainties are one standard deviation in the unit of the value; 0 means exact or
 defined, None that the source gives none. Plain conversion factors stand at the end.
@@ -17,7 +17,7 @@ ASSUMED, COMPUTED = "assumed by this package", "computed by this package"
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A number with its pedigree.
+    """Physical constant with unit, uncertainty and source.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class Tabulated:
-    """Source of numbers that stand in a table of their own: poles, orbits, layers.
+    """Source of numbers that are kept in a table: poles, orbits, layers.
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0",
 
 
 def _rate(value: float, source: str, read_in: str) -> Constant:
-    """A rate whose source gives no uncertainty, in arcseconds a year."""
+    """Rate in arcseconds per year whose source gives no uncertainty."""
     return Constant(value, "arcsec yr-1", None, source, read_in)
 
 

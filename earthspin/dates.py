@@ -1,4 +1,4 @@
-"""Dates and times: text, datetimes, times of astropy and of Skyfield become days of TDB.
+"""Conversion of dates (text, datetime, astropy and Skyfield times) to days of TDB.
 
 Inside, a time is a count of days from J2000.0 TDB: a float64 keeps it to a third of a microsecond
 over a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
@@ -123,7 +123,7 @@ def days(times: object, where: Where) -> FloatArray:
 
 
 def _counts(times: Any, where: Where) -> NDArray[np.int64]:
-    """Whole microseconds from J2000.0 TDB of a list that is no Time."""
+    """Convert a list of dates other than a Time to whole microseconds from J2000.0 TDB."""
     if is_masked(times):
         raise where.error("a masked time", "give times that are all known")
     zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
@@ -150,7 +150,7 @@ def _check_years(values: NDArray[np.datetime64], where: Where) -> None:
 
 
 def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
-    """Days from J2000.0 TDB of an astropy Time, keeping both parts of it.
+    """Convert an astropy Time to days from J2000.0 TDB without loss of digits.
 
     UTC and UT1 are known from 1960 to a few years from now; outside they are refused.
     """
@@ -173,7 +173,7 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
 
 
 def _days_of(time: Any, where: Where) -> Any:
-    """Days from J2000.0 TDB of a time of astropy's or Skyfield's."""
+    """Convert a time of astropy or Skyfield to days from J2000.0 TDB."""
     if not is_skyfield_time(time):
         return _days_from_time(time, where)
     days_tdb = (time.whole - 2451545.0) + time.tdb_fraction
@@ -183,13 +183,13 @@ def _days_of(time: Any, where: Where) -> Any:
 
 
 def is_skyfield_time(value: object) -> bool:
-    """Recognise a Time of Skyfield's without importing Skyfield for those who use none."""
+    """Return True for a Skyfield Time, without importing Skyfield."""
     return type(value).__module__ == "skyfield.timelib" and hasattr(value, "tdb_fraction")
 
 
 @contextmanager
 def _tables_at_hand() -> Iterator[None]:
-    """Leap seconds and UT1 from the tables that are installed; nothing is fetched.
+    """Use the installed tables of leap seconds and UT1, without a download.
 
     Without a largest age, nobody complains of theirs.
     """
@@ -200,7 +200,7 @@ def _tables_at_hand() -> Iterator[None]:
 
 
 def is_time(value: object) -> bool:
-    """Recognise an astropy Time without importing astropy for those who use none."""
+    """Return True for an astropy Time, without importing astropy."""
     return type(value).__module__.startswith("astropy.time") and hasattr(value, "scale")
 
 
@@ -238,7 +238,7 @@ def first_and_last(
 
 @dataclass(frozen=True)
 class Span:
-    """A stretch of time between two dates.
+    """Span of time between two dates.
 
     Attributes
     ----------
@@ -253,14 +253,14 @@ class Span:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Span:
-        """Read two dates; the earlier comes first."""
+        """Read two dates and sort them."""
         if isinstance(value, Span):
             return value
         allowed = "two dates, like ['2000-01-01', '2001-01-01']"
         return cls(*first_and_last(value, where, microseconds, allowed))
 
     def write(self) -> Plain:
-        """Give the two dates, to the microsecond."""
+        """Return the two dates as text, to the microsecond."""
         return [str(J2000 + np.timedelta64(count, "us")) for count in (self.first, self.last)]
 
     @property
@@ -271,7 +271,7 @@ class Span:
 
 @dataclass(frozen=True)
 class TimeGrid:
-    """Evenly spaced times, exact to the microsecond, made only as they are needed.
+    """Evenly spaced times, exact to the microsecond, computed when needed.
 
     Attributes
     ----------
@@ -306,7 +306,7 @@ class TimeGrid:
 
 @dataclass(frozen=True, eq=False)
 class Listed:
-    """Times as they were listed, in any order.
+    """Times of a list, in any order.
 
     Attributes
     ----------
@@ -323,7 +323,7 @@ class Listed:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Self:
-        """Read times, or what `write` gives."""
+        """Read times, or the table that `write` returns."""
         if isinstance(value, cls):
             return value
         listed = unpack(value, where) if isinstance(value, Mapping) else cls.times(value, where)
@@ -332,18 +332,18 @@ class Listed:
         return cls(listed)
 
     def write(self) -> Plain:
-        """Give the numbers as bytes."""
+        """Return the numbers as a table of bytes."""
         return pack(self.listed)
 
 
 class TimeList(Listed):
-    """Days from J2000.0 TDB as they were listed."""
+    """Days from J2000.0 TDB of a list of times."""
 
     words, hint = "a list of times", "Dates"
 
     @property
     def size(self) -> int:
-        """How many there are."""
+        """Number of times."""
         return int(self.listed.size)
 
     def span(self) -> tuple[float, float]:
@@ -367,7 +367,7 @@ class Spacing(Number):
     example: str = "6 h"
 
     def read(self, value: object, where: Where) -> float:
-        """Check and convert."""
+        """Check a value and convert it."""
         try:
             step = super().read(value, where)
         except SceneError as error:

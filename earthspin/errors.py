@@ -1,4 +1,4 @@
-"""Every error a user can meet, each carrying its data.
+"""Exceptions of this package, each with its data.
 
 A message is one line: what was given, what is allowed, what to do. Each class
 keeps the same facts as attributes, so that a program can act on them.
@@ -22,7 +22,7 @@ LONGEST_MESSAGE = 1000
 
 
 class EarthspinError(Exception):
-    """Anything that a user can put right; the command line prints it and exits with 2.
+    """Base class of errors that a user can correct; the command line then exits with 2.
 
     The message is one line, whatever was given.
 
@@ -47,7 +47,7 @@ class EarthspinError(Exception):
 
 
 class SceneError(EarthspinError, ValueError):
-    """A scene says something that it cannot say.
+    """A key or value of a scene is not allowed.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class SceneError(EarthspinError, ValueError):
 
 @dataclass(frozen=True)
 class Where:
-    """What is being read, for messages.
+    """Place of a value in the input, for messages.
 
     Attributes
     ----------
@@ -100,11 +100,11 @@ class Where:
         return f"{self.source}: {self.key}" if self.source else self.key
 
     def error(self, given: object, problem: str) -> SceneError:
-        """Make the error that says what was given here and what is wrong with it."""
+        """Build the error for an input at this place."""
         return SceneError(self.key, given, problem, source=self.source)
 
     def at(self, inner: str) -> Where:
-        """Place of something inside."""
+        """Place of an element inside this one."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
@@ -138,7 +138,7 @@ class BodyError(EarthspinError, ValueError):
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
-        """Say what a body lacks that the question needs, and how one would give it.
+        """Build the error for a number that the question needs and the body lacks.
 
         Parameters
         ----------
@@ -254,7 +254,7 @@ class UndefinedError(EarthspinError, ValueError):
 
 
 class ApartError(UndefinedError):
-    """Several that cannot be computed side by side, though each alone may well be.
+    """Members of an ensemble cannot be computed side by side, although each alone may be.
 
     Examples
     --------
@@ -370,7 +370,7 @@ class MissingExtraError(EarthspinError, ImportError):
 def _rebuild(
     kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
 ) -> EarthspinError:
-    """Make an error again from its message and its facts."""
+    """Rebuild an error from its message and data, for pickle."""
     error = kind.__new__(kind)
     error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
@@ -378,7 +378,7 @@ def _rebuild(
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:
-    """Say what is allowed, the word nearest to the given one first.
+    """List the allowed words, with the one most similar to the input first.
 
     Parameters
     ----------
@@ -399,18 +399,18 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
 
 
 def _rounded_up(value: float) -> str:
-    """Three digits that are no less than the value, so that whoever asks for them gets them."""
+    """Round up to three digits, so that a request for the printed value succeeds."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
 
 def one_line(error: BaseException) -> str:
-    """What a library says of an error, on one line: the system's words where it has some."""
+    """Message of an error of a library or of the system, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
 def in_bytes(count: float) -> str:
-    """How much memory or disk, in words: ``"1.5 GB"``."""
+    """Write a size of memory or disk, as in ``"1.5 GB"``."""
     units = ("B", "kB", "MB", "GB", "TB", "PB", "EB")
     power = 0
     while count >= 999.5 and power < len(units) - 1:
@@ -419,7 +419,7 @@ def in_bytes(count: float) -> str:
 
 
 def no_plain_file(path: object) -> str:
-    """Why a path cannot be read from end to end: a device or a pipe has none. Empty if it can.
+    """Reason why a path is not a regular file (a device or a pipe); empty for a regular file.
 
     Parameters
     ----------
@@ -437,7 +437,7 @@ def no_plain_file(path: object) -> str:
 
 
 def _shown(given: object) -> str:
-    """What was given, on one line and not too long; nothing that is given can break it.
+    """Show any input on one line, shortened; no input makes this fail.
 
     A long list is cut before it is put into words, and what has none is named by its type.
     """
@@ -451,7 +451,7 @@ def _shown(given: object) -> str:
 
 
 def _brief(word: object) -> str:
-    """A word as it was given, without quotes."""
+    """Show a word of the input, shortened and without quotes."""
     return _cut(printable(word)) if isinstance(word, str) else _shown(word)
 
 
@@ -460,13 +460,13 @@ def _cut(text: str) -> str:
 
 
 def _named(path: object) -> str:
-    """A path as it was given; of a very long one the end."""
+    """Show a path; only the end of a very long one."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 
 
 def is_one_line(text: str) -> bool:
-    """Whether a text is one line in which nothing is an order to a terminal.
+    """Return True for a single line without control characters.
 
     Parameters
     ----------
@@ -477,7 +477,7 @@ def is_one_line(text: str) -> bool:
 
 
 def printable(text: str) -> str:
-    """What a terminal would take for an order, and newlines, as escapes."""
+    """Escape control characters and newlines."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

@@ -1,4 +1,4 @@
-"""Ensembles: one question for many members, in memory or in a store that can be gone on with."""
+"""Ensembles: one question for many members, in memory or in a store that can be resumed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def ensemble(
     block: int | None = None,
     impossible: Literal["refuse", "drop"] | None = None,
 ) -> xr.Dataset:
-    """Answer one question for many members, which differ in numbers or in words.
+    """Answer one question for many members that differ in their inputs.
 
     Member 17 is the same alone, in any block and with any workers: it draws its own random numbers
     by the seed and its number.

@@ -1,4 +1,4 @@
-"""What a program owes the process around it: its streams, signals, exit status, and a last net.
+"""Streams, signals and exit status of the command-line process.
 
 Everything that can go wrong in a command ends here in one line on stderr and an exit status; a
 warning is told when the command has succeeded, never before a message.
@@ -34,7 +34,7 @@ _ENDINGS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal,
 
 
 def run_command(command: Callable[[], int | None], *, show_traceback: bool = False) -> int:
-    """Run a command so that nothing escapes.
+    """Run a command and turn every exception into an exit status.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
 
 
 def _judged(error: Exception) -> tuple[int, str]:
-    """Exit status of an error, and its line."""
+    """Return the exit status and the printed line for an error."""
     if isinstance(error, EarthspinError):
         return USAGE_ERROR, str(error)
     if isinstance(error, MemoryError):
@@ -98,19 +98,19 @@ def _say(words: str) -> None:
 
 
 def _print(words: str) -> None:
-    """Print on stderr, if there is one that takes it."""
+    """Print on stderr if it can be written."""
     with suppress(OSError, ValueError, AttributeError):
         print(words, file=sys.stderr or None, flush=True)
 
 
 def _drop_output() -> None:
-    """Send what is still in the buffer of stdout nowhere."""
+    """Discard the buffer of stdout."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _check_streams() -> None:
-    """See that there are all three streams, and that no character is too much for them.
+    """Replace missing standard streams, and escape characters that a stream cannot encode.
 
     A stream that is closed leaves its number to the next file that is opened, which what is
     printed would then be written into. In place of stdout stands one that cannot be written to.
@@ -129,7 +129,7 @@ def _check_streams() -> None:
 
 @contextmanager
 def _endings() -> Iterator[None]:
-    """Turn signals that end the program into interrupts, so that drafts are cleared away."""
+    """Turn terminating signals into interrupts, so that temporary files are removed."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once

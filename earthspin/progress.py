@@ -1,4 +1,4 @@
-"""A progress bar for whatever takes more than two seconds; silent when nobody watches.
+"""Progress bar for work of more than two seconds; silent without a terminal.
 
 Programs that watch get lines of JSON instead: how much is done, of how much, how much a second, and
 the seconds left.
@@ -26,10 +26,10 @@ _lines: list[TextIO] = []
 
 
 class Advance(Protocol):
-    """Call it with how much has been done since the last call."""
+    """Callable that takes the amount of work done since its last call."""
 
     def __call__(self, amount: int) -> None:
-        """Note that `amount` more is done."""
+        """Add an amount of work that is done."""
 
 
 @contextmanager
@@ -62,7 +62,7 @@ def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
 
 @contextmanager
 def lines_to(stream: TextIO) -> Iterator[None]:
-    """Have progress written as lines of JSON.
+    """Write progress as lines of JSON.
 
     Parameters
     ----------
@@ -99,10 +99,10 @@ def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
     from rich.text import Text
 
     class Rate(columns.TextColumn):
-        """How much is done in a second."""
+        """Column with the work done per second."""
 
         def render(self, task: columns.Task) -> Text:
-            """Three digits, once there is something to divide."""
+            """Show three digits as soon as the rate is known."""
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 

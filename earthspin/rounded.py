@@ -1,4 +1,4 @@
-"""Numbers, durations and units to two digits, as people write them."""
+"""Text of numbers and durations with two digits."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 
 
 def shown_unit(unit: str) -> str:
-    """A unit as it stands behind a number, with a space; nothing for pure numbers."""
+    """Write a unit after a space; nothing for pure numbers."""
     return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
 
 
 def plain(value: float) -> str:
-    """A number to two digits, as one would write it: 0.05, 920, 1e-6, 2.3e5."""
+    """Write a number with two digits: 0.05, 920, 1e-6, 2.3e5."""
     value = float(f"{value:.1e}")
     if 1e-3 <= abs(value) <= 1e4 or value == 0:
         return f"{value:g}"
@@ -20,7 +20,7 @@ def plain(value: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """A time to two digits, in the unit that suits it."""
+    """Write a duration with two digits, from microseconds to years."""
     for unit, size in (("s", 1.0), ("ms", 1e-3)):
         if seconds >= 0.9995 * size:
             return f"{_two_digits(seconds / size)} {unit}"

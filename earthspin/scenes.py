@@ -1,4 +1,4 @@
-"""Scenes: the list of questions, the files that ask them, and answers that are asked again."""
+"""Read scenes and run their questions."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ VERSIONS = (
 
 
 class VersionWarning(UserWarning):
-    """An answer is run again with other versions than those that made it.
+    """Warning: the versions or files differ from those that made the answer.
 
     Examples
     --------
@@ -136,7 +136,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
 
 
 def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
-    """Read a question as `load_scene` does, with changes that were typed as text.
+    """Read a question as `load_scene` does, with changes given as text.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def _names(table: Mapping[str, Any]) -> set[str]:
 def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
-    """Question of a scene's table with some keys changed; numbers of typed keys carry units."""
+    """Build the question of a scene with some keys changed."""
     for key, value in changes.items():
         _set_key(table, str(key), value, source)
     if "compute" not in table:
@@ -215,7 +215,7 @@ def shipped_scenes() -> dict[str, str]:
 
 
 def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
-    """Say what will run for a scene, in which order, and what is left out and why.
+    """Return the parts that will run for a scene, and the parts left out, with reasons.
 
     Parameters
     ----------
@@ -276,7 +276,7 @@ def run(scene: Any) -> xr.Dataset:
 
 
 def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """Answer a question with sections beside the answer, and the plan with its seconds.
+    """Answer a question, and compute sections of it; return also the plan with run times.
 
     Parameters
     ----------
@@ -310,7 +310,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 
 
 def _say_what_differs(scene: Any, answer: Any) -> None:
-    """Warn if an answer that was run again was made with other versions."""
+    """Warn if an answer that is run again was made with other versions."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
     old = getattr(scene, "attrs", {})
@@ -362,7 +362,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """A long series as work in blocks."""
+    """Divide a long series into blocks of work."""
     size = series_length(question)
     if size == 0:
         problem = "only a series of torques, pole or rotation is written by region"
@@ -371,7 +371,7 @@ def _series(question: Question) -> Series:
 
 
 def series_length(question: Question) -> int:
-    """How many times a question asks for; 0 if it is no series that can be written by region."""
+    """Number of times of a question; 0 if it is not a series that can be written in blocks."""
     if not any(BY_BLOCK in part.uses for part in question.graph.parts.values()):
         return 0
 
@@ -380,7 +380,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """How many bodies a question is about, labelled arrays counted."""
+    """Number of bodies of a question, including those of labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -404,7 +404,7 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
 
 
 def chosen(question: Question) -> list[str]:
-    """What is chosen for the accuracy that a question asks for, in words.
+    """Describe the settings that are chosen for the accuracy of a question.
 
     Whether the numbers of the body and the kernel allow it shows when it runs.
     """
@@ -425,7 +425,7 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Text of a scene, its place for messages, and a title."""
+    """Return the text of a scene, its place for messages, and a title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
@@ -448,7 +448,7 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
 
 
 def toml(text: str) -> dict[str, Any]:
-    """Table of a text in TOML.
+    """Parse a text in TOML.
 
     Raises
     ------
@@ -461,7 +461,7 @@ def toml(text: str) -> dict[str, Any]:
 
 
 def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
-    """Files that are read to answer a question: the key, the path, and the kind of the key.
+    """Files that a question reads: the key, the path, and the kind of the key.
 
     Parameters
     ----------
@@ -489,7 +489,7 @@ _HEAD = 1 << 16
 
 
 def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
-    """Refuse a file that a stored scene names and that is of another kind than the key takes.
+    """Refuse a file of a stored scene if its kind does not fit the key.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The border: values with units, words and lists, read once and written back exactly.
+"""Kinds of inputs: read values with units, words and lists, and write them back exactly.
 
 A kind knows how one sort of value is read (`read`, which checks dimension, shape, length and
 finiteness) and written (`write`, whose text or numbers `read` turns into the same bits). Inside
@@ -52,25 +52,25 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class Kind(Protocol[T]):
-    """How one sort of value is read and written."""
+    """Kind of an input: how it is read, described and written."""
 
     @property
     def words(self) -> str:
-        """What may be given, for people."""
+        """Allowed input, in words."""
 
     @property
     def hint(self) -> str:
-        """What may be given, as a type for editors and type checkers."""
+        """Allowed input, as a type for editors and type checkers."""
 
     def read(self, given: object, where: Where) -> T:
-        """Check and convert what was given."""
+        """Check an input and convert it."""
 
     def write(self, value: T) -> Plain:
-        """Give it as a scene file holds it; `read` turns that into the same bits."""
+        """Return the value as a scene file stores it; `read` restores the same bits."""
 
 
 def by_name(kind: object) -> bool:
-    """Whether text alone tells a value of a kind: a word, the name of a body, the path of a file.
+    """Return True if text alone gives a value of a kind: a word, a name, a path.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
 
 @dataclass(frozen=True)
 class _Target:
-    """What a value should be, and the error if it is not."""
+    """Unit and meaning that a value must have, for messages."""
 
     unit: str
     where: Where
@@ -137,7 +137,7 @@ class _Target:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def factor(self, value: object, unit: str) -> float:
-        """Size of another unit in this one."""
+        """Conversion factor from another unit to this one."""
         import astropy.units as u
 
         try:
@@ -185,14 +185,14 @@ def _convert(value: Any, target: _Target) -> Any:
 
 
 def _is_bare(value: object) -> bool:
-    """Whether it is a number without a unit, or a list with one."""
+    """Return True for a number without a unit, or a list that contains one."""
     if isinstance(value, (list, tuple)):
         return any(map(_is_bare, value))
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def is_masked(value: object) -> bool:
-    """Whether an array, a list of arrays or a Time hides a number; `mask` of pandas is a method."""
+    """Return True if an array, a list of arrays or a Time has masked elements."""
     if isinstance(value, (list, tuple)):
         try:
             return any(map(is_masked, value))
@@ -203,7 +203,7 @@ def is_masked(value: object) -> bool:
 
 
 def _has_unit(value: object) -> bool:
-    """Whether an element of a list is more than a plain number."""
+    """Return True if an element of a list has a unit."""
     nested = isinstance(value, (list, tuple)) and any(map(_has_unit, value))
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
@@ -238,7 +238,7 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> fl
 
 
 def _plain(value: Any, target: _Target) -> Any:
-    """Numbers that are in the unit already."""
+    """Convert numbers without units to floats."""
     try:
         array = np.asarray(value)
         if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
@@ -307,16 +307,16 @@ class Number:
 
     @property
     def hint(self) -> str:
-        """Type for editors."""
+        """Allowed input, as a type for editors."""
         return "Value" if self.text else "Pure"
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """Allowed input, in words."""
         return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
     def read(self, value: object, where: Where) -> float:
-        """Check and convert."""
+        """Check a value and convert it."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
         if (isinstance(value, str) and not self.text) or (real and not self.plain):
             form = f"it with its unit, like '{self.example}'"
@@ -340,7 +340,7 @@ class Number:
         return f"it is at least {self.low:g}{unit}"
 
     def write(self, value: float) -> Plain:
-        """Give the number with its unit."""
+        """Return the number with its unit."""
         return f"{float(value)!r} {self.unit}" if self.unit else float(value)
 
 
@@ -367,12 +367,12 @@ class Numbers:
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """Allowed input, in words."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
     def read(self, value: object, where: Where) -> FloatArray:
-        """Check and convert; the array is the question's own and cannot be written to."""
+        """Check an array and return a read-only copy as floats."""
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
             factor = _Target(self.unit, where, self.example).factor(unit, unit)
@@ -391,7 +391,7 @@ class Numbers:
         return values
 
     def write(self, value: FloatArray) -> Plain:
-        """Give a list of numbers, or bytes if it is long."""
+        """Return a list of numbers, or bytes if it is long."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
         return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
@@ -404,7 +404,7 @@ def _with_unit(values: Any, unit: str) -> Any:
 
 
 def _in_order(value: Any, where: Where) -> Any:
-    """A labelled array with its components last and in their order; other labels are refused."""
+    """Move the components of a labelled array to the last axis, in order; refuse other labels."""
     if hasattr(value, "iloc"):
         labels = getattr(value, "columns", value.index)
         if labels.dtype.kind not in "iu":
@@ -444,16 +444,16 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
 
 
 class _AsItIs:
-    """A kind whose values a scene holds as they are."""
+    """Kind whose values a scene stores unchanged."""
 
     def write(self, value: Any) -> Plain:
-        """Give the value."""
+        """Return the value."""
         return value
 
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """A whole number, up to as many as fit into memory."""
+    """Whole number, limited by memory."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
@@ -462,11 +462,11 @@ class Whole(_AsItIs):
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """Allowed input, in words."""
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
-        """Check."""
+        """Check a value."""
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
             raise where.error(value, f"give {self.words}")
         if not self.low <= value <= self.high:
@@ -476,7 +476,7 @@ class Whole(_AsItIs):
 
 @dataclass(frozen=True)
 class Word(_AsItIs):
-    """One of a few words.
+    """Word from a list.
 
     Attributes
     ----------
@@ -490,16 +490,16 @@ class Word(_AsItIs):
 
     @property
     def hint(self) -> str:
-        """Type for editors."""
+        """Allowed input, as a type for editors."""
         return f"Literal[{', '.join(map(repr, self.allowed))}]"
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """Allowed input, in words."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
-        """Check."""
+        """Check a value."""
         if value is True:  # TOML, and a shell that takes the quotes away
             value = "true"
         if not isinstance(value, str) or value not in self.allowed:
@@ -514,7 +514,7 @@ class Text(_AsItIs):
     words, hint = "a line of text", "str"
 
     def read(self, value: object, where: Where) -> str:
-        """Check."""
+        """Check a value."""
         if not isinstance(value, str) or not is_one_line(value):
             raise where.error(value, f"it is {self.words}")
         return value
@@ -522,7 +522,7 @@ class Text(_AsItIs):
 
 @dataclass(frozen=True)
 class FileName(_AsItIs):
-    """The path of a file or folder, or a word that stands for one.
+    """Path of a file or folder, or a word for one.
 
     Attributes
     ----------
@@ -542,23 +542,23 @@ class FileName(_AsItIs):
     content: ClassVar[str] = "text"
 
     def read(self, value: object, where: Where) -> Any:
-        """Check that it is a path or word; whether there is a file shows when it is opened."""
+        """Check that a value is a path or a word; the file is opened later."""
         if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
             raise where.error(value, f"it is {self.expected or self.words}")
         return os.fspath(value)
 
     def is_path(self, value: object) -> bool:
-        """Whether a value names a file."""
+        """Return True if a value is a path."""
         return isinstance(value, str) and value not in self.known
 
     def begins(self, head: bytes) -> bool:
-        """Whether a file of this kind may begin with these bytes."""
+        """Return True if a file of this kind may begin with these bytes."""
         return True
 
 
 @dataclass(frozen=True)
 class Several:
-    """A list of one kind; one alone need not be put in a list.
+    """List of values of one kind; a single value may be given without a list.
 
     Attributes
     ----------
@@ -569,16 +569,16 @@ class Several:
 
     @property
     def hint(self) -> str:
-        """Type for editors."""
+        """Allowed input, as a type for editors."""
         return f"{self.of.hint} | Sequence[{self.of.hint}]"
 
     @property
     def words(self) -> str:
-        """What may be given."""
+        """Allowed input, in words."""
         return f"{self.of.words}; one or a list"
 
     def read(self, value: object, where: Where) -> tuple[Any, ...]:
-        """Check each."""
+        """Check each value."""
         if isinstance(value, (set, frozenset)):
             raise where.error(value, "a set has no order; give a list")
         if isinstance(value, np.ndarray) and value.ndim:
@@ -588,12 +588,12 @@ class Several:
         return tuple(self.of.read(element, where) for element in value)
 
     def write(self, value: tuple[Any, ...]) -> Plain:
-        """Give the list."""
+        """Return the list."""
         return [self.of.write(element) for element in value]
 
 
 def kind_of(annotation: Any) -> Kind[Any]:
-    """Kind of a value by its type, None aside.
+    """Choose the kind for a type annotation, ignoring None.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Times over millennia: seconds of TDB from J2000.0, told in Julian years.
+"""Times over millennia, in seconds of TDB from J2000.0 and in Julian years.
 
 They are given as durations from J2000.0 (``"-65 kyr"``, ``"1 Myr"``) or as dates of the proleptic
 Gregorian calendar with astronomical years (``"-3000-01-01"``: the year 0 stands before the year 1).
@@ -72,7 +72,7 @@ def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
 
 @dataclass(frozen=True)
 class YearSpan:
-    """A stretch of time over millennia.
+    """Span of time over millennia.
 
     Attributes
     ----------
@@ -87,19 +87,19 @@ class YearSpan:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> YearSpan:
-        """Read two times; the earlier comes first."""
+        """Read two times and sort them."""
         if isinstance(value, YearSpan):
             return value
         allowed = "two times, like ['-1 Myr', '0 kyr']"
         return cls(*first_and_last(value, where, seconds, allowed))
 
     def write(self) -> Plain:
-        """Give the two times in seconds, to the last bit."""
+        """Return the two times in seconds, to the last bit."""
         return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
 class YearList(Listed):
-    """Seconds from J2000.0 TDB over millennia, as they were listed."""
+    """Seconds from J2000.0 TDB of a list of times over millennia."""
 
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"
 
@@ -124,7 +124,7 @@ YearStep = Annotated[float, Number("s", "1 kyr", low=SHORTEST, high=FARTHEST, pl
 
 
 def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
-    """Evenly spaced times from the start of a span; its end is among them if the step meets it.
+    """Evenly spaced times from the start of a span to at most its end.
 
     Raises
     ------

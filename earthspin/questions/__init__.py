@@ -1,1 +1,1 @@
-"""What can be asked: one file a question, with its class, its own parts and its sections."""
+"""Questions: one module each, with its class, parts and sections."""

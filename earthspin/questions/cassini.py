@@ -1,4 +1,4 @@
-"""Cassini states: spin axes that keep in step with an orbit that precesses."""
+"""Cassini states: spin axes that precess at the rate of the orbit."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from earthspin.units import FloatArray
 class CassiniStates(
     Question, word="cassini-states", call="cassini_states", positional=("body", "orbit")
 ):
-    """Cassini states of a body: axes that stay in one plane with the orbit's normal and its pole.
+    """Cassini states of a body: axis, normal of the orbit and its mean in one plane.
 
     The orbit's node turns evenly on its plane. The spin may be locked to the orbit, like that of
     the Moon (one turn in each) and of Mercury (three in two), or free.
@@ -96,13 +96,13 @@ class Locking:
 
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
-    """The orbit that is given, the body's, or the mean one that is known."""
+    """Orbit of the question, else that of the body, else a known mean orbit."""
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
-    """The orbit that is given, the body's, or the mean one that is known."""
+    """Orbit of the question, else that of the body, else a known mean orbit."""
     usual = orbit_of(body, orbit)
     assert usual is not None  # `check` has seen to it
     return usual
@@ -110,7 +110,7 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
-    """Mean motion, and turns of the body in each orbit."""
+    """Mean motion, and rotations of the body per orbit."""
     about = own_orbit.about or SUN.name
     if about not in BODIES or about == body.name:
         others = [name for name in BODIES if name != body.name]
@@ -150,7 +150,7 @@ class States(Variables, along=("state",), no_error="it is so or not"):
 
 @part
 def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
-    """Every state, its error, and whether it is stable."""
+    """Obliquity, error and stability of every state."""
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
@@ -191,7 +191,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
-    """Sizes of what averages over spin, orbit and pericentre leave out, where they are known."""
+    """Known sizes of effects that averages over spin, orbit and pericentre leave out."""
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

@@ -49,7 +49,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
     body: Body = key(EARTH, doc="body whose spin and dynamical flattening they have")
 
     def check(self) -> None:
-        """A body that spins, and layers that are known."""
+        """Require a spinning body with known layers."""
         require_layers(self, self.interior, self.body)
         self.body.require(("spin_period", "dynamical_flattening"))
         if self.body.labelled:
@@ -83,7 +83,7 @@ class Published(Variables, along=("published_number",), no_error="the source giv
 
 @part(unless=not_prem)
 def published() -> Published:
-    """The same numbers of PREM as published, each with its source."""
+    """Published numbers of PREM, each with its source."""
     return Published(
         published_value=[constant.value for constant in PREM_PUBLISHED.values()],
         published_source=[constant.source for constant in PREM_PUBLISHED.values()],
@@ -105,7 +105,7 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
 
 @part
 def modes(layers: LayeredBody, body: Body) -> Modes:
-    """Free modes of the elastic body without an ocean, its H as observed; those that it has."""
+    """Free modes of the elastic body without an ocean and with the observed H."""
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
     frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
@@ -117,7 +117,7 @@ def modes(layers: LayeredBody, body: Body) -> Modes:
 
 @part
 def neglected() -> Neglected:
-    """What a sphere at rest leaves out."""
+    """Effects that a non-rotating sphere leaves out."""
     return Neglected(what="rotation and ellipticity in the answers, about one per cent")
 
 

@@ -57,13 +57,13 @@ class GivenPole:
 
 
 class ObservedPole(TableFile):
-    """Kind of a table of polar motion, or of a Dataset of `polar_motion`."""
+    """Input that is a table of polar motion or a Dataset of `polar_motion`."""
 
     words = '"c04", "finals", the path of a file or a Dataset of polar_motion'
     hint = "str | PathLike[str] | xr.Dataset"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read a Dataset, what `write` gives for it, a word or a path."""
+        """Read a Dataset, its stored form, a word or a path."""
         if isinstance(value, GivenPole):
             return value
         if hasattr(value, "data_vars"):
@@ -74,7 +74,7 @@ class ObservedPole(TableFile):
         return super().read(value, where)
 
     def write(self, value: Any) -> Plain:
-        """Give a word or a path, and the rows of a Dataset as bytes."""
+        """Return a word or a path, or the rows of a Dataset as bytes."""
         return pack(value.rows) if isinstance(value, GivenPole) else super().write(value)
 
 
@@ -202,7 +202,7 @@ def _day(time: float) -> str:
 
 @part
 def predicted(record: Record, days: float, parameters: str) -> Predicted:
-    """Pole and covariance day by day."""
+    """Predicted pole and its covariance, day by day."""
     from earthspin.wobble import forecast as model
 
     fast = model.SHIPPED if parameters == "shipped" else model.fit(record.p)
@@ -210,7 +210,7 @@ def predicted(record: Record, days: float, parameters: str) -> Predicted:
 
 
 class AheadOfOrigin(Variables, along=("time",)):
-    """Variables at the days of a forecast."""
+    """Variables along the days of a forecast."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
@@ -226,7 +226,7 @@ class ForecastPole(AheadOfOrigin):
 
 
 def _shown(days: float, step: float) -> Any:
-    """Rows of daily values that an answer has."""
+    """Select the rows of the answer from daily values."""
     every = round(step / DAY)
     return slice(every - 1, int(days), every)
 
@@ -316,7 +316,7 @@ class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
 
 @part
 def skill() -> Skill:
-    """Skill as measured with hindcasts and with releases of the tables of the IERS."""
+    """Skill measured with hindcasts and with releases of the IERS tables."""
     table = json.loads(SKILL.read_text(encoding="utf-8"))
 
     def of(name: str) -> FloatArray:
@@ -366,7 +366,7 @@ def bulletin_a(file: Any, record: Record, days: float, step: float) -> BulletinA
 
 @part
 def neglected() -> Neglected:
-    """What the forecast leaves out."""
+    """Effects that the forecast leaves out."""
     return Neglected(
         unknown="forecasts of the angular momentum of air, water and ground; "
         "tides of a day and of half a day, which tables of the pole leave out by convention"

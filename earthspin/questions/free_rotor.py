@@ -1,4 +1,4 @@
-"""Motion of a body without torque, and Poinsot's picture of it."""
+"""Motion of a body without torque, and Poinsot's construction."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moments:
-    """Principal moments as they were given, so that no digits are lost.
+    """Principal moments in the form of the input, so that no digits are lost.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Moments:
 
     @property
     def values(self) -> list[float] | dict[str, float]:
-        """Numbers in the form that the physics takes."""
+        """Numbers as arguments of the physics functions."""
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
@@ -175,7 +175,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """Leave Poinsot's picture out where there are several starts."""
+    """Leave Poinsot's construction out if there are several starts."""
     return None if omega.ndim == 1 else "there are several starts"
 
 
@@ -260,7 +260,7 @@ def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> Rota
 
 @part
 def neglected() -> Neglected:
-    """What a rigid body without torque leaves out."""
+    """Effects that a rigid body without torque leaves out."""
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 

@@ -86,7 +86,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     views, page = "iau", "pole"
 
     def check(self) -> None:
-        """What is compared to the microarcsecond stands on positions whose error is known."""
+        """Require positions with a known error: differences reach the microarcsecond."""
         super().check()
         problem = (
             "how far off its positions are was never measured, and the comparison with the IAU "
@@ -104,7 +104,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 def rates_by_effect(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
-    """Rates at J2000.0 effect by effect, each measured by switching it off."""
+    """Rates at J2000.0 by effect, each computed by switching the effect off."""
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
@@ -126,7 +126,7 @@ _ADOPTED = "a model that was adopted, exact by definition"
 
 
 class EffectRates(Variables):
-    """Rates at J2000.0 effect by effect, and the closure."""
+    """Rates at J2000.0 by effect, and the remainder."""
 
     psi_rate: Pair = measured(
         "arcsec/yr",
@@ -184,7 +184,7 @@ class EffectRates(Variables):
 
 @part
 def budget(rates_by_effect: Budget) -> EffectRates:
-    """Rates effect by effect, the published ones, and the closure."""
+    """Rates by effect, published rates, and the remainder."""
     rates = rates_by_effect
     both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
     return EffectRates(
@@ -207,7 +207,7 @@ def budget(rates_by_effect: Budget) -> EffectRates:
 
 
 def _over(closure: float, uncertainty: float) -> float:
-    """Ratio; infinite where no uncertainty is known, as of an H of one's own."""
+    """Ratio; infinite if the uncertainty is not known, as for a custom H."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
 
@@ -216,7 +216,7 @@ def _over(closure: float, uncertainty: float) -> float:
 
 @dataclass(frozen=True)
 class Differences:
-    """Our pole less the IAU's in time, for each model, as dpsi sin(eps0) and deps, rad.
+    """Computed pole minus that of the IAU, by model, as dpsi sin(eps0) and deps, rad.
 
     Attributes
     ----------
@@ -251,7 +251,7 @@ def differences(
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
-    """Computed pole minus the IAU's in time, for each model."""
+    """Computed pole minus that of the IAU in time, for each model."""
     from earthspin.nutation.circles import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -300,7 +300,7 @@ _HALF_WIDTH = "95 % half-width of a residual, from H and integration"
 
 
 class Residuals(Dated, error="residual_error"):
-    """Computed pole minus the IAU's in time."""
+    """Computed pole minus that of the IAU in time."""
 
     dpsi_sineps: Value = number("mas", _LONGITUDE)
     deps: Value = number("mas", _OBLIQUITY)
@@ -309,7 +309,7 @@ class Residuals(Dated, error="residual_error"):
 
 @part
 def residuals(differences: Differences) -> Residuals:
-    """Computed pole minus the IAU's in time, with the effects that are switched on."""
+    """Computed pole minus that of the IAU in time, with the effects that are switched on."""
     chosen = differences.fitted[:, differences.chosen]
     return Residuals(
         time=datetime64(differences.days),
@@ -320,7 +320,7 @@ def residuals(differences: Differences) -> Residuals:
 
 
 class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
-    """Computed pole minus the IAU's in time, model by model."""
+    """Computed pole minus that of the IAU in time, model by model."""
 
     dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
     deps_by_model: Value = number("mas", _OBLIQUITY)
@@ -330,7 +330,7 @@ class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
 
 @part
 def residuals_by_model(differences: Differences) -> ResidualsByModel:
-    """Computed pole minus the IAU's in time, model by model."""
+    """Computed pole minus that of the IAU in time, model by model."""
     return ResidualsByModel(
         time=datetime64(differences.days),
         dpsi_sineps_by_model=differences.fitted[..., 0],
@@ -370,7 +370,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
 
 @part
 def residual_sizes(differences: Differences) -> ResidualSizes:
-    """How large the residuals are, model by model."""
+    """Sizes of the residuals, model by model."""
     plain, fitted = differences.plain, differences.fitted
     return ResidualSizes(
         residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
@@ -384,7 +384,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
 
 @part
 def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
-    """How large the differences from the observed celestial pole are, model by model."""
+    """Sizes of the differences from the observed celestial pole, model by model."""
     plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
     return observed_sky.sizes(plain, differences.error)
 
@@ -426,7 +426,7 @@ class Nutation(Variables, along=("term",)):
 
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
-    """The thirty largest circular terms of both poles, their ratio, residuals of the response."""
+    """The thirty largest circular terms of both poles, their ratios and residuals."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.sky import iau
@@ -581,7 +581,7 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 
 
 class Inferred(Variables, along=("origin",)):
-    """H and C/(M a2) by where they come from."""
+    """H and C/(M a2) by source."""
 
     flattening: Pair = measured("1", "dynamical flattening H", short="H = (C-A)/C")
     polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
@@ -590,7 +590,7 @@ class Inferred(Variables, along=("origin",)):
 
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
-    """H and C/(M a2) that the IAU's rate implies, beside the published ones and PREM."""
+    """H and C/(M a2) implied by the rate of the IAU, beside published values and PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (
         body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")
@@ -609,7 +609,7 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 
 @part
 def neglected(effects: tuple[str, ...]) -> Neglected:
-    """Published size of each effect on the rate of psi_A that is off or has no model here."""
+    """Published sizes of effects on the rate of psi_A that are off or not modelled."""
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
     return neglected_rates(rigid(effects))
 

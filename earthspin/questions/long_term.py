@@ -112,7 +112,7 @@ class LongTerm(
     accuracy: AngleError | None = key(None, doc="largest error of the direction of the pole")
 
     def check(self) -> None:
-        """Of a body that the IAU does not describe, no Moon is taken for granted."""
+        """Require perturbers for a body that is not the Earth."""
         super().check()
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
@@ -126,7 +126,7 @@ class LongTerm(
 
 
 def _unknown_start(body: Body) -> str:
-    """Words for a body whose pole has no uncertainty."""
+    """Note for a body whose pole has no published uncertainty."""
     return (
         f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
         "body a pole_uncertainty"
@@ -139,13 +139,13 @@ class FromStart(Variables):
     _unknown_start = ""
 
     def started_from(self, body: Body) -> Self:
-        """Claim no error of what depends on the start if the pole of the body has none."""
+        """Mark errors that depend on the start as unknown if the pole of the body has none."""
         if body.pole_uncertainty is None:
             self._unknown_start = f"NaN, not given: {_unknown_start(body)}"
         return self
 
     def dataset(self) -> xr.Dataset:
-        """Lay the values out, errors that depend on an unknown start as NaN."""
+        """Build the dataset, with NaN for errors that depend on an unknown start."""
         result = super().dataset()
         for name, error in result.data_vars.items():
             of_orbit = str(name).startswith(("eccentricity_", "ecliptic_pole_"))
@@ -163,7 +163,7 @@ def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
 
 @part
 def stretch(sky: Sky) -> Stretch:
-    """All that the source of positions covers: the averages stand for J2000.0."""
+    """Span of the averages: all that the source of positions covers, with mean epoch J2000.0."""
     return Stretch(*sky.coverage())
 
 
@@ -178,7 +178,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """What may differ among members, laid against one another."""
+    """Inputs that may differ among members, broadcast against one another."""
     rate, error = mean_rates.total()
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
@@ -204,7 +204,7 @@ def strength(
     body: Body,
     orbit_table: OrbitTable,
 ) -> Strength:
-    """The constant of precession today and how it changes.
+    """Precession constant of today and its changes.
 
     From the rates of `precession` over the cosine of the obliquity; what is published of second
     order, planets, J4 and the inside goes with the Moon's share. What the lag of the Moon's plane
@@ -239,7 +239,7 @@ def strength(
 
 
 def _published() -> float:
-    """Rate of what the average of first order leaves out of the Earth's precession, rad/s."""
+    """Published rate of effects that the first-order average leaves out for the Earth, rad/s."""
     return sum(
         float(effect.value) * ARCSEC / JULIAN_YEAR
         for name, effect in PUBLISHED_EFFECTS.items()
@@ -248,7 +248,7 @@ def _published() -> float:
 
 
 def _relative_j2_rate(body: Body) -> Numeric:
-    """Rate of J2 over J2, s-1; none where the body has none."""
+    """Relative rate of J2, s-1; zero if the body has none."""
     j2 = body.needed("j2")
     return body.j2_rate / (j2 + (j2 == 0))
 
@@ -261,7 +261,7 @@ def solved(
     wanted: FloatArray,
     body: Body,
 ) -> solutions.Solved:
-    """Newton's method in time, and again with each cause changed and with windows twice as long."""
+    """Solve for the axis, and again with each cause changed and with windows twice as long."""
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
@@ -292,7 +292,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
-    """What is read off the axis, and off it with each cause changed."""
+    """Quantities derived from the axis, nominal and with each cause changed."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
@@ -440,7 +440,7 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
     epoch: Labels = labels()
 
     def dataset(self) -> xr.Dataset:
-        """Lay the shares out, and say what they mean."""
+        """Build the dataset of contributions, with their meaning."""
         return super().dataset().assign_attrs(comment=_ONE_AT_A_TIME)
 
 
@@ -491,7 +491,7 @@ def matrices(
 
 @part
 def neglected() -> Neglected:
-    """What neither equation nor orbit holds, and no half-width stands for."""
+    """Effects that are neither modelled nor included in the errors."""
     return Neglected(
         what="friction between core and mantle, ice ages in the figure: not measured; asteroids "
         "and the Sun's flattening in the orbit: in the errors of a shipped orbit, not in those of "

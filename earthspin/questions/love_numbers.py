@@ -114,7 +114,7 @@ class Published(Variables, along=("published_love",), no_error="the source gives
 
 @part(unless=not_prem)
 def published() -> Published:
-    """Love numbers of the Earth as published, each with its source."""
+    """Published Love numbers of the Earth, each with its source."""
     return Published(
         published_love_number=[constant.value for constant in LOVE_PUBLISHED.values()],
         published_love_source=[constant.source for constant in LOVE_PUBLISHED.values()],
@@ -140,7 +140,7 @@ class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
 
 @part
 def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
-    """How the Love numbers soften and lag from minutes to decades."""
+    """Real parts and phase lags of the Love numbers for periods from minutes to decades."""
     values = _numbers(yielding(layers, anelastic_strain(PERIODS, anelastic_exponent)))
     return ByPeriod(
         elastic_love_number=_numbers(elastic(layers)).real,
@@ -151,7 +151,7 @@ def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
 
 @part
 def neglected() -> Neglected:
-    """What a sphere at rest leaves out."""
+    """Effects that a non-rotating sphere leaves out."""
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 

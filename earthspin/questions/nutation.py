@@ -1,4 +1,4 @@
-"""The nutation predicted from the layers of the body, rung by rung, beside IAU 2000A."""
+"""Nutation predicted from the layers of the body, step by step, beside IAU 2000A."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class NutationLadder(
     table="nutation",
     positional=("start", "stop", "step"),
 ):
-    """Nutation predicted from the layers of the Earth, rung by rung, beside IAU 2000A.
+    """Nutation predicted from the layers of the Earth, step by step, beside IAU 2000A.
 
     A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
     the layers of the `interior` of the body. The dynamical flattening H is the observed one
@@ -95,7 +95,7 @@ class NutationLadder(
     )
 
     def check(self) -> None:
-        """A body that the IAU has a nutation of, and whose layers are known."""
+        """Require the Earth with known layers."""
         super().check()
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
@@ -105,13 +105,13 @@ class NutationLadder(
 
 @part
 def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
-    """Climb the ladder: compliances, figure, and the system of mantle, core and inner core."""
+    """Compute the steps of the ladder from compliances, figure and moments."""
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """What is left of each model against IAU 2000A, a constant and a rate removed.
+    """Residuals of each model against IAU 2000A, after removing a constant and a rate.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ class RungResiduals:
     error: float
 
     def rms(self, names: list[str]) -> NDArray[np.float64]:
-        """Root mean square of either angle by rung, rad, shape (2, rung)."""
+        """Root mean square of each angle by step, rad, shape (2, rung)."""
         return np.array([np.sqrt(np.mean(self.series[name] ** 2, axis=0)) for name in names]).T
 
 
@@ -144,7 +144,7 @@ def left(
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
-    """Computed pole with the response of each rung minus the IAU's, in time."""
+    """Computed pole with the response of each step minus that of the IAU, in time."""
     from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
@@ -177,7 +177,7 @@ _ADDS = "what the model adds, or what it is"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
-    """Differences from IAU 2000A, rung by rung."""
+    """Differences from IAU 2000A, step by step."""
 
     rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -190,7 +190,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 @part
 def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
-    """What is left against IAU 2000A, rung by rung."""
+    """Table of the residuals against IAU 2000A, step by step."""
     names = models.ladder
     longitude, obliquity = left.rms(names)
     return RungSizes(
@@ -216,7 +216,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 @part
 def beside(left: RungResiduals) -> ModelSizes:
-    """The same of two models beside the ladder."""
+    """Differences from IAU 2000A of two models beside the ladder."""
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
@@ -231,7 +231,7 @@ def beside(left: RungResiduals) -> ModelSizes:
 
 
 class Terms(Variables, along=("term",)):
-    """The largest circular terms, rung by rung."""
+    """The largest circular terms, step by step."""
 
     period: Value = number(
         "d",
@@ -254,7 +254,7 @@ class Terms(Variables, along=("term",)):
 
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
-    """The largest circular terms of each rung, in phase and out of phase."""
+    """The largest circular terms of each step, in phase and out of phase."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error
 
@@ -277,7 +277,7 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
 
 
 class Modes(Variables, along=("mode",)):
-    """Free modes of the rungs."""
+    """Free modes of the steps."""
 
     mode_rung: Value = words("rung that has the mode", short="rung")
     mode_name: Value = words("name of the mode", short="mode")
@@ -297,7 +297,7 @@ class Modes(Variables, along=("mode",)):
 
 @part
 def modes(models: Prediction) -> Modes:
-    """Free modes of each rung; a mode that a rung does not have is not among them."""
+    """Free modes of each step; steps without a mode leave it out."""
     rows = []
     for name in models.ladder:
         rung = models.rungs[name]
@@ -325,7 +325,7 @@ class Transfer(
     along=("rung", "frequency"),
     no_error="the section terms gives errors at the frequencies of nutation",
 ):
-    """The transfer function, rung by rung."""
+    """The transfer function, step by step."""
 
     transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
     transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
@@ -337,14 +337,14 @@ class Transfer(
 
 @part
 def transfer(models: Prediction) -> Transfer:
-    """The transfer function of each rung, through its resonances."""
+    """The transfer function of each step, through its resonances."""
     names = models.ladder
     response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
 class Residuals(Dated, along=("time", "rung"), error="residual_error"):
-    """Predicted pole minus the IAU's in time."""
+    """Predicted pole minus that of the IAU in time."""
 
     dpsi_sineps: Value = number("mas", f"predicted pole minus the IAU's in {_LONGITUDE}")
     deps: Value = number("mas", f"predicted pole minus the IAU's in {_OBLIQUITY}")
@@ -356,7 +356,7 @@ class Residuals(Dated, along=("time", "rung"), error="residual_error"):
 
 @part
 def residuals(left: RungResiduals, models: Prediction) -> Residuals:
-    """Predicted pole minus the IAU's in time, rung by rung."""
+    """Predicted pole minus that of the IAU in time, step by step."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
     return Residuals(
         time=datetime64(left.days),
@@ -369,7 +369,7 @@ def residuals(left: RungResiduals, models: Prediction) -> Residuals:
 
 @part
 def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
-    """Differences from the observed celestial pole, rung by rung."""
+    """Differences from the observed celestial pole, step by step."""
     return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
 
 
@@ -396,7 +396,7 @@ def compliances(models: Prediction) -> Compliances:
 
 @part
 def neglected() -> Neglected:
-    """What the last rung leaves out."""
+    """Effects that the last step leaves out."""
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 

@@ -139,7 +139,7 @@ _END = "an end of an interval of 95 %"
 class FreeWobble(
     Variables, along=("middle",), no_error="a mean over one beat, whose scatter was not propagated"
 ):
-    """The free wobble in a polar motion, and the annual wobble and mean pole beside it."""
+    """Free and annual wobble and mean pole of a polar motion."""
 
     chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
     chandler_amplitude: Pair = measured(
@@ -235,7 +235,7 @@ def spectrum(observed_pole: xr.Dataset) -> Spectrum:
 
 @part
 def neglected() -> Neglected:
-    """What tables of the pole leave out by convention."""
+    """Effects that tables of the pole leave out by convention."""
     return Neglected(
         sizes={"tides of a day and of half a day": OCEAN_TIDES * MAS},
         unit="mas",
@@ -493,7 +493,7 @@ def polar_motion_from(
 
 
 def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, float]:
-    """X and y at the start in mas: as given, as noted, or zero."""
+    """X and y at the start in mas: from the argument, from the attributes, or zero."""
     if start is None:
         noted = chi.attrs.get("start_day")
         if noted is not None and abs(noted - first) > SAME_DAY:
@@ -562,7 +562,7 @@ def read_excitation(
 
 
 def _even_step(time: FloatArray) -> float:
-    """Spacing of even times, d."""
+    """Spacing of evenly spaced times, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
         problem = "fill the gaps first: the exact pair needs even ones"

@@ -82,7 +82,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
-        """A response of the inside that is asked for must be known."""
+        """Require a known interior if its response is switched on."""
         super().check()
         if NONRIGID.name not in self.effects:
             return
@@ -100,30 +100,30 @@ def not_nonrigid(effects: tuple[str, ...]) -> str | None:
 
 
 def not_fitted(response: str) -> str | None:
-    """Leave the fitted response of the interior out if the predicted one is wanted."""
+    """Leave the fitted response of the interior out if the predicted one is chosen."""
     return None if response == "fitted" else "the response is predicted"
 
 
 def not_predicted(response: str) -> str | None:
-    """Leave the predicted response of the interior out if the fitted one is wanted."""
+    """Leave the predicted response of the interior out if the fitted one is chosen."""
     return None if response == "predicted" else "the response is fitted"
 
 
 @part(unless=(not_nonrigid, not_fitted))
 def as_fitted(nonrigid_shift: Shift) -> Shift:
-    """The response of the inside as fitted, where it is switched on."""
+    """Fitted response of the interior, if it is switched on."""
     return nonrigid_shift
 
 
 @part(unless=(not_nonrigid, not_predicted))
 def as_predicted(predicted_shift: Shift) -> Shift:
-    """The response of the inside as predicted, where it is switched on."""
+    """Predicted response of the interior, if it is switched on."""
     return predicted_shift
 
 
 @part(unless=not_nonrigid)
 def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
-    """What the response of the interior adds to the path of the rigid axes."""
+    """Change of the path of the rigid axes by the response of the interior."""
     shift = as_fitted or as_predicted
     assert shift is not None
     return shift
@@ -163,7 +163,7 @@ def axes(
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
-    """Directions of angular-momentum, rotation and figure axis at every time."""
+    """Directions of the axes of angular momentum, rotation and figure at every time."""
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = days_of(epochs, block, by_region("pole.zarr"))
@@ -195,7 +195,7 @@ def axes(
 
 
 class ResponseError(Dated):
-    """Share of the interior in the error of the directions."""
+    """Contribution of the interior to the error of the directions."""
 
     direction_error_response: Value = number(
         "uas",
@@ -212,7 +212,7 @@ def response_error(
     response: str,
     block: Block | None = None,
 ) -> ResponseError:
-    """Share of the direction's error that the response of the interior leaves."""
+    """Contribution of the response of the interior to the error of the directions."""
     half_width = interior_shift.half_width(days_of(epochs, block, by_region("pole.zarr")))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
@@ -221,7 +221,7 @@ def response_error(
 
 
 def no_longitude(body: Body) -> str | None:
-    """Angles need an orbit, and an axis that does not stand on it."""
+    """Leave the angles out without an orbit, or if the axis is normal to it."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"
@@ -240,7 +240,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> Turns:
-    """Whole turns of the longitude psi, counted from the first time of the series."""
+    """Whole rotations of the longitude psi, counted from the first time of the series."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

@@ -126,7 +126,7 @@ def shorter_than_a_window(span: Span | None, window: float | None) -> str | None
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Leave out a span in which the free core nutation does not separate from a year."""
+    """Leave out a span too short to separate the free core nutation from the year."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
@@ -175,7 +175,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period)
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Period of the free core nutation since 1984, that of an oscillator driven at random."""
+    """Period of the free core nutation since 1984, as an oscillator driven by noise."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD
@@ -198,7 +198,7 @@ def period(offset_table: PoleSeries) -> CorePeriod:
 
 @part
 def neglected() -> Neglected:
-    """What the fit of the free core nutation leaves out."""
+    """Effects that the fit of the free core nutation leaves out."""
     return Neglected(
         unknown="retrograde annual terms that IAU 2006/2000A lacks, which three years do not "
         "separate from the free core nutation"

@@ -85,7 +85,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     many_pulls = True
 
     def check(self) -> None:
-        """One mass of each perturber where settings are chosen, or means of ellipses taken."""
+        """Require one mass for each perturber if settings are chosen or orbits are given."""
         super().check()
         many = reasons.many_pulls(self.perturbers)
         if many and self.accuracy is not None:
@@ -158,7 +158,7 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
 
 
 def _plane(body: Body) -> str:
-    """The plane along which a rate is counted, in words."""
+    """Name of the plane along which a rate is counted."""
     if body.needed("pole").of_the_iau:
         return "ecliptic of J2000.0"
     return f"orbit whose normal has {body.orbit_pole} (ICRF)"
@@ -208,7 +208,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
 
 @part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> Convergence:
-    """Averaged rate against the length of the window, plain mean and tapers."""
+    """Averaged rate over the length of the window, by a plain mean and by weighted means."""
     import xarray as xr
 
     window = torque_samples.window
@@ -227,7 +227,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Leave out the models of a figure that is not known, or from which nothing follows."""
+    """Leave out the models of the figure if J2 or the flattening is not known."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -243,7 +243,7 @@ class FigureModels(
     along=("earth_model",),
     no_error="a model of the figure, for comparison with the others",
 ):
-    """Models of the figure, and what follows from them."""
+    """Models of the figure, with precession and free wobble."""
 
     h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
     period_by_model: Value = number(
@@ -366,7 +366,7 @@ def seasons(
 
 
 class BesideIAU(Variables):
-    """The computed rate compared with that of IAU 2006."""
+    """Table of the computed rate beside that of IAU 2006."""
 
     iau_rate: Value = number(
         "arcsec/yr",
@@ -427,7 +427,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
-    """Published size of each effect that torques of Sun and Moon on the mean equator leave out."""
+    """Published sizes of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
         what = "contribution to the rate that the model leaves out; others were not measured"

@@ -64,7 +64,7 @@ SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
 class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
-    """Attitude, spin and angular momentum of a rigid body, nothing averaged (I.2, I.4, I.9.34).
+    """Attitude and spin of a rigid body, without averaging (I.2, I.4, I.9.34).
 
     Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
     first date, with the body's own pole, meridian and spin, or as `start_attitude` and
@@ -114,13 +114,13 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     may_be_alone = True
 
     def needed(self) -> tuple[str, ...]:
-        """Pole and spin, unless the start is given."""
+        """Require pole and spin, unless the start is given."""
         pole = () if self.start_attitude is not None else ("pole",)
         spin = () if self.start_omega is not None else ("spin_period",)
         return (*self.needs, *pole, *spin)
 
     def check_spin(self) -> None:
-        """Refuse a spin above break-up, that of the start if it is given."""
+        """Refuse a spin above break-up."""
         if self.start_omega is None:
             super().check_spin()
         else:
@@ -142,7 +142,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Forces of all that pulls, with their uncertainty.
+    """Torques of all perturbers, with their uncertainty.
 
     Attributes
     ----------
@@ -162,12 +162,12 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Leave the sky out where nothing pulls."""
+    """Leave the positions out if there is no perturber."""
     return None if perturbers else "nothing pulls on the body"
 
 
 def _length(vector: FloatArray) -> float:
-    """Length of a vector; infinite if its square is more than a float holds."""
+    """Length of a vector; infinite if its square overflows."""
     with np.errstate(over="ignore"):
         return float(np.linalg.norm(vector))
 
@@ -188,7 +188,7 @@ def pulling(
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
 ) -> Pulling:
-    """Forces of all that pulls, effects switched on."""
+    """Torques of all perturbers, with the effects that are switched on."""
     from earthspin.motion.neighbours import doubt_of_pull
 
     days = epochs.span()
@@ -209,7 +209,7 @@ def pulling(
 
 @dataclass(frozen=True)
 class Rotor:
-    """A body ready to be followed.
+    """Body with its initial state and torques, for integration.
 
     Attributes
     ----------
@@ -245,11 +245,11 @@ class Rotor:
         return Motion(self.body, self.above, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
-        """Turns of the body in a time, s, at the speed of the start."""
+        """Rotations of the body in a time (s) at its initial spin."""
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
 
     def refuse_many_turns(self, begin: float, end: float) -> None:
-        """Refuse a stretch that takes hours to follow, its ends in s from the start.
+        """Refuse a span that takes hours to integrate; its ends are in s from the start.
 
         Raises
         ------
@@ -281,7 +281,7 @@ def rotor(
     torque: OwnTorque | None,
     pulling: Pulling | None = None,
 ) -> Rotor:
-    """The body at the start, what pulls on it, and neighbours with uncertain numbers changed."""
+    """Build the body at the start, its perturbers, and copies with changed uncertain numbers."""
     from earthspin.motion import neighbours
 
     begin, end = epochs.span()
@@ -323,7 +323,7 @@ def rotor(
 
 @part
 def motion(rotor: Rotor, accuracy: float | None) -> Motion:
-    """The motion, by windows as fine as the accuracy needs; not yet followed."""
+    """Prepare the integration, with windows that the accuracy requires."""
     return rotor.motion(tolerance_for(accuracy))
 
 
@@ -341,12 +341,12 @@ def _error(units: str, quantity: str) -> Any:
 
 
 def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the share of one cause in the error of a variable."""
+    """Declare the contribution of one cause to the error of a variable."""
     return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
 
 
 class Attitudes(Dated, along=("time", "component")):
-    """Attitude, spin and angular momentum, each with its error and the shares of it."""
+    """Attitude, spin and angular momentum, each with its error and the contributions to it."""
 
     attitude: Value = number(
         "1",
@@ -379,7 +379,7 @@ class Attitudes(Dated, along=("time", "component")):
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
-    """The motion at some times; a bar shows how many turns are left, if it takes long."""
+    """Integrate the motion to some times, with a progress bar if it takes long."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
 
@@ -403,7 +403,7 @@ def turning(
     neglected: Neglected,
     block: Block | None = None,
 ) -> Attitudes:
-    """Attitude, spin and angular momentum at every time, with what they may be off by."""
+    """Attitude, spin and angular momentum at every time, with errors."""
     now = days_of(epochs, block, by_region("series.zarr"))
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
@@ -454,7 +454,7 @@ def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAc
 
 
 class Growth(Dated):
-    """Growth of the distance of neighbouring rotations."""
+    """Growth of a small deviation of the rotation."""
 
     growth: Value = number(
         "1",
@@ -482,14 +482,14 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """Leave out what needs a length of time."""
+    """Leave the section out for a single date."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 
 
 @part(unless=one_date)
 def parting(rotor: Rotor) -> Divergence:
-    """The growth of the distance of a neighbour, brought back again and again."""
+    """Growth of a small deviation that is rescaled repeatedly."""
     from earthspin.motion.divergence import divergence
 
     rotor.refuse_many_turns(0.0, rotor.duration)
@@ -498,7 +498,7 @@ def parting(rotor: Rotor) -> Divergence:
 
 @part(unless=one_date)
 def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
-    """How fast neighbouring rotations part, and Lyapunov's time where the motion is chaotic."""
+    """Rate at which neighbouring rotations diverge, and the Lyapunov time of chaotic motion."""
     now = days_of(epochs)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
@@ -526,7 +526,7 @@ def neglected(
     effects: tuple[str, ...],
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes at the last date of what the model leaves out; what has none is named."""
+    """Sizes of neglected effects at the last date; effects of unknown size are named."""
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
@@ -550,7 +550,7 @@ def neglected(
 
 
 def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
-    """Effects that are switched off and would move the body."""
+    """Effects that are switched off and would change the motion."""
     moves = {
         "planets": not all_by_elements(body, perturbers),
         "j3": body.j3 != 0,

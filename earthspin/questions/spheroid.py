@@ -1,4 +1,4 @@
-"""The exact field of a homogeneous spheroid at given points."""
+"""Exact field of a homogeneous spheroid at points."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Spheroid(
     accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
     def check(self) -> None:
-        """A spheroid has a mass."""
+        """Require a body with a mass."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "flattening"))
@@ -119,7 +119,7 @@ def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
 
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
-    """What a uniform density leaves out: the body is denser inside and has a smaller J2."""
+    """Effect of the uniform density: real bodies are denser inside and have a smaller J2."""
     from earthspin.mass.figure import eccentricity_squared
 
     if body.labelled or body.j2 is None:

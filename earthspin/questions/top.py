@@ -1,4 +1,4 @@
-"""The heavy symmetric top in time."""
+"""Motion of the heavy symmetric top."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
 
     def check(self) -> None:
-        """Refuse a top that cannot exist, or cannot start so."""
+        """Refuse an impossible top or initial motion."""
         HeavyTop(**{name: getattr(self, name) for name in _OF_THE_TOP})
 
 
@@ -104,7 +104,7 @@ def numbers(
     phi: float,
     psi: float,
 ) -> SideBySide:
-    """The top and its motion at the start, or several tops."""
+    """Build the top and its initial motion, or several tops."""
     return SideBySide.of(
         transverse_moment=transverse_moment,
         axial_moment=axial_moment,
@@ -120,7 +120,7 @@ def numbers(
 
 @part
 def heavy_top_start(numbers: SideBySide) -> HeavyTop:
-    """The same, checked."""
+    """Check the top and its initial motion."""
     return HeavyTop(**numbers.numbers)
 
 
@@ -194,7 +194,7 @@ class Turning(
     along=("turning",),
     no_error="same closed form as the motion, so its relative_error holds",
 ):
-    """Angles between which the nutation runs."""
+    """Turning angles of the nutation."""
 
     turning_angle: Value = number("rad", "smallest and largest theta")
     turning: Labels = labels(default=["upper", "lower"])
@@ -202,7 +202,7 @@ class Turning(
 
 @part
 def turning(motion: HeavyTopMotion) -> Turning:
-    """The angles theta between which the nutation runs."""
+    """Turning angles theta of the nutation."""
     return Turning(turning_angle=motion.turning_angle)
 
 
@@ -248,7 +248,7 @@ def top_accuracy(
 
 @part
 def neglected() -> Neglected:
-    """What a top without friction leaves out."""
+    """Effects that a top without friction leaves out."""
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 

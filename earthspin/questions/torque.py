@@ -68,7 +68,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     needs = ("radius", "j2", "pole")
 
     def check(self) -> None:
-        """The true equator needs a model of nutation."""
+        """Require the Earth for the true equator, since it needs a nutation model."""
         super().check()
         if self.equator == "true" and no_iau_model(self.body):
             why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"
@@ -79,7 +79,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
 def nutation(
     epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:
-    """IAU nutation from nodes, for the true equator; None where the mean equator will do."""
+    """IAU nutation interpolated between nodes, for the true equator; None for the mean equator."""
     from earthspin.sky.iau import Nutation
 
     start, end = epochs.span()
@@ -186,7 +186,7 @@ def torques(
 def _equator_words(
     equator: str, nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
 ) -> str:
-    """How the equator was found, for people."""
+    """Description of the equator model, for the attributes."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
     if chosen is not None:
@@ -206,7 +206,7 @@ def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAcc
 
 @part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
-    """Largest torque of each part of the figure beyond the bulge, at the nearest distance."""
+    """Largest torques of the parts of the figure beyond J2, at the smallest distance."""
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")

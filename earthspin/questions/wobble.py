@@ -1,4 +1,4 @@
-"""The wobble ladder: rigid rungs, rungs of the interior, and their sensitivity to the inputs.
+"""The wobble ladder: rigid steps, steps of the interior, and their sensitivity to the inputs.
 
 A rung is a model that adds one effect to the model before.
 """
@@ -104,7 +104,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     )
 
     def check(self) -> None:
-        """A body with a mass, and an interior that is known."""
+        """Require a body with a mass and a known interior."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
@@ -138,7 +138,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 
 def why_rigid(body: Body) -> str | None:
-    """Why the ladder stops at the rigid rungs; None if it goes on."""
+    """Reason why the ladder stops at the rigid steps; None if it continues."""
     interior = layered.interior_of(body)
     if interior is None:
         return f"{layered.no_interior(body)}; set body.interior"
@@ -152,7 +152,7 @@ def why_rigid(body: Body) -> str | None:
 
 @dataclass(frozen=True)
 class Inside:
-    """What the upper rungs need, as arrays of one shape.
+    """Inputs of the upper steps, as arrays of one shape.
 
     Attributes
     ----------
@@ -174,18 +174,18 @@ class Inside:
 
     @property
     def setting(self) -> tuple[ladder.Spin, Interior, str]:
-        """Arguments of the rungs behind their inputs."""
+        """Further arguments of the steps."""
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
-        """Give back their names to arrays of the body's own dimensions."""
+        """Restore the dimension names of a body's arrays."""
         import xarray as xr
 
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-        """Lay arrays of these dimensions side by side along a new one."""
+        """Stack arrays along a new dimension."""
         return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 
@@ -199,7 +199,7 @@ def inside(
     core_ellipticity: Numeric | None = None,
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
-    """Inputs of the upper rungs, from the body, its interior and the ocean."""
+    """Collect the inputs of the upper steps from the body, its interior and the ocean."""
     import xarray as xr
 
     interior = layered.interior_of(body)
@@ -232,7 +232,7 @@ class Rungs(
     no_error="its relative error is that of period_solar; the quality factor follows from "
     "published ones",
 ):
-    """The free wobble, rung by rung."""
+    """Period of the free wobble, step by step."""
 
     period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
     period_sidereal: Value = number(
@@ -253,7 +253,7 @@ class Rungs(
 
 @part
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
-    """Free wobble, from the formula with the flattening to a deformable body."""
+    """Period of the free wobble, from the formula with the flattening to a deformable body."""
     import xarray as xr
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
@@ -293,7 +293,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
 
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
-    """95 % half-widths of the rigid rungs: relative errors of f and of H."""
+    """95 % half-widths of the rigid steps, from the relative errors of f and H."""
     import xarray as xr
 
     spread: dict[str, Numeric] = {}
@@ -311,7 +311,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
 
 
 def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-    """Arrays laid side by side along a new dimension, their names its labels."""
+    """Stack named arrays along a new dimension."""
     import xarray as xr
 
     return xr.concat(
@@ -358,7 +358,7 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Dependence of the last rung on each input."""
+    """Dependence of the last step on each input."""
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")
@@ -370,7 +370,7 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
 
 @part
 def sensitivity(inside: Inside) -> Sensitivity:
-    """Days of the last rung per unit of each input."""
+    """Derivative of the last step by each input, in days per unit."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
@@ -388,7 +388,7 @@ class CoreNutation(
     along=("core_shape",),
     no_error="the uncertainty of the core was not propagated to it",
 ):
-    """The free core nutation, by the shape of the core."""
+    """Free core nutation, for different shapes of the core."""
 
     free_core_nutation: Value = number("d", "period of the free core nutation in space")
     free_core_nutation_sidereal: Value = number(
@@ -398,7 +398,7 @@ class CoreNutation(
 
 @part
 def core_nutation(inside: Inside, body: Body) -> CoreNutation:
-    """Free core nutation, the other root of the equations, by the shape of the core."""
+    """Free core nutation, the second root of the equations, for different shapes of the core."""
     shapes = {"hydrostatic": inside.inputs}
     attributes = {}
     observed = inside.interior.observed_core_ellipticity
@@ -418,7 +418,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
 
 
 def no_inner_core(body: Body) -> str | None:
-    """Leave out what the inner core does where none is known."""
+    """Leave the inner core out if none is known."""
     if layered.not_layered(body):
         return layered.not_layered(body)
     if body.labelled:
@@ -431,7 +431,7 @@ class InnerCore(
     along=("core_model",),
     no_error="the section interior has the numbers that it follows from, which have none",
 ):
-    """The free wobble, by the model of the inner core."""
+    """Free wobble, for different models of the inner core."""
 
     chandler_by_core: Value = number(
         "d", "period of the free wobble of the elastic body without an ocean, by the inner core"
@@ -441,7 +441,7 @@ class InnerCore(
 
 @part(unless=(why_rigid, no_inner_core))
 def inner_core(body: Body) -> InnerCore:
-    """What a solid inner core does to the free wobble: the same system with all of its parts."""
+    """Effect of a solid inner core on the free wobble."""
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     turns = chandler_by_core(layered.layers_of(body), e, abs(float(body.spin_rate)))
     day = abs(body.number("spin_period"))
@@ -452,7 +452,7 @@ def inner_core(body: Body) -> InnerCore:
 
 @part
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
-    """What the last rung leaves out."""
+    """Effects that the last step leaves out."""
     if inside is None:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
     left_out = inside.interior.neglected

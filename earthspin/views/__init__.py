@@ -1,4 +1,4 @@
-"""What people look at: tables, figures, the HTML page."""
+"""Tables, figures and HTML pages of results."""
 
 from earthspin._lazy import submodule
 

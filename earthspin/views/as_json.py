@@ -1,4 +1,4 @@
-"""An answer as JSON, written as it is made, so that a long one never stands in memory as text."""
+"""Write an answer as JSON in pieces, so that its text is never held in memory."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write members by name; `write` leaves the last brace of each open."""
+    """Write members by name; the closing brace of each member is written here."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
@@ -71,7 +71,7 @@ def _text(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Numbers, words and dates as JSON holds them."""
+    """Convert numbers, words and dates to types of JSON."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):

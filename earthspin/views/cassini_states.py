@@ -1,4 +1,4 @@
-"""Cassini states: where they are, and which of them stay."""
+"""Tables and figure of Cassini states and their stability."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from earthspin.views.table import Column, Table, along, beside_observed, table_a
 
 
 def states(tree: Result) -> Table:
-    """Each state, with its obliquity."""
+    """Table of the states with obliquity and stability."""
     answer, left_out = answer_of(tree), needed(tree, "neglected")
 
     def with_left_out(name: str) -> Column:

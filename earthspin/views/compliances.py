@@ -23,7 +23,7 @@ LINEAR = 1e-10
 
 
 def numbers(tree: Result) -> Table:
-    """Each number, with the published one where there is one."""
+    """Table of the numbers, with published ones where they exist."""
     answer, known = answer_of(tree), section(tree, "published")
     published, sources = beside_published(known, "number", "number_value")
     note = (

@@ -1,4 +1,4 @@
-"""What figures share: their style, axes, and how they come onto a page.
+"""Style, axes and parts that all figures share.
 
 No pyplot: it costs half a second and keeps global state. Matplotlib is imported when something is
 drawn, so that tables do not wait for it.
@@ -59,7 +59,7 @@ _NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "sa
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Draw in one style, whatever the reader's own is; also a decorator."""
+    """Draw in the style of this package; also a decorator."""
     matplotlib = _matplotlib()
     own = {
         name: value
@@ -71,7 +71,7 @@ def style() -> Iterator[None]:
 
 
 def _matplotlib() -> Any:
-    """The library, also where MPLBACKEND names a kind of window that there is not.
+    """Import matplotlib, even if MPLBACKEND names a backend that is not available.
 
     No window is opened here, and the library could not be imported.
     """
@@ -109,12 +109,12 @@ class Drawing:
 
     @property
     def svg(self) -> str:
-        """Text of the picture, without an XML head."""
+        """SVG text of the figure, without an XML declaration."""
         return _saved(self.figure)
 
     @property
     def narrow(self) -> str:
-        """The same for a phone, where words would be too small to read; empty if it is narrow."""
+        """SVG text of a narrow version for phones; empty if the figure is already narrow."""
         if self.phone is not None:
             return _saved(self.phone)
         width, height = self.figure.get_size_inches()
@@ -138,7 +138,7 @@ def _saved(figure: Figure) -> str:
 
 @dataclass(frozen=True)
 class PageFigure:
-    """A figure as a view declares it: its words, how it is drawn, and what it needs.
+    """Figure that a view declares: title, caption, drawing function and sections.
 
     Attributes
     ----------
@@ -170,7 +170,7 @@ class PageFigure:
     phone: float = 0.0
 
     def is_there(self, tree: Result) -> bool:
-        """Whether the answer holds what the figure needs."""
+        """Return True if the answer has the sections that the figure needs."""
         there = not self.section or section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
@@ -185,7 +185,7 @@ class PageFigure:
 
 
 def figure_of(shown: Axes | Figure) -> Figure:
-    """Whole figure to which axes belong."""
+    """Figure to which axes belong."""
     figure = shown.get_figure(root=True)
     assert figure is not None
     return figure
@@ -210,7 +210,7 @@ def band(
     lowest: float = -np.inf,
     **how: Any,
 ) -> None:
-    """A line and the band of its 95 % half-width, not below `lowest`."""
+    """Draw a line and the band of its 95 % half-width, not below `lowest`."""
     low = np.maximum(value - error, lowest)
     ax.fill_between(x, low, value + error, color=colour, alpha=alpha, lw=0)
     ax.plot(x, value, color=colour, **how)
@@ -226,7 +226,7 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
 def plot_both_angles(
     ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
 ) -> None:
-    """Series of a celestial pole offset in longitude and in obliquity, as one of several panels."""
+    """Draw offsets of the celestial pole in longitude and obliquity in one panel."""
     ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
     ax.plot(time, deps, color=RED, lw=0.6, label="deps")
     ax.set_title(title, loc="left", fontsize=9)
@@ -234,14 +234,14 @@ def plot_both_angles(
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:
-    """Label a horizontal axis of rungs, models one after the other."""
+    """Label a horizontal axis with the steps of a ladder."""
     ax.set_xticks(range(len(labels)), [str(label) for label in labels])
     ax.margins(x=0.08)
     ax.grid(axis="x", visible=False)
 
 
 def empty(width: float, height: float) -> Figure:
-    """Figure with nothing on it, sides in inches."""
+    """Empty figure with sides in inches."""
     _matplotlib()
     from matplotlib.figure import Figure
 
@@ -249,7 +249,7 @@ def empty(width: float, height: float) -> Figure:
 
 
 def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
-    """Axes as given, or new ones on a figure of their own."""
+    """Return the axes of the argument, or new axes in a new figure."""
     if ax is not None:
         return ax
     with style():
@@ -257,7 +257,7 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
 
 
 def few_dates(ax: Axes) -> None:
-    """So few dates along the axis, and so short, that they stay apart on a phone."""
+    """Limit the dates along an axis, so that they do not overlap on a phone."""
     from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
 
     dates = AutoDateLocator(minticks=3, maxticks=7)  # type: ignore[no-untyped-call]
@@ -276,5 +276,5 @@ def legend_above(ax: Axes) -> None:
 
 
 def note(ax: Axes, text: str, at: tuple[float, float], by: tuple[float, float], **how: Any) -> None:
-    """Small text beside a point, `by` so many points away."""
+    """Write small text beside a point, at an offset in points."""
     ax.annotate(text, at, xytext=by, textcoords="offset points", **{"fontsize": 8} | how)

@@ -1,4 +1,4 @@
-"""An ensemble: how far its numbers spread, and which inputs the spread comes from."""
+"""Spread of an ensemble, and the share of each input in it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Number(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Name and labels for people."""
+        """Label of the number, with the labels of its coordinates."""
         labels = (
             str(label.astype("M8[m]") if isinstance(label, np.datetime64) else label)
             for label in self.labels.values()
@@ -63,7 +63,7 @@ def spread(tree: Result) -> Table:
 
 
 def shares(tree: Result) -> Table:
-    """Shares of the inputs in the variance; no rows if the members are too few to tell."""
+    """Table of the shares of the inputs in the variance; empty if the members are too few."""
     answer = _whole(tree)
     rows, headers = [], ["number"]
     note = "By straight lines in all inputs together; the last column is what they leave."
@@ -85,7 +85,7 @@ TABLES = [("", spread), ("", shares)]
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """The chief numbers, shares of the inputs in their variances, and what these leave."""
+    """Main numbers of an ensemble, shares of the inputs in their variances, remainders."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]
@@ -94,7 +94,7 @@ def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
 
 
 def lead(tree: Result) -> str:
-    """The chief number in a sentence, and what most of its spread comes from."""
+    """Sentence with the main number and the largest cause of its spread."""
     answer = _whole(tree)
     if not _numbers(answer):
         return _alike(answer)
@@ -120,7 +120,7 @@ def _caption_of_shares(tree: Result) -> str:
 
 
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
-    """Histogram of one number over the members, its central 95 % as a band.
+    """Draw the histogram of a number over the members, and its central 95 % as a band.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
 
 
 def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Shares of the inputs in the variance of the chief numbers, as bars.
+    """Draw the shares of the inputs in the variance of the main numbers, as bars.
 
     Parameters
     ----------
@@ -208,12 +208,12 @@ def _whole(result: Result) -> xr.Dataset:
 
 
 def _enough(answer: xr.Dataset) -> bool:
-    """Whether there are members enough to fit straight lines."""
+    """Return True if there are enough members for a linear fit."""
     return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
 def _numbers(answer: xr.Dataset) -> list[Number]:
-    """Every number that differs among the members."""
+    """All numbers that differ among the members."""
     numbers = []
     for name, variable in answer.data_vars.items():
         if MEMBER not in variable.dims or variable.dtype.kind != "f" or "_error" in str(name):
@@ -229,13 +229,13 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
 
 
 def _alike(answer: xr.Dataset) -> str:
-    """Sentence about an ensemble without a spread."""
+    """Sentence for an ensemble whose members agree."""
     count, inputs = answer.sizes[MEMBER], ", ".join(inputs_of(answer))
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
 
 def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """Names of the numbers that a question is about, as far as they differ among the members.
+    """Names of the main numbers of a question that differ among the members.
 
     If the view of the question names none that differs, this is the first number that does; empty
     if no number differs.
@@ -246,7 +246,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """The last value of the chief number: the total, the last rung, the last time."""
+    """Last value of the main number: the total, the last step, the last time."""
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
     if not numbers:
@@ -256,7 +256,7 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
 
 
 def _digits(value: float, other: float) -> str:
-    """A number with as many digits as tell it from another, and two more."""
+    """Write a number with two digits more than distinguish it from another."""
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

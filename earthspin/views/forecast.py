@@ -18,7 +18,7 @@ ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
 
 
 def at_horizons(tree: Result) -> Table:
-    """Pole at a few horizons."""
+    """Table of the pole at some horizons."""
     answer = answer_of(tree)
     days = _days(answer)
     rows = [

@@ -1,4 +1,4 @@
-"""A body without torque: constants of its motion, the herpolhode, Poinsot's pictures."""
+"""Tables, figures and solids of a free rotor."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ FIGURES = [
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
-    """Inertia ellipsoid and momentum ellipsoid, meeting in the polhode (I.5.1 to I.5.5)."""
+    """Inertia and momentum ellipsoid, which intersect in the polhode (I.5.1 to I.5.5)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, momentum = poinsot.inertia_ellipsoid.values, poinsot.momentum_ellipsoid.values
     polhode = poinsot.polhode.values
@@ -137,7 +137,7 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
 
 
 def polhode_with_sphere(tree: Result) -> Solid:
-    """Polhode on the inertia ellipsoid, and a sphere of the mean speed that it crosses (I.5.4)."""
+    """Polhode on the inertia ellipsoid, and a sphere of mean spin (I.5.4)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, polhode = poinsot.inertia_ellipsoid.values, poinsot.polhode.values
     speed = np.linalg.norm(polhode, axis=1)
@@ -161,7 +161,7 @@ def polhode_with_sphere(tree: Result) -> Solid:
 
 
 def rolling_ellipsoid(tree: Result) -> Solid:
-    """Poinsot: the inertia ellipsoid rolls on the invariable plane (I.5.8, I.5.9)."""
+    """Inertia ellipsoid that rolls on the invariable plane (Poinsot; I.5.8, I.5.9)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     to_plane = _turn_to_z(answer.angular_momentum_body.values[0])
     attitude = np.array([multiply(to_plane, q) for q in answer.attitude.values])
@@ -192,7 +192,7 @@ def rolling_ellipsoid(tree: Result) -> Solid:
 
 
 def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid:
-    """Body cone on space cone (I.6.30, I.6.31)."""
+    """Body cone that rolls on the space cone (I.6.30, I.6.31)."""
     period = 2 * np.pi / float(rotor.precession_rate)
     times = np.linspace(0, 2 * period, points)
     omega = rotor.omega_inertial(times)
@@ -225,7 +225,7 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
 
 
 def _turn_to_z(vector: FloatArray) -> FloatArray:
-    """Quaternion of the shortest turn that brings a vector to the third axis."""
+    """Quaternion of the smallest rotation that takes a vector to the third axis."""
     unit = vector / np.linalg.norm(vector)
     half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
     return np.asarray(half / np.linalg.norm(half))

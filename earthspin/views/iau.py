@@ -1,4 +1,4 @@
-"""The computed pole compared with the IAU's: budget, residuals, nutations, angles."""
+"""Tables and figures of the comparison with IAU 2006/2000A."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MODELS = {
 
 
 def budget(tree: Result) -> Table:
-    """Rates by effect, their sum, and the difference from the IAU."""
+    """Table of rates by effect, their sum, and the difference from IAU 2006."""
     rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
 
     def published(row: xr.Dataset) -> str:
@@ -61,7 +61,7 @@ def budget(tree: Result) -> Table:
 
 
 def residuals(tree: Result) -> Table:
-    """Size of the residuals in time, model by model."""
+    """Table of the residuals of each model."""
     series = section(tree, "residuals_by_model")
     dates = ""
     if series is not None:
@@ -84,7 +84,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Size of the differences from the observed pole, model by model."""
+    """Table of the differences of each model from the observed pole."""
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -106,7 +106,7 @@ def observed(tree: Result) -> Table:
 
 
 def nutation(tree: Result) -> Table:
-    """Largest circular terms of both poles."""
+    """Table of the largest circular terms of both poles."""
 
     def neighbour(row: xr.Dataset) -> str:
         return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
@@ -189,7 +189,7 @@ def angles(tree: Result) -> Table:
 
 
 def flattening(tree: Result) -> Table:
-    """H and C from three origins."""
+    """Table of H and C from three sources."""
 
     def value(row: xr.Dataset) -> str:
         error = float(row.flattening_error)
@@ -217,7 +217,7 @@ TABLES = [
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Each effect with its sign, measured and published, and the closure.
+    """Draw the contribution of each effect, computed and published, and the remainder.
 
     The axis is linear about zero and logarithmic beyond a milliarcsecond per century, alike to
     both sides.
@@ -254,7 +254,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 @drawing.style()
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """The computed pole minus the IAU's for each model, one above the other.
+    """Draw the computed pole minus that of the IAU, one panel for each model.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Ratio of IAU 2000A to the computed rigid amplitudes by frequency, and the fitted response.
+    """Draw the ratio of IAU 2000A to rigid amplitudes over frequency, and the fitted response.
 
     Parameters
     ----------

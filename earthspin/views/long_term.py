@@ -1,4 +1,4 @@
-"""Obliquity, precession and eccentricity over millennia, and how well they are known."""
+"""Tables and figures of obliquity, precession and eccentricity over millennia."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROWS = 11
 
 
 def epochs(tree: Result) -> Table:
-    """Obliquity, eccentricity, climatic precession and period at a dozen epochs."""
+    """Table of obliquity, eccentricity, climatic precession and period at a dozen epochs."""
     answer = in_order(answer_of(tree))
     shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
     columns = (
@@ -49,12 +49,12 @@ def _caption_of_climate(tree: Result) -> str:
 
 
 def in_order(of: xr.Dataset) -> xr.Dataset:
-    """The same by ascending epoch, each once: `times` may be given in any order."""
+    """Sort an answer by epoch, and keep each epoch once."""
     return of.isel(epoch=np.unique(of.epoch.values, return_index=True)[1])
 
 
 def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Obliquity, eccentricity and climatic precession, one above the other, with error bands.
+    """Draw obliquity, eccentricity and climatic precession with error bands.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Period of precession, of all together and by perturber, one above the other.
+    """Draw the period of precession, in total and by perturber.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
 def _plot_curves(
     ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
-    """Curves with their half-widths one above the other, or the first alone on given axes."""
+    """Draw curves with their half-widths in panels, or the first alone on given axes."""
     if ax is None:
         figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)
@@ -119,13 +119,13 @@ FEWEST, FINE = 4, 50.0
 
 
 def path_is_there(years: FloatArray) -> bool:
-    """Whether ascending epochs lie close enough together near the present to draw the path."""
+    """Return True if epochs near the present are dense enough to draw the path."""
     near = years[np.abs(years) <= PATH]
     return near.size >= FEWEST and bool(np.max(np.diff(near)) <= WIDEST)
 
 
 def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Path of the pole among the stars, within half a turn of the present.
+    """Draw the path of the pole among the stars, within half a turn of the present.
 
     The sky from inside, centred on the pole of the ecliptic of J2000.0, the present pole on top.
 
@@ -164,7 +164,7 @@ LEAST = 1e-6
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Error of the longitude of perihelion by cause, against the distance from J2000.0.
+    """Draw the error of the longitude of perihelion by cause, over the time from J2000.0.
 
     Drawn is the largest up to that distance, past or future: a share that passes through zero is
     not known better there.

@@ -1,4 +1,4 @@
-"""Love numbers beside published ones, and how they soften and lag with the period."""
+"""Love numbers beside published ones, and their dependence on the period."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
 def numbers(tree: Result) -> Table:
-    """Each number, with the published one where there is one."""
+    """Table of the numbers, with published ones where they exist."""
     answer = answer_of(tree)
     published, sources = beside_published(section(tree, "published"), "love", "love_number")
 
@@ -43,7 +43,7 @@ def numbers(tree: Result) -> Table:
 
 
 def by_period(tree: Result) -> Table:
-    """Real parts by period, and how late the body is."""
+    """Table of real parts and phase lags by period."""
     data = needed(tree, "by_period").isel(love_period=slice(None, None, EVERY))
 
     def real_part(name: str) -> Column:
@@ -70,7 +70,7 @@ TABLES = [("", numbers), ("by_period", by_period)]
 
 @style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Excess of the Love numbers over the elastic ones, and their lag, by period.
+    """Draw the excess of the Love numbers over the elastic ones, and their phase lag.
 
     Parameters
     ----------

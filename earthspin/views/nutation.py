@@ -1,4 +1,4 @@
-"""The nutation predicted from the layers of the body, rung by rung."""
+"""Tables and figures of the nutation predicted from the layers of the body."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") 
 
 
 def ladder(tree: Result) -> Table:
-    """What is left against IAU 2000A, rung by rung."""
+    """Table of the residuals against IAU 2000A, step by step."""
     return _sizes(
         "Nutation predicted from the layers",
         answer_of(tree),
@@ -44,7 +44,7 @@ def ladder(tree: Result) -> Table:
 
 
 def beside(tree: Result) -> Table:
-    """Two models beside the ladder."""
+    """Table of two models beside the ladder."""
     return _sizes(
         "Beside the ladder",
         needed(tree, "beside"),
@@ -56,7 +56,7 @@ def beside(tree: Result) -> Table:
 
 
 def modes(tree: Result) -> Table:
-    """Free modes of each rung."""
+    """Table of the free modes of each step."""
     columns = (
         *("mode_rung", "mode_name", "mode_period"),
         Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
@@ -71,7 +71,7 @@ def modes(tree: Result) -> Table:
 
 
 def terms(tree: Result) -> Table:
-    """Largest circular terms, of the last rung and of the IAU."""
+    """Table of the largest circular terms, of the last step and of the IAU."""
     data = needed(tree, "terms")
 
     def predicted(phase: str, head: str) -> Column:
@@ -94,7 +94,7 @@ def terms(tree: Result) -> Table:
 
 
 def compliances(tree: Result) -> Table:
-    """How the parts of the elastic body answer to wobbles."""
+    """Table of the compliances of the elastic body."""
     note = (
         "Product of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
         "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of the mantle, "
@@ -120,7 +120,7 @@ TABLES = [
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """What is left of each rung against IAU 2000A, on a logarithmic axis.
+    """Draw the residual of each step against IAU 2000A, on a logarithmic axis.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """The transfer function through the resonance of the core, with the main terms on it.
+    """Draw the transfer function through the resonance of the core, with the main terms.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
 
 @drawing.style()
 def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Predicted pole minus the IAU's in time, one rung above the other.
+    """Draw the predicted pole minus that of the IAU in time, one panel for each step.
 
     Parameters
     ----------

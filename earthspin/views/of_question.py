@@ -1,4 +1,4 @@
-"""From an answer to the views of its question, in the module of that name."""
+"""Tables, figures and pages of an answer, from the view module of its question."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ ERRORS = ("accuracy", "Errors and run times")
 
 
 def tables_for(tree: Result) -> list[Table]:
-    """Tables of an answer and its sections, in the order in which they are read.
+    """Tables of an answer and its sections, in reading order.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
-    """Figures of an answer and of the sections that are there, with captions."""
+    """Figures of an answer and of its sections, with captions."""
     return [figure.drawn(tree) for figure in _figures(tree) if figure.is_there(tree)]
 
 
@@ -66,12 +66,12 @@ def _figures(tree: Result) -> Sequence[PageFigure]:
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Three-dimensional pictures of an answer, which can be turned and played, if it has any."""
+    """Three-dimensional pictures of an answer that can be rotated and played."""
     return _made(tree, getattr(_view(tree), "SOLIDS", ()))
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Views of an answer, each from the function beside the sections that it needs."""
+    """Make the views whose sections the answer has."""
     return [
         make(tree)
         for sections, make in makers
@@ -105,7 +105,7 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
 
 
 def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
-    """Draw what `fit_chandler` gives, which has no scene; nothing for any other dataset."""
+    """Draw the result of `fit_chandler`, which has no scene; return nothing for other datasets."""
     if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
         return []
     from earthspin.views.polar_motion import plot_amplitude_and_phase
@@ -115,7 +115,7 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of an answer to the terminal, and its run time or the parts that ran."""
+    """Print the tables of an answer, and its run time or its parts."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -129,7 +129,7 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
 
 
 def scene_page(tree: Result) -> str:
-    """Page of an answer: its tables, figures and solids, and the parts that ran for it.
+    """HTML page of an answer: tables, figures, solids, and the parts that ran.
 
     Returns
     -------
@@ -146,7 +146,7 @@ def page_of(
     drawings: Sequence[Drawing] | None = None,
     links: Sequence[tuple[str, str]] = (),
 ) -> str:
-    """Page of several answers together.
+    """HTML page of several answers.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def page_of(
 
 
 def what_ran(*trees: Result) -> list[Table]:
-    """Parts that ran for some answers and, for a single one, those left out and why.
+    """Table of the parts that ran and, for a single answer, of the parts left out.
 
     Returns
     -------
@@ -205,12 +205,12 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """Module of the question of an answer; a plain table for one that has none."""
+    """View module of the question of an answer; the plain table if it has none."""
     return ensemble if is_ensemble(tree) else views_of(tree)
 
 
 def _explained(tree: Result) -> str:
-    """Where the documentation, which has no address of its own, explains a page."""
+    """Sentence that names the page of the documentation for an answer."""
     page = question.page if (question := question_of(tree)) else ""
     method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
@@ -231,7 +231,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
 
 
 def _footer(answer: xr.Dataset) -> str:
-    """What made an answer."""
+    """Sentence with the versions and files that made an answer."""
     attrs = answer.attrs
     words = f"{attrs['source']}."
     if "ephemeris" in attrs:

@@ -1,4 +1,4 @@
-"""An HTML page: one file that works offline, in light and dark, wide and narrow."""
+"""HTML page in a single file, for light and dark screens, wide and narrow."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def page(
 
 
 def rendered(template: str, **content: object) -> str:
-    """Page from a template, with the style sheet of all pages."""
+    """Render a template with the common style sheet."""
     return environment().get_template(template).render(sheet=source("page.css"), **content)
 
 
@@ -85,7 +85,7 @@ def write_texts(texts: Mapping[Path, str]) -> list[Path]:
 
 @cache
 def environment() -> Environment:
-    """Templates, and the filters that set words and names."""
+    """Jinja environment with the templates and the filters for text."""
     templates = Environment(
         loader=PackageLoader("earthspin.views"),
         autoescape=True,

@@ -1,4 +1,4 @@
-"""The table of a question that has no module of its own here: its answer, row by row."""
+"""Plain table of an answer whose question has no view module."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ ROWS = 40
 
 
 def numbers(tree: Result) -> Table:
-    """The answer as a table, a column for each number with its unit."""
+    """Table of an answer with a column for each variable."""
     answer = answer_of(tree)
     frame = answer.earthspin.to_frame()
     units = {name: variable.attrs.get("units", "") for name, variable in answer.variables.items()}

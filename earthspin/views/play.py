@@ -1,4 +1,4 @@
-"""Pages to play with: a picture that moves, its settings, and numbers, in one file each.
+"""Interactive pages: an animated picture, its settings and numbers, in a single file.
 
 Their words stand in ``templates/play_NAME.html.j2``; their formulas stand in
 ``templates/formulas.js`` and are compared with this library's; what they start from, the bodies'
@@ -31,7 +31,7 @@ EARTH_TURNS = float(np.asarray(EARTH.spin_period))
 
 
 def _sky() -> dict[str, object]:
-    """The Earth, and Sun and Moon on ellipses with the mean torques of the report."""
+    """Earth, Sun and Moon for the page: elliptic orbits with the mean torques of the report."""
     answer = run("precession")
     flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
     obliquity = math.radians(float(answer.obliquity))
@@ -58,7 +58,7 @@ def _sky() -> dict[str, object]:
 
 
 def _interior() -> dict[str, object]:
-    """What the upper rungs of the Earth's ladder stand on, and the observed period."""
+    """Inputs of the upper steps of the Earth's wobble ladder, and the observed period."""
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}
@@ -94,7 +94,7 @@ PLAYS: dict[str, Callable[[], dict[str, object]]] = {
 
 
 def play_page(name: str) -> str:
-    """Page to play with.
+    """Interactive page of a topic.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def play_page(name: str) -> str:
 
 
 def write_page(name: str, file: str | Path) -> Path:
-    """Write a page to play with.
+    """Write an interactive page.
 
     Parameters
     ----------

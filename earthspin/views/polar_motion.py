@@ -66,7 +66,7 @@ def observed(tree: Result) -> Table:
 
 
 def statements(tree: Result) -> Table:
-    """Statements of the source text about the wobble, and the years in which they held."""
+    """Table of statements of the source text about the wobble, with years when true."""
     fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(fit.chandler_period), float(fit.chandler_period_error)
     size = fit.chandler_amplitude
@@ -92,12 +92,12 @@ TABLES = [("", series), ("chandler", observed), ("chandler", statements)]
 
 
 def _metres(answer: xr.Dataset) -> float:
-    """Metres on the ground for a milliarcsecond; 0 if the radius is not known."""
+    """Metres on the ground per milliarcsecond; 0 if the radius is not known."""
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
 
 
 def _years_near(amplitude: xr.DataArray, size: float) -> str:
-    """First and last year in which an amplitude is within a quarter of a size."""
+    """First and last year in which an amplitude is within a quarter of a value."""
     near = abs(amplitude.values / size - 1) <= 0.25
     if not near.any():
         return "never"
@@ -134,7 +134,7 @@ def _caption_of_amplitude(tree: Result) -> str:
 
 
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
-    """Path of the pole in milliarcseconds, and in metres on the far sides.
+    """Draw the path of the pole in milliarcseconds, and in metres on the opposite axes.
 
     The prime meridian points up and 90 degrees west to the right: the ground as seen from
     above, where the spin and the free wobble turn counter-clockwise.
@@ -175,7 +175,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
 
 
 def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Amplitude spectra of polar motion, prograde and retrograde over each other.
+    """Draw the prograde and retrograde amplitude spectra of polar motion.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Amplitude of free and annual wobble in time, with the free one's 95 % band.
+    """Draw the amplitudes of the free wobble, with its 95 % band, and of the annual one.
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Amplitude of the free wobble, observed and driven by an excitation.
+    """Draw the amplitude of the free wobble, observed and driven by an excitation.
 
     Parameters
     ----------
@@ -242,7 +242,7 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
 
 
 def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Phase of the free wobble against a steady one of the fitted period.
+    """Draw the phase of the free wobble relative to a sinusoid of the fitted period.
 
     Where the amplitude is below twice its error the phase is drawn faintly.
 
@@ -263,7 +263,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
-    """The fitted free wobble, and the middles of its windows."""
+    """Return the fitted free wobble, and the centres of its windows."""
     fit = result if "chandler_amplitude" in result else needed(result, "chandler")
     assert isinstance(fit, xr.Dataset)
     return fit, fit[fit.chandler_amplitude.dims[0]].values
@@ -272,7 +272,7 @@ def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
 def _plot_free_wobble(
     ax: Axes, result: Result, colour: str, words: str
 ) -> tuple[xr.Dataset, FloatArray]:
-    """Amplitude of the free wobble with its 95 % band; as `_fit`."""
+    """Draw the amplitude of the free wobble with its 95 % band."""
     fit, time = _fit(result)
     size, error = fit.chandler_amplitude.values, fit.chandler_amplitude_error.values
     drawing.band(ax, time, size, error, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
@@ -280,7 +280,7 @@ def _plot_free_wobble(
 
 
 def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """A scale and its inverse, for a second axis."""
+    """Scaling by a factor and its inverse, for a second axis."""
     return lambda v: v * factor, lambda v: v / factor
 
 

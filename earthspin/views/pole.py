@@ -1,4 +1,4 @@
-"""The path of the axes: their directions, and the nutation of the pole."""
+"""Table and figure of the path of the axes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from earthspin.views.table import Column, Table, date, table_along
 
 
 def ends(tree: Result) -> Table:
-    """Directions of the axes at both ends of the path."""
+    """Table of the directions of the axes at both ends of the path."""
     answer = answer_of(tree)
     ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
 
@@ -37,7 +37,7 @@ TABLES = [("", ends)]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
-    """Nutation of an axis about its own precession, psi sin(eps) against eps.
+    """Draw the nutation of an axis relative to its mean precession, psi sin(eps) against eps.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Precession: rates by perturber, the seasons, and the convergence of the average."""
+"""Tables and figures of precession."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PASSED = 2.0
 
 
 def lead(tree: Result) -> str:
-    """The sentence at the head of the page."""
+    """First sentence of the page."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
@@ -53,7 +53,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """The three periods of precession, and which one to quote."""
+    """Table of the three periods of precession, and the one to quote."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
@@ -89,7 +89,7 @@ def periods(tree: Result) -> Table:
 
 
 def _millionths(known: xr.Dataset) -> str:
-    """What no known effect explains, in millionths of the rate."""
+    """Difference from IAU 2006 that no known effect explains, in millionths of the rate."""
     return f"{abs(float(known.closure / known.iau_rate)) * 1e6:.1f}"
 
 
@@ -123,14 +123,14 @@ def rates(tree: Result) -> Table:
 
 
 def _largest_left_out(answer: xr.Dataset) -> str:
-    """Largest effect on the rate that the model leaves out; its size may be unknown."""
+    """Largest effect on the rate that is not modelled."""
     name, _, rest = answer.attrs["neglected"].partition(": ")
     size, unit, more = rest.partition(" arcsec/yr")
     return f"{size} ({name})" if unit and "unknown size" not in more else "size unknown"
 
 
 def sky_and_calendar(tree: Result) -> Table:
-    """The rate as general precession and as drift of the calendar."""
+    """Table of the general precession and of the drift of the calendar."""
     computed = table.quantities(
         needed(tree, "seasons"),
         "general_precession",
@@ -171,7 +171,7 @@ _MODELS = {
 
 
 def models(tree: Result) -> Table:
-    """Precession and free wobble by three models of H."""
+    """Table of precession and free wobble for three models of H."""
     figure = needed(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
@@ -188,7 +188,7 @@ def models(tree: Result) -> Table:
 
 
 def free_wobble(tree: Result) -> Table:
-    """Period of the rigid wobble, and the observed one if this body was observed."""
+    """Table of the period of the rigid wobble, and of the observed one if it exists."""
     wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
     rigid, rows = measured(wobble, "free_wobble_period"), []
@@ -208,7 +208,7 @@ def free_wobble(tree: Result) -> Table:
 
 
 def iau(tree: Result) -> Table:
-    """The computed rate compared with that of IAU 2006."""
+    """Table of the computed rate beside that of IAU 2006."""
     known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     effects = () if left_out is None else table.along(left_out, "effect")
     rows = [
@@ -233,7 +233,7 @@ def iau(tree: Result) -> Table:
 
 
 def standstills(tree: Result) -> Table:
-    """Dates and extreme declinations of lunar standstills."""
+    """Table of lunar standstills: dates and extreme declinations."""
     extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
     error = float(extremes.standstill_declination_error.values.max(initial=0.0))
     columns = (
@@ -265,7 +265,7 @@ TABLES = [
 
 
 def chain(tree: Result, year: Result) -> drawing.Drawing:
-    """The method in one figure: declination, torque, average, period."""
+    """Data of the figure of the method: declination, torque, average, period."""
     return PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
@@ -333,7 +333,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_circle(tree: Result) -> str:
-    """Words below the circle, with the stars that the pole passes within two degrees, and when."""
+    """Caption of the circle, with the stars within two degrees of the path and their years."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
@@ -353,14 +353,14 @@ def _caption_of_circle(tree: Result) -> str:
 
 
 def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
-    """Places of the pole on the chart by years, at the present rate and obliquity."""
+    """Positions of the pole on the chart by year, at the present rate and obliquity."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
     back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
 
 
 def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Path of the celestial pole among the stars through one turn of precession.
+    """Draw the path of the celestial pole among the stars through one period of precession.
 
     The sky from inside, centred on the pole of the ecliptic, the present pole on top; the
     obliquity is held at its present value.
@@ -388,7 +388,7 @@ def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
 
 
 def _precesses(tree: Result) -> bool:
-    """Whether the axis moves: that of a sphere does not."""
+    """Return True if the axis precesses; that of a sphere does not."""
     return bool(np.isfinite(answer_of(tree).precession_period[-1]))
 
 

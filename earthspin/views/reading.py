@@ -1,4 +1,4 @@
-"""What a view reads from a result: the answer, its sections, its body and its perturbers."""
+"""Functions with which views read a result: answer, sections, body and perturbers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Answer itself; of many bodies or starts, only the first is shown."""
+    """Dataset of the answer; for many bodies or starts, of the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
 
@@ -41,7 +41,7 @@ def section(result: Result, name: str) -> xr.Dataset | None:
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
-    """Section of an answer; if the answer lacks it, the question is run again.
+    """Section of a result; computed now if the result lacks it.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def perturbers_of(answer: xr.Dataset) -> str:
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Say, one sentence for each key, which bodies were changed from those of their names.
+    """Sentences, one for each key, that list changed bodies.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
 
 
 def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
-    """First of many bodies or starts, with the declared labels of its variables.
+    """Select the first of many bodies or starts.
 
     That is, the first along dimensions that no part of the question declares.
     """

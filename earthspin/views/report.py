@@ -1,4 +1,4 @@
-"""The two reports: precession, with rotors and tops beside it, and the wobble."""
+"""Reports on precession and on the wobble."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def write_report(
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
-    """Torques through a year and through a turn of the Moon's node, about the reference epoch."""
+    """Torques through a year and through a period of the Moon's node."""
     epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
     keys = load_scene(tree).keys()
     positions = {"ephemeris": keys["ephemeris"], "source": keys["source"]}
@@ -174,7 +174,7 @@ def write_wobble_report(
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
-    """The sentence at the head of the wobble report."""
+    """First sentence of the wobble report."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
     last = beside_observed(

@@ -1,4 +1,4 @@
-"""The whole attitude: spin in the body, how well it is known, and how neighbours part."""
+"""Tables, figures and solid of the attitude of a rigid body."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ POSES = 481
 
 
 def known_until(answer: xr.Dataset) -> np.datetime64 | None:
-    """First date at which the attitude is lost, as far as the method and given numbers go."""
+    """First date at which the error from the method and the given numbers reaches one radian."""
     error = np.hypot(answer.attitude_error_method, answer.attitude_error_input).values
     lost = np.flatnonzero(error >= LOST)
     return answer.time.values[lost[0]] if lost.size else None
 
 
 def attitude(tree: Result) -> Table:
-    """The rotation at both ends of the span."""
+    """Table of the rotation at both ends of the span."""
     answer = answer_of(tree)
     columns = (
         Column("", lambda row: date(row.time, "s"), "TDB"),
@@ -48,7 +48,7 @@ def attitude(tree: Result) -> Table:
 
 
 def divergence(tree: Result) -> Table:
-    """Growth of the distance of a neighbour, and Lyapunov's time."""
+    """Table of the growth of a small deviation, and the Lyapunov time."""
     neighbour = needed(tree, "divergence")
     rate, spread = (float(neighbour[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
     rows = [
@@ -100,7 +100,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Error of the attitude in time, by where it comes from.
+    """Draw the error of the attitude in time, by cause.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Logarithm of the distance of a neighbour, and its mean rate.
+    """Draw the logarithm of a small deviation, and its mean rate.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ SHAPE = (1.0, 0.8, 0.6)
 
 
 def turning_body(tree: Result) -> Solid:
-    """The body as it turns: an ellipsoid that is as long as its moments tell."""
+    """Rotating ellipsoid with the moments of the body."""
     few = answer_of(tree).isel(time=slice(0, POSES))
     attitude, momentum = few.attitude.values, few.angular_momentum.values
     omega = rotate(attitude, few.omega.values)

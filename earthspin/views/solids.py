@@ -1,4 +1,4 @@
-"""Three-dimensional pictures that can be turned and played, for the HTML page.
+"""Three-dimensional pictures for HTML pages.
 
 A solid is plain data: meshes, lines and arrows, fixed in space or carried by the body, and the
 body's attitude in time. The page draws it on a canvas with a few lines of script of its
@@ -53,7 +53,7 @@ class Solid:
     tilt: float = 0.35
 
     def json(self) -> str:
-        """The picture as a page's script reads it, numbers to five digits.
+        """Picture as JSON for the script of the page, with numbers to five digits.
 
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
@@ -78,7 +78,7 @@ def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str =
 def line(
     points: FloatArray, colour: str, width: float, *, frame: str = "space", grows: bool = False
 ) -> Item:
-    """A line through points, shape (n, 3); one that grows is drawn up to the time shown."""
+    """Line through points, shape (n, 3); a growing line is drawn up to the time shown."""
     item = {"kind": "line", "points": points, "colour": colour, "width": width, "frame": frame}
     return item | {"grows": grows}
 
@@ -89,7 +89,7 @@ def arrow(tip: FloatArray, colour: str, label: str = "", *, frame: str = "space"
 
 
 def moving_arrow(track: FloatArray, colour: str, label: str = "") -> Item:
-    """An arrow in space whose tip moves, shape (n, 3), one point a time."""
+    """Arrow whose tip moves, shape (n, 3), with one point for each time."""
     return _arrow("track", track, colour, label) | {"frame": "space"}
 
 

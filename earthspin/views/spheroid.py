@@ -1,4 +1,4 @@
-"""The field of a spheroid at the points that were asked for."""
+"""Table of the field of a spheroid at points."""
 
 from __future__ import annotations
 

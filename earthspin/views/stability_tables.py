@@ -46,7 +46,7 @@ def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:
-    """How many cases hold, are refused, and fail."""
+    """Numbers of cases that hold, are refused, and fail."""
     return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
 
 

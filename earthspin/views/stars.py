@@ -1,4 +1,4 @@
-"""The northern sky about the pole of the ecliptic, and a path of the celestial pole through it."""
+"""Chart of the northern sky around the pole of the ecliptic, with paths of the celestial pole."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
 
 
 class Label(NamedTuple):
-    """Text that belongs to a point of the chart (degrees), and its colour."""
+    """Label of a point of the chart (degrees), and its colour."""
 
     text: str
     at: tuple[float, float]
@@ -33,7 +33,7 @@ class Label(NamedTuple):
 
 
 def year_words(year: int) -> str:
-    """A year counted astronomically, as historians write it."""
+    """Write an astronomical year number in the way of historians."""
     if year > 0:
         return f"{year}" if year >= 1000 else f"AD {year}"
     return f"{1 - year} BC"
@@ -51,7 +51,7 @@ def star_vectors() -> FloatArray:
 
 
 def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
-    """Places on the chart, degrees, shape (n, 2): the distance from the ecliptic's pole is true.
+    """Positions on the chart by azimuthal equidistant projection, degrees, shape (n, 2).
 
     The sky is seen from inside, with the pole of J2000.0 on top.
 
@@ -105,7 +105,7 @@ def plot_path(
 
 
 def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
-    """Write labels one after another, each where it covers least of dots, path and text."""
+    """Place labels one after another, each where it overlaps least."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
     line, dots = _even(path * points), np.array([label.at for label in labels]) * points
@@ -121,7 +121,7 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
 
 
 def _even(path: FloatArray) -> FloatArray:
-    """A path as points two apart, so that its length under a label can be counted."""
+    """Resample a path at a spacing of two points, to count its length under a label."""
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
     even = np.arange(0.0, along[-1], 2.0)
     return np.stack([np.interp(even, along, axis) for axis in path.T], axis=-1)
@@ -134,7 +134,7 @@ def _cost(
     line: FloatArray,
     edge: float,
 ) -> float:
-    """Area (points squared) of boxes and beyond the chart, and length of path, under a label."""
+    """Overlap of a label: area on other boxes and outside the chart, and length of path."""
     low, high = np.array(boxes).transpose(1, 0, 2)
     shared = np.clip(np.minimum(middle + half, high) - np.maximum(middle - half, low), 0, None)
     beyond = np.clip(np.abs(middle) + half - edge, 0, None)

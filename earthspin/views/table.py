@@ -1,4 +1,4 @@
-"""A table and the words around it, for the terminal and for the page alike."""
+"""Tables with their text, for the terminal and for pages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ NUMBERS_ONLY = "numbers only"
 
 @dataclass(frozen=True)
 class Table:
-    """A table and the words around it.
+    """Table with title, note and cost.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table, or a row of a table of quantities.
+    """Column of a table, or row of a table of quantities.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Column:
     head: str = ""
 
     def header(self, data: xr.Dataset) -> str:
-        """Header, or the words of the row."""
+        """Header of the column, or label of the row."""
         return self.head or label(data[self.name])
 
     def text(self, row: xr.Dataset) -> str:
@@ -132,7 +132,7 @@ def table_along(
 
 
 def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[list[Column], str]:
-    """Columns of published numbers, and of the difference from them in per cent.
+    """Columns of published numbers, and of the differences from them in per cent.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
 
 
 def _column(column: Column | str) -> Column:
-    """Column from the name of its variable and, after a colon, the format."""
+    """Column from the name of a variable and, after a colon, its format."""
     return Column(*column.split(":")) if isinstance(column, str) else column
 
 
@@ -197,7 +197,7 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
 
 
 def _in_brackets(value: float, error: float) -> str:
-    """Two digits of the error behind the digits that they belong to."""
+    """Write a value with two digits of its error in parentheses."""
     digits = max(0, 1 - math.floor(math.log10(error)))
     half = f"{error:.{digits}f}"
     return f"{value:.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
@@ -214,12 +214,12 @@ def two_digits(value: SupportsFloat) -> str:
 
 
 def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
-    """Write a quality factor; nothing for an infinite one."""
+    """Write a quality factor; empty if it is infinite."""
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
 def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:
-    """Write a published number and by how many per cent a value is larger; nothing for none."""
+    """Write a published number, and the difference of a value from it in per cent."""
     if published is None:
         return "", ""
     known = float(published)
@@ -230,7 +230,7 @@ def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, 
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Write a value that stands beside an observation, with all that is known to be uncertain.
+    """Write a computed value for comparison with an observation, with all known errors.
 
     Parameters
     ----------
@@ -249,7 +249,7 @@ def beside_observed(
 
 
 def some_unknown(left_out: xr.Dataset) -> bool:
-    """Whether the section `neglected` names effects of unknown size."""
+    """Return True if the section `neglected` names effects of unknown size."""
     return bool(left_out.neglected_effect.attrs.get("of_unknown_size"))
 
 
@@ -269,6 +269,6 @@ def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "
 
 
 def along(data: xr.Dataset, dim: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Go through a dimension: each label as text, with the data at it."""
+    """Yield each label of a dimension as text, with the data at it."""
     for number, label in enumerate(data[dim].values):
         yield str(label), data.isel({dim: number})

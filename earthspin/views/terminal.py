@@ -1,4 +1,4 @@
-"""The terminal: where tables are printed, and what happens when nobody reads on."""
+"""Print tables to the terminal, also if the pipe is closed."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ WIDTH = 100
 
 
 class Terminal(Console):
-    """A console that leaves a closed pipe to the command line, which knows its exit status."""
+    """Console that passes a closed pipe on to the command line."""
 
     def __init__(self, width: int = WIDTH) -> None:
         super().__init__(width=None if sys.stdout.isatty() else width, highlight=False)
 
     def on_broken_pipe(self) -> None:
-        """Whoever read our output has gone: say so instead of leaving with status 1."""
+        """Raise BrokenPipeError if the reader of stdout has closed it."""
         raise BrokenPipeError
 
     def print_table(self, table: Table) -> None:
@@ -45,5 +45,5 @@ class Terminal(Console):
 
 
 def _plain(words: str) -> Text:
-    """Words as they are: brackets are no markup, and escapes do nothing to the terminal."""
+    """Text without markup and without control characters."""
     return Text("\n".join(map(printable, words.split("\n"))))

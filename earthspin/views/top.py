@@ -1,4 +1,4 @@
-"""The heavy top: its motion, its effective potential, and the path of its tip."""
+"""Tables, figures and solid of a heavy top."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from earthspin.views.table import Table, quantities
 
 
 def motion(tree: Result) -> Table:
-    """Pattern, period and mean rate of a heavy top."""
+    """Table of pattern, period and mean rate of a heavy top."""
     answer, turning = answer_of(tree), section(tree, "turning")
     rows = quantities(answer, "pattern", "nutation_period:.10g", "mean_precession_rate:.10g")
     if turning is not None:
@@ -33,7 +33,7 @@ def _plot_potential_and_nutation(tree: Result) -> Figure:
 
 
 def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Effective potential of a top against its inclination, with the level of its energy.
+    """Draw the effective potential of a top over its inclination, with the level of its energy.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Torque in time: extremes, declination, and the component that causes precession."""
+"""Tables and figures of torques in time."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ TABLES = [("", extremes)]
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Figure of declination and torque through years, in which single swings are not seen."""
+    """Draw declination and torque over years, fast oscillations as bands."""
     plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
     return PageFigure(title, caption, plot).drawn(tree)
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
-    """Declination above, torque below."""
+    """Draw declination above and torque below."""
     figure, (upper, lower) = drawing.stacked(2, 4.6)
     plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
@@ -106,7 +106,7 @@ def plot_declination(
 def plot_torque(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Component of the torque towards the equinox, which causes precession, in time.
+    """Draw the component of the torque towards the equinox, which causes precession.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def _line_or_band(
     colour: str,
     smooth_days: float | None,
 ) -> None:
-    """A line, or a band between its extremes where the line would swing more often than is seen."""
+    """Draw a line, or a band between its extremes if its oscillations are too fast."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
     if not smooth_days or swings < MANY_SWINGS:
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
@@ -156,7 +156,7 @@ def _line_or_band(
 
 
 def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:
-    """How many samples of an even series there are in some days."""
+    """Number of samples of an even series in some days."""
     step = float((series.time[1] - series.time[0]) / np.timedelta64(1, "D"))
     return max(1, round(days / step))
 

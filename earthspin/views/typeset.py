@@ -1,4 +1,4 @@
-"""Numbers, units and figures as a journal sets them, for the page.
+"""Typeset numbers, units and figures for HTML pages.
 
 Tables hold plain text that a terminal can print and a program can read again: ``5.71015(25)e21``,
 ``-0.0192``, ``kg m2``. The page sets the same text with signs, powers and subscripts.
@@ -58,7 +58,7 @@ _COLOURS |= {"#e69f00": "orange", "#56b4e9": "sky"}
 
 
 def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
-    """A figure for a page that is read in light and in dark, by eye or by ear.
+    """HTML of a figure for light and dark pages, usable with a screen reader.
 
     Parameters
     ----------

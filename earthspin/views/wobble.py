@@ -1,4 +1,4 @@
-"""The free wobble, from the formula with the flattening to a deformable body."""
+"""Tables and figure of the wobble ladder."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CHIEF = ("period_solar",)
 
 
 def ladder(tree: Result) -> Table:
-    """Period of the free wobble by a series of models, the rungs of the ladder."""
+    """Table of the period of the free wobble, step by step of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
 
     def period(row: xr.Dataset) -> str:
@@ -55,7 +55,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """Sensitivity of the last rung to each input."""
+    """Table of the sensitivity of the last step to each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     columns = (
         "input",
@@ -90,7 +90,7 @@ def _caption(tree: Result) -> str:
 
 
 def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Period of each rung in days, with the observed period as a band if its section is there.
+    """Draw the period of each step in days, and the observed period as a band.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Error against run time: table, figure, page."""
+"""Tables, figures and pages of error against run time."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _capital(words: str) -> str:
 
 
 def _unit(result: xr.Dataset) -> str:
-    """Unit of the error as it stands behind a number, with a space."""
+    """Unit of the error, after a space."""
     return shown_unit(str(result.error.attrs["units"]))
 
 
@@ -138,7 +138,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Points for which no other is both faster and more exact, the fastest first."""
+    """Pareto front: points than which no other is faster and more accurate."""
     order = np.lexsort((error, time))
     time, error = time[order], error[order]
     kept = error < np.concatenate([[np.inf], np.minimum.accumulate(error)[:-1]])
@@ -146,7 +146,7 @@ def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
-    """Steps through the points of each task's front."""
+    """Draw the Pareto front of each task as steps."""
     right, top = float(result.run_time.max()), float(result.error.max())
     label = "front (Pareto)"
     for task in dict.fromkeys(result.task.values.tolist()):
@@ -171,7 +171,7 @@ def svg_of(result: xr.Dataset) -> str:
 
 
 def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Path]:
-    """Write the data of each quantity, and then its figure and one page of all.
+    """Write the data of each quantity, then its figure, and one page of all quantities.
 
     Parameters
     ----------

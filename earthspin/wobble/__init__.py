@@ -1,1 +1,1 @@
-"""The free wobble, from a rigid Earth to the observed one."""
+"""Models and observation of the free wobble."""

@@ -45,7 +45,7 @@ def burg(x: Complex, order: int) -> Complex:
 
 
 def fit_burg(time: Array, p: Complex) -> WobbleFit:
-    """Pole of an autoregressive model of monthly means, after drift and seasons."""
+    """Fit an autoregressive model to monthly means without drift and seasons."""
     span = time[-1] - time[0]
     time, p, step = in_blocks(time, p, BLOCK)
     poles = np.roots(burg(without_known_terms(time, p), ORDER))
@@ -65,7 +65,7 @@ def fit_burg(time: Array, p: Complex) -> WobbleFit:
 
 
 def _decay_interval(decay: float, span: float) -> tuple[float, float]:
-    """95 % interval of the decay d: all from which the found one is within 1.96 sqrt(d/span)."""
+    """95 % interval of the decay rate d, whose estimate scatters by sqrt(d/span)."""
     low, high = ((NORMAL_95 * excess) ** 2 / span for excess in DECAY_EXCESS)
     return (
         float(decay + low / 2 - np.sqrt(decay * low + low**2 / 4)),

@@ -1,4 +1,4 @@
-"""The pole that a known excitation drives, set beside the one that was observed."""
+"""Polar motion driven by a known excitation, compared with the observed one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from earthspin.wobble.resonance import polar_motion_from
 
 
 def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
-    """Where the driven pole must start to come nearest to the observed one.
+    """Fit the start of the driven pole to the observed one by least squares.
 
     Drift and seasonal terms, which models of the excitation hold least well, are fitted beside it
     and stay out of it.

@@ -97,12 +97,12 @@ def envelope(
 
 
 def _shortened(block: float, sample: float, period: float) -> float:
-    """By what the mean of even samples shortens a sinusoid: sin(pi B/T)/(m sin(pi B/(m T)))."""
+    """Reduction of a sinusoid by a mean of even samples: sin(pi B/T)/(m sin(pi B/(m T)))."""
     return float(np.sinc(block / period) / np.sinc(sample / period))
 
 
 def _amplitude_error(left: Complex, spacing: float, rate: float) -> Array:
-    """Half-width of an amplitude from what is left in its window, which is not white.
+    """Half-width of an amplitude from the residuals in its window, whose noise is not white.
 
     Neighbouring months err alike: the noise is taken for an autoregressive one of first
     order, and its spectrum read off at the wobble's frequency.

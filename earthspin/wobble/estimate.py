@@ -1,4 +1,4 @@
-"""What a fit of the free wobble gives: its period and its quality factor."""
+"""Result of a fit of the free wobble: period and quality factor."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class WobbleFit:
 
     @property
     def quality_factor(self) -> float:
-        """Q."""
+        """Quality factor."""
         return self._known()[0]
 
     @property
@@ -36,7 +36,7 @@ class WobbleFit:
 
     @property
     def gives_quality(self) -> bool:
-        """Whether the method says anything about Q."""
+        """Return True if the method estimates Q."""
         return self._quality is not None
 
     def _known(self) -> tuple[float, ...]:

@@ -64,7 +64,7 @@ COMPONENTS = {
 
 @dataclass(frozen=True)
 class FastExcitation:
-    """Fast part of the excitation: noise that passes two filters of first order.
+    """Fast part of the excitation: white noise after two first-order filters.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class FastExcitation:
 
     @property
     def free(self) -> Array:
-        """The seven numbers without bounds, for a search."""
+        """The seven numbers in a form without bounds, for an optimiser."""
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
         turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
         return np.array([*logs, *turns])
@@ -115,7 +115,7 @@ SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)
 
 
 def model(fast: FastExcitation = SHIPPED) -> StateSpace:
-    """Model of the pole, day by day; its ten complex states are in the order of `BEFORE`."""
+    """Daily model of the pole with ten complex states, in the order of `BEFORE`."""
     rate = 1j * chandler_frequency(PERIOD, QUALITY)
     year = 2j * np.pi / YEAR
     diagonal = [
@@ -141,13 +141,13 @@ def model(fast: FastExcitation = SHIPPED) -> StateSpace:
 
 @cache
 def _filter(fast: FastExcitation) -> Filter:
-    """Filter of a whole record."""
+    """Kalman filter for a whole record."""
     return Filter.of(model(fast), RECORD)
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """Predicted pole, day by day from the first after the last observation.
+    """Predicted pole for each day after the last observation.
 
     Attributes
     ----------
@@ -211,7 +211,7 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED) -> Forecast:
 
 
 def last_of(p: Complex) -> Complex:
-    """Last `RECORD` days of a record.
+    """Select the last `RECORD` days of a record.
 
     Raises
     ------
@@ -226,14 +226,14 @@ def last_of(p: Complex) -> Complex:
 
 
 def _rows(states: list[int]) -> Array:
-    """Matrix that adds some of the states, real and imaginary part."""
+    """Matrix that sums some of the states, real and imaginary parts."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)
 
 
 def _extrapolated(innovations: Complex, days: int) -> Array:
-    """Innovations of the next days by autoregression, shape (days, 2)."""
+    """Extrapolate the innovations by autoregression, shape (days, 2)."""
     filter_ = burg(innovations[-FITTED_OVER:], ORDER)
     series = list(innovations[-ORDER:])
     for _ in range(days):

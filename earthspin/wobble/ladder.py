@@ -1,4 +1,4 @@
-"""The free wobble of a body, rung by rung, from a formula of flattening to a body that yields.
+"""The wobble ladder: period of the free wobble from a formula of flattening to a deformable body.
 
 Each rung gives the period in turns of the body. The rungs are factors, not steps of
 days: they do not commute, the liquid core takes 34 days from a rigid mantle and 51 from
@@ -43,17 +43,17 @@ FORMULAS = {
 
 
 def turns_from_flattening(flattening: Numeric) -> Numeric:
-    """Turns per wobble if the flattening stood for (C - A)/A, McCullough's formula (I.9.52)."""
+    """Rotations per wobble by McCullough's formula with the flattening (I.9.52)."""
     return over(1.0, flattening)
 
 
 def turns_rigid(h: Numeric) -> Numeric:
-    """Turns per wobble of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
+    """Rotations per wobble of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
     return np.abs(over(1.0, ellipticity_from_h(h)))
 
 
 def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
-    """Turns per wobble of a rigid triaxial body at small amplitude.
+    """Rotations per wobble of a rigid triaxial body at small amplitude.
 
     sqrt(A B/((C - A)(C - B))), linearised Euler equations (I.4.4), from differences only.
 
@@ -91,7 +91,7 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
 def rigid_turns(
     flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
 ) -> dict[str, Numeric]:
-    """Turns per wobble on the rungs of a rigid body, by name; arguments as above."""
+    """Rotations per wobble for the rigid steps of the ladder, by name."""
     return {
         "flattening": turns_from_flattening(flattening),
         "rigid": turns_rigid(h),
@@ -100,7 +100,7 @@ def rigid_turns(
 
 
 def factors(turns: Numeric) -> Numeric:
-    """Each rung over the one before it; 1 for the first. Rungs along the first axis."""
+    """Ratio of each step to the one before it along the first axis; 1 for the first."""
     values = np.asarray(turns)
     below, above = values[:-1], values[1:]
     with np.errstate(invalid="ignore"):  # a sphere has every rung at infinity
@@ -113,7 +113,7 @@ def factors(turns: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Inputs:
-    """The numbers that the upper rungs stand on; floats or arrays of one shape.
+    """Inputs of the upper steps; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -143,7 +143,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Spin:
-    """What scales the inputs: the body's pull, size and spin, in SI.
+    """Mass, size and spin of the body, which scale the inputs, in SI.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Omega2 R5/(3 G M a2): products of inertia over M a2 per radian and unit of k2."""
+        """Products of inertia over M a2 per radian and unit of k2: Omega2 R5/(3 G M a2)."""
         rate = 2 * np.pi / self.period
         return rate**2 * love_radius**5 / (3 * self.gm * self.radius**2)
 
@@ -171,7 +171,7 @@ def roots(
     compliance: tuple[Numeric, Numeric, Numeric, Numeric],
     ocean: Array | None = None,
 ) -> Roots:
-    """Solve the system of mantle and core for the inputs of the ladder.
+    """Solve the equations of mantle and core for the inputs of the ladder.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def roots(
 
 @dataclass(frozen=True)
 class Ladder:
-    """The rungs that a body has.
+    """Steps of the ladder of a body.
 
     Attributes
     ----------
@@ -233,7 +233,7 @@ def inputs_of(
     ocean: str = "real",
     exponent: Numeric = ANELASTIC_EXPONENT.value,
 ) -> Inputs:
-    """Collect the inputs of the upper rungs from an interior.
+    """Collect the inputs of the upper steps from an interior.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ def love_radius(interior: Interior, spin: Spin) -> Numeric:
 
 
 def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -> Ladder:
-    """Climb the rungs above the rigid ones.
+    """Compute the steps above the rigid ones.
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
 def _soften(
     inputs: Inputs, spin: Spin, interior: Interior, unit: Numeric, water: Any, turns: Array
 ) -> Roots:
-    """The anelastic rung: the modulus depends on the period that it sets."""
+    """The anelastic step, by iteration: the shear modulus depends on the resulting period."""
     assert interior.layers is not None
     compliance = _compliance(interior, inputs)
     for _ in range(3):  # each pass shrinks the error by a factor of a thousand
@@ -348,7 +348,7 @@ def _soften(
 
 
 def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
-    """k2 and its three companions, all scaled with the given k2."""
+    """Compliances of mantle and core, scaled with k2."""
     if interior.layers is None:
         return inputs.k2, 0.0, 0.0, 0.0
     love = elastic(interior.layers)
@@ -359,7 +359,7 @@ def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
 
 
 def _water(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
-    """The ocean's response over A, shape (..., 2, 2)."""
+    """Response of the ocean divided by A, shape (..., 2, 2)."""
     if interior.ocean is None or ocean == "none":
         return None
     shape = np.eye(2)

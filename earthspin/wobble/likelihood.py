@@ -1,4 +1,4 @@
-"""The free wobble by maximum likelihood: an oscillator driven by white and red noise.
+"""Maximum-likelihood fit of the free wobble: an oscillator driven by white and red noise.
 
 Beside what drives it the record holds a red background, white noise, drift and seasons. With an
 excitation that is known (of air, water and ground) its own effect on the pole is taken away
@@ -80,14 +80,14 @@ class Likelihood:
 
     @staticmethod
     def _averaged(time: Array, columns: Complex) -> Complex:
-        """Means over blocks of columns that were turned back."""
+        """Block means of columns after demodulation at a frequency."""
         t, means, step = in_blocks(time, columns, SAMPLE)
         return np.asarray(
             block_means(means * turning(t, -NEAR)[:, None], max(1, round(BLOCK / step)))
         )
 
     def data(self, s: complex) -> Complex:
-        """Columns that are known, and the record as the last one, for a frequency of the wobble."""
+        """Known columns, and the record as the last column, at a frequency of the wobble."""
         return np.column_stack([self.terms, self.record])
 
     def __call__(
@@ -119,7 +119,7 @@ class Likelihood:
 
 
 class LikelihoodWithExcitation(Likelihood):
-    """The same of what is left when the effect of a known excitation is taken away.
+    """Likelihood of a driven wobble after the effect of a known excitation is subtracted.
 
     Where the pole stood at the start is a column more, exp(i s t).
 
@@ -137,7 +137,7 @@ class LikelihoodWithExcitation(Likelihood):
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
     def data(self, s: complex) -> Complex:
-        """Columns that are known, and the record less what the excitation drives."""
+        """Known columns, and the record minus the pole driven by the excitation."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
@@ -185,14 +185,14 @@ def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
 
 
 def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
-    """Maximum likelihood, with errors where it falls by half the 95 % point of chi-squared."""
+    """Fit by maximum likelihood, with 95 % intervals from the profile of the likelihood."""
     return largest(Likelihood(time, p), "likelihood")
 
 
 def lowest(
     likelihood: Likelihood, start: Array = START, fixed: int | None = None
 ) -> tuple[Array, float]:
-    """Parameters at which a likelihood is largest, and minus twice its logarithm there.
+    """Find the parameters of maximum likelihood, and minus twice its logarithm.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def lowest(
 
 
 def largest(likelihood: Likelihood, method: str) -> WobbleFit:
-    """Where a likelihood is largest, and where it has fallen on either side."""
+    """Maximum of a likelihood, with its 95 % interval."""
     at, least = lowest(likelihood)
     period = 2 * np.pi / (MIDDLE + at[0])
     if min(abs(period - end) for end in BAND) < EDGE:
@@ -229,11 +229,11 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
     scatter = NORMAL_95 * np.exp(-at[1] / 2) / np.sqrt(likelihood.span)
 
     def ends(of: int, reach: float) -> tuple[float, float]:
-        """Ends of an interval, the other parameters fitted anew at every point of it."""
+        """Ends of a profile-likelihood interval."""
         nearby = at.copy()
 
         def profile(value: float) -> float:
-            """How many standard deviations the likelihood has fallen."""
+            """Decrease of the likelihood, in standard deviations."""
             nonlocal nearby
             nearby[of] = value
             nearby, height = lowest(likelihood, nearby, fixed=of)
@@ -261,7 +261,7 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
 def _risen(
     of: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
-    """Where a function that is zero at `best` has risen to a target, towards a limit.
+    """Find where a function that is zero at `best` reaches a target, before a limit.
 
     The limit stands for a place that lies beyond it.
     """

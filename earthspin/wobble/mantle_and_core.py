@@ -1,4 +1,4 @@
-"""Free wobble and free core nutation: the two roots of a mantle that yields around a liquid core.
+"""Free wobble and free core nutation of an elastic mantle with a fluid core.
 
 Liouville's equation of the whole body and Sasao's of its core (Sasao, Okubo & Saito 1980,
 IAU Symp. 78, 165; Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219), in units of the
@@ -36,7 +36,7 @@ Array = NDArray[Any]
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:
-    """Quotient that is infinite where the denominator vanishes: a sphere does not wobble."""
+    """Quotient that is infinite for a zero denominator, since a sphere does not wobble."""
     with np.errstate(divide="ignore"):
         return np.divide(numerator, denominator)
 
@@ -58,7 +58,7 @@ class Roots:
 
     @property
     def turns(self) -> Array:
-        """Period of the wobble in turns."""
+        """Period of the wobble in rotations."""
         return np.asarray(1 / self.wobble.real)
 
     @property
@@ -69,13 +69,13 @@ class Roots:
 
     @property
     def core_turns_in_space(self) -> Array:
-        """Period of the free core nutation among the stars in turns; negative: retrograde."""
+        """Period of the free core nutation in space, in rotations; negative if retrograde."""
         return np.asarray(1 / (1 + self.core.real))
 
 
 @dataclass(frozen=True)
 class Mantle:
-    """What the mantle's wobble meets; floats or arrays of one shape.
+    """Coefficients of the mantle's equation; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Mantle:
     ocean: Array | None = None
 
     def traces_and_determinants(self) -> tuple[Numeric, Numeric, Numeric, Numeric]:
-        """Of M = T + K and D = E - K: tr M, |M|, tr D, |D|."""
+        """Return tr M, |M|, tr D and |D| of M = T + K and D = E - K."""
         water = np.zeros((2, 2)) if self.ocean is None else self.ocean
         first, second, off = water[..., 0, 0], water[..., 1, 1], water[..., 0, 1]
         m1 = 1 - self.half + self.kappa + first
@@ -107,7 +107,7 @@ class Mantle:
 
 @dataclass(frozen=True)
 class Core:
-    """What the core's wobble meets; floats or arrays of one shape.
+    """Coefficients of the core's equation; floats or arrays of one shape.
 
     Attributes
     ----------

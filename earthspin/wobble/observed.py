@@ -1,4 +1,4 @@
-"""The free wobble in observed polar motion: three ways to its period and quality factor.
+"""Fit of the free wobble in observed polar motion, by one of three methods.
 
 - Burg: an autoregressive model of block means; the pole nearest to the wobble gives
   period and quality factor. A millisecond, no starting values.
@@ -34,7 +34,7 @@ METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {
 
 
 def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
-    """Find the free wobble by one of the methods.
+    """Fit the free wobble by one of the methods.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
 
 
 def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
-    """Find the free wobble in polar motion together with an excitation that is known.
+    """Fit the free wobble in polar motion with a known excitation.
 
     Parameters
     ----------

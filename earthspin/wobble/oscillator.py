@@ -1,4 +1,4 @@
-"""A damped oscillator that white and red noise drive: its modes and its covariance.
+"""Damped oscillator driven by white and red noise: its modes and its covariance.
 
 Polar motion obeys p' = i s (p - chi). An excitation chi that forgets within a time tau adds a
 second mode of rate -1/tau to the free one of rate i s. With z the amplitudes of the two modes,
@@ -21,7 +21,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class DrivenOscillator:
-    """The free mode and a slow one, both driven at random.
+    """Model of a free mode and a slow mode, both driven by noise.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class DrivenOscillator:
 
     @property
     def rates(self) -> Complex:
-        """Of the two modes, 1/d."""
+        """Rates of the two modes, 1/d."""
         return np.array([1j * self.s, -1 / self.memory])
 
     @property
@@ -60,7 +60,7 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[Complex, Complex]:
-        """Covariance of means over blocks, of p turned back by a reference frequency.
+        """Covariance of block means of p after demodulation at a reference frequency.
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class DrivenOscillator:
         return factors, np.array([same, apart @ factors, apart @ factors**2])
 
     def sampled(self, count: int, step: float, generator: np.random.Generator) -> Complex:
-        """Draw p at even steps, stationary from the first; shape (count,)."""
+        """Simulate p at even steps from the stationary distribution, shape (count,)."""
         keep, stationary = np.exp(self.rates * step), self.covariance
         kicks = stationary - keep[:, None] * stationary * keep.conj()
         drawn = generator.standard_normal((count, 2, 2)) @ np.array([1, 1j]) / np.sqrt(2)

@@ -1,4 +1,4 @@
-"""Whether there is a free wobble at all: power about its frequency against that of its neighbours.
+"""Test for a free wobble in a record: power near its frequency compared with neighbouring power.
 
 A model without a wobble has a smooth spectrum. What it would hold between the periods of `BAND` is
 taken from the bands on either side, as a power of the frequency, and the power there is compared
@@ -59,7 +59,7 @@ def need_wobble(time: Array, p: Complex) -> None:
 
 @dataclass(frozen=True)
 class Periodogram:
-    """Power at whole numbers of turns in a record, prograde, less what the seasons touch.
+    """Prograde periodogram of a record without the frequencies of the seasons.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Periodogram:
 
     @classmethod
     def of(cls, time: Array, rest: Complex) -> Periodogram:
-        """Of polar motion less drift and seasons, evenly spaced in days."""
+        """Periodogram of evenly spaced polar motion without drift and seasons."""
         length = (time[-1] - time[0]) * time.size / (time.size - 1)
         frequency = np.arange(1, int(length / FASTER[1]) + 1) / length
         frequency = frequency[abs(frequency - 1 / YEAR) > 1 / length]
@@ -80,14 +80,14 @@ class Periodogram:
         return cls(frequency, np.asarray(abs(sums) ** 2, dtype=float))
 
     def between(self, longest: float, shortest: float) -> Periodogram:
-        """The part between two periods, d."""
+        """Part between two periods in d."""
         inside = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
         return Periodogram(self.frequency[inside], self.power[inside])
 
     def ratio(self) -> tuple[float, float]:
-        """Power in the wobble's band over what its neighbours let expect, and what noise reaches.
+        """Ratio of the power in the wobble's band to expected noise, and a limit for it.
 
-        The second is passed by noise with a chance of `FALSE_ALARM`.
+        Noise alone exceeds the limit with a probability of `FALSE_ALARM`.
         """
         band, slower, faster = (self.between(*ends) for ends in (BAND[::-1], SLOWER, FASTER))
         at, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
@@ -99,6 +99,6 @@ class Periodogram:
         return float(band.power.mean() / expected), float(needed)
 
     def peak(self) -> float:
-        """Period of the greatest power among the wobble and what is faster, d."""
+        """Period of the largest power in the wobble's band and at shorter periods, d."""
         part = self.between(BAND[1], FASTER[1])
         return float(1 / part.frequency[np.argmax(part.power)])

@@ -1,4 +1,4 @@
-"""What the upper rungs depend on: their errors by sampling, and their slopes by input.
+"""Errors of the upper steps by sampling, and their derivatives by input.
 
 The inputs are drawn a fixed number of times, the same for every body, so that a body's error
 does not depend on which others are asked for. The ladder is not climbed for every draw: each
@@ -56,7 +56,7 @@ class Drawn:
     exponent: Array
 
     def inputs(self, mean: Inputs, uncertainty: Mapping[str, float]) -> Inputs:
-        """Inputs as drawn, along a new first axis, of one body or several."""
+        """Drawn inputs along a new first axis, of one body or several."""
         ndim = max(np.ndim(getattr(mean, one.name)) for one in fields(Inputs))
         changed = {
             name: getattr(mean, name) * (1 + uncertainty[name] * _column(z, ndim))
@@ -94,7 +94,7 @@ def sampled_half_widths(
     interior: Interior,
     ocean: str = "real",
 ) -> dict[str, Numeric]:
-    """95 % half-widths of the turns on the upper rungs, by sampling the inputs.
+    """95 % half-widths of the rotations per wobble on the upper steps, by sampling the inputs.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def _sampled(
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
-    """Turns of each rung, shape (bodies, draws), from each body's parabolas."""
+    """Rotations per wobble of each step, shape (bodies, draws), by quadratic interpolation."""
     nodes = _exponent_nodes()
     points = _points(inputs, list(drawn.normal), uncertainty, nodes)
     # basis[i] stands on the turns at points[i]: the mean, each input below and above, the nodes.
@@ -151,7 +151,7 @@ def _sampled(
 def _points(
     inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
 ) -> Inputs:
-    """Inputs where the ladder is climbed, along a new first axis."""
+    """Inputs at which the ladder is computed, along a new first axis."""
     count = 1 + 2 * len(names) + exponents.size
     exponent = np.concatenate(
         [
@@ -175,7 +175,7 @@ def _exponent_nodes() -> Array:
 
 
 def _lagrange(nodes: Array, at: Array) -> Array:
-    """Lagrange's polynomials of the nodes, shape (nodes, points)."""
+    """Lagrange polynomials of the nodes, shape (nodes, points)."""
     others = [np.delete(nodes, i) for i in range(nodes.size)]
     return np.array(
         [
@@ -186,7 +186,7 @@ def _lagrange(nodes: Array, at: Array) -> Array:
 
 
 def _column(values: Array, ndim: int) -> Array:
-    """Values along a first axis before so many others."""
+    """Reshape values to the first of several axes."""
     return values.reshape(-1, *(1,) * ndim)
 
 
@@ -214,7 +214,7 @@ def half_widths(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Days of the last rung per unit of each input, by central differences.
+    """Derivative of the last step by each input in days per unit, by central differences.
 
     Parameters
     ----------

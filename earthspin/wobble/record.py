@@ -1,4 +1,4 @@
-"""Records of polar motion, and what is not free wobble in them: drift and seasons.
+"""Records of polar motion: checks, drift and seasonal terms.
 
 Polar motion is complex, p = x - i y, so that the free wobble turns with exp(+i omega t).
 """
@@ -29,7 +29,7 @@ LONGEST_STEP = 37.0
 
 
 def shortest_span(period: float = NEAR) -> float:
-    """Days that are needed to tell the free wobble from the annual one: one beat of the two."""
+    """Shortest record that separates the free from the annual wobble: one beat, d."""
     return 1 / (1 / YEAR - 1 / period)
 
 
@@ -86,13 +86,13 @@ def known_terms(time: Array, drift: int = DRIFT) -> Complex:
 
 
 def block_means(values: Any, size: int) -> Any:
-    """Means of consecutive blocks along the first axis; what is left over is dropped."""
+    """Means of consecutive blocks along the first axis; an incomplete last block is dropped."""
     count = len(values) // size
     return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
 
 
 def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
-    """Means over blocks of about a length in days, and the spacing that they have.
+    """Block means of about a length in days, and their spacing.
 
     A sinusoid stays one and is shortened by sinc(block/T).
     """
@@ -102,12 +102,12 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
 
 
 def least_squares(columns: Complex, values: Complex) -> Complex:
-    """Coefficients of the columns."""
+    """Least-squares coefficients of the columns."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
 def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
-    """Polar motion less drift and seasons, fitted together with a wobble that stays."""
+    """Polar motion minus drift and seasons, which are fitted together with the wobble."""
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)
     return np.asarray(p - columns @ found[:-1])

@@ -1,4 +1,4 @@
-"""Polar motion and what excites it: one linear equation, solved exactly for interval means.
+"""Polar motion and its excitation: the linear equation, solved exactly for interval means.
 
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 
@@ -41,12 +41,12 @@ def excitation_of(chi1: Array, chi2: Array) -> Complex:
 
 
 def middles_of_steps(ends: Array) -> Array:
-    """Times that the means over the steps between even times belong to, shape (n - 1,)."""
+    """Centres of the steps between even times, shape (n - 1,)."""
     return np.asarray((ends[:-1] + ends[1:]) / 2)
 
 
 def ends_of_steps(middles: Array, step: float) -> Array:
-    """Times between which means over even steps were taken, shape (n + 1,)."""
+    """Ends of even steps from their centres, shape (n + 1,)."""
     return np.asarray(middles[0] - step / 2 + step * np.arange(middles.size + 1))
 
 
@@ -127,7 +127,7 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
 
 
 def _response(step: float, s: complex) -> tuple[complex, complex]:
-    """exp(i s D), and 1 less it without cancellation."""
+    """Return exp(i s D), and 1 - exp(i s D) without cancellation."""
     if not step > 0:
         raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
     return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))
@@ -152,7 +152,7 @@ def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
 
 
 def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
-    """Polar motion by explicit Euler steps, shape (n + 1,); its amplitude grows without cause."""
+    """Polar motion by explicit Euler steps, shape (n + 1,); unstable, kept for comparison."""
     growth = 1 + 1j * s * step
     driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
     return np.concatenate([[start], driven])

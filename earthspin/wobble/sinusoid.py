@@ -1,4 +1,4 @@
-"""The free wobble as a sinusoid of fixed size: a quick look.
+"""Quick fit of the free wobble as a sinusoid of constant amplitude.
 
 A driven wobble is no sinusoid, so this says nothing about the quality factor; its error comes
 from the scatter that a driven wobble of a usual quality factor would have.
@@ -22,14 +22,14 @@ EXCESS = 2.4
 
 
 def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
-    """The sinusoid that explains most, beside drift and seasons."""
+    """Least-squares fit of a sinusoid together with drift and seasons."""
     span = time[-1] - time[0]
     t, means, _ = in_blocks(time, p, BLOCK)
     columns = np.linalg.qr(known_terms(t))[0]
     rest = means - columns @ (columns.conj().T @ means)
 
     def explained(period: Array) -> Array:
-        """Power of the sinusoids less what drift and seasons hold of them."""
+        """Power of sinusoids that drift and seasons do not explain."""
         waves = np.exp(2j * np.pi * t[:, None] / period)
         waves = waves - columns @ (columns.conj().T @ waves)
         return np.asarray(abs(waves.conj().T @ rest) ** 2 / np.sum(abs(waves) ** 2, axis=0))

@@ -1,4 +1,4 @@
-"""Amplitude spectrum of polar motion, prograde and retrograde apart."""
+"""Prograde and retrograde amplitude spectra of polar motion."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PADDING = 4
 
 
 def spectrum(time: Array, p: Complex) -> tuple[Array, Array]:
-    """Amplitude spectrum, prograde and retrograde apart.
+    """Prograde and retrograde amplitude spectra.
 
     Parameters
     ----------

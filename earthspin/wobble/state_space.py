@@ -23,13 +23,13 @@ Complex = NDArray[np.complex128]
 
 
 def side_by_side(matrix: Complex) -> Array:
-    """Real matrix that acts on real parts followed by imaginary parts as a complex matrix does."""
+    """Real form of a complex matrix, for real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
 
 @dataclass(frozen=True)
 class StateSpace:
-    """A discretised model.
+    """Linear Gaussian model in discrete time.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class StateSpace:
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
 
     def every(self, steps: int) -> StateSpace:
-        """The same model, observed at every so many steps."""
+        """Model with observations at every nth step."""
         transition, noise = self.transition, self.noise
         for _ in range(steps - 1):
             transition = self.transition @ transition
@@ -88,13 +88,13 @@ class StateSpace:
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
     def of_observation(self, covariance: Array) -> Array:
-        """Covariance of an observation, for that of the state."""
+        """Covariance of an observation from that of the state."""
         return np.asarray(self.observed @ covariance @ self.observed.T + self.error)
 
 
 @dataclass(frozen=True)
 class Filter:
-    """Kalman filter of a model, whose gains depend on no observation.
+    """Kalman filter of a model, with gains computed in advance.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ class Filter:
 
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
-        """Compute the gains of so many observations."""
+        """Compute the gains for a number of observations."""
         predicted, after = model.start, model.start
         gains = np.empty((count, len(predicted), len(model.observed)))
         innovation = np.empty((count, len(model.observed), len(model.observed)))
@@ -127,7 +127,7 @@ class Filter:
         return cls(model, gains, innovation, after)
 
     def run(self, data: Array) -> tuple[Array, Array]:
-        """State after the last of the observations, and the innovations.
+        """Return the state after the last observation, and the innovations.
 
         Parameters
         ----------
