@@ -134,19 +134,22 @@ class Question:
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
 
-    title: str = key("", doc="words for headings")
+    title: str = key("", doc="title for headings")
     members: Members | None = key(
         None,
-        doc="the same for many: numbers, or words such as paths, that differ from member to "
-        "member, drawn or given; a whole number draws those of the bodies from their published "
-        "uncertainties",
+        doc=(
+            "run an ensemble: how many members, or which inputs vary and how; a whole "
+            "number draws the numbers of the bodies from their published uncertainties"
+        ),
     )
     uncertainty: Literal["linear", "sample"] | None = key(
         None,
-        doc="whether errors from given numbers are propagated linearly alone, or found from a "
-        "sample of the bodies' published uncertainties as well",
+        doc=(
+            "how errors of the bodies' numbers are propagated: linearly, or also by a "
+            "sample of their published uncertainties"
+        ),
     )
-    n: int | None = key(None, doc="how many members the sample has, 1000 if not given")
+    n: int | None = key(None, doc="number of members of the sample; 1000 if not given")
 
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()

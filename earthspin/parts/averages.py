@@ -118,8 +118,8 @@ def torque_samples(
 
 
 def _labels(perturbers: tuple[Body, ...]) -> list[str]:
-    """Names of the perturbers, and of their total if there are several."""
-    return [p.name for p in perturbers] + ["total"] * (len(perturbers) > 1)
+    """Names of the perturbers, and of their total."""
+    return [*(p.name for p in perturbers), "total"]
 
 
 def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
@@ -164,7 +164,7 @@ def slowest_cycle(perturber: Body) -> float:
 
 @dataclass(frozen=True)
 class MeanTorques:
-    """Means over orbits of the torque per unit of C - A; the last label is the sum of several.
+    """Means over orbits of the torque per unit of C - A; the last label is their sum.
 
     Attributes
     ----------

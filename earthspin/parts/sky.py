@@ -78,7 +78,8 @@ class PerturbedBody(Question):
 
     body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
     perturbers: tuple[Body, ...] = key(
-        (SUN, MOON), doc="bodies that pull on it; on another planet than the Earth the Sun alone"
+        (SUN, MOON),
+        doc=("bodies that exert the torque; for planets other than the Earth the Sun alone"),
     )
     ephemeris: Annotated[str, KernelName()] = key(
         "de421", doc="kernel with the positions of the bodies"

@@ -22,7 +22,9 @@ from earthspin.units import FloatArray, Numbers
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
 #: Sentences on keys that several questions declare with defaults of their own.
-DIRECTION_DOC = "largest error of a direction; the cheapest settings that keep it are chosen"
+DIRECTION_DOC = (
+    "largest allowed error of a direction; the cheapest settings that reach it are chosen"
+)
 SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
@@ -33,7 +35,7 @@ class Series(PerturbedBody):
 
     span: Span = key(doc=SPAN_DOC)
     step: Step = key(doc="time between two dates")
-    times: TimeList | None = key(None, doc="instead of span and step, the very dates wanted")
+    times: TimeList | None = key(None, doc="list of dates, instead of span and step")
 
 
 class Dated(Variables, along=("time",)):

@@ -54,11 +54,13 @@ class CassiniStates(
 
     views, page = "cassini_states", "frames"
 
-    body: Body = key(MOON, doc="body whose axis it is")
+    body: Body = key(MOON, doc="body with the spin axis")
     orbit: Annotated[Orbit | None, Orbit] = key(
         None,
-        doc="its orbit, with a period of the node; if not given, the body's own, or the mean one "
-        "of a moon and of Mercury",
+        doc=(
+            "orbit with the period of its node; if not given, that of the body, or the "
+            "mean orbit of a moon or of Mercury"
+        ),
     )
 
     def check(self) -> None:

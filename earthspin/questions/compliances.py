@@ -45,8 +45,8 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
 
     views, page = "compliances", "wobble"
 
-    interior: LayeredInterior | None = key(None, doc="layers; without any, those of the body")
-    body: Body = key(EARTH, doc="body whose spin and dynamical flattening they have")
+    interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
+    body: Body = key(EARTH, doc="body with the spin and the dynamical flattening")
 
     def check(self) -> None:
         """Require a spinning body with known layers."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -29,13 +30,10 @@ from earthspin.engine.variables import (
 from earthspin.errors import SceneError, Where
 from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
 from earthspin.parts.reasons import no_iau_model
-from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
+from earthspin.sky.eop import read_bulletin_a, read_polar_motion
 from earthspin.units import FloatArray, Number, Plain, pack, unpack
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
-
-if TYPE_CHECKING:
-    pass
 
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
@@ -116,13 +114,14 @@ class Forecast(
     )
     step: Step = key("1 d", doc="time between two epochs, a whole number of days")
     origin: Annotated[float, Epoch()] | None = key(
-        None, doc="last day whose observation is used; the newest observed one if not given"
+        None, doc="last day whose observation is used; the newest observed day if not given"
     )
-    file: Annotated[Any, ObservedPole()] = key(
+    file: Annotated[str | Path | GivenPole, ObservedPole()] = key(
         "finals", doc="table of the IERS that astropy carries, a local file, or polar motion"
     )
     parameters: Literal["shipped", "fitted"] = key(
-        "shipped", doc="whether the fast excitation is as shipped or fitted before the origin"
+        "shipped",
+        doc="parameters of the fast excitation: shipped, or fitted before the origin",
     )
 
     def check(self) -> None:
@@ -163,7 +162,7 @@ class Record:
 
 
 @part(unless=no_iau_model)
-def record(file: Any, origin: float | None) -> Record:
+def record(file: str | Path | GivenPole, origin: float | None) -> Record:
     """Observed pole, daily and without gaps, up to the origin."""
     if isinstance(file, GivenPole):
         time, x, y = file.rows
@@ -341,7 +340,7 @@ class BulletinA(AheadOfOrigin):
     bulletin_a_y: Pair = measured("arcsec", "y as Bulletin A predicts it")
 
 
-def not_in_file(file: Any, origin: float | None) -> str | None:
+def not_in_file(file: str | Path | GivenPole, origin: float | None) -> str | None:
     """Leave Bulletin A out where the table has no prediction from the same origin."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
@@ -351,10 +350,10 @@ def not_in_file(file: Any, origin: float | None) -> str | None:
 
 
 @part(unless=not_in_file)
-def bulletin_a(file: Any, record: Record, days: float, step: float) -> BulletinA:
+def bulletin_a(file: str | Path | GivenPole, record: Record, days: float, step: float) -> BulletinA:
     """Prediction of Bulletin A in the same table, with 1.96 times its standard deviations."""
-    table = read_bulletin_a(file)
-    assert isinstance(table, PoleSeries)
+    table = None if isinstance(file, GivenPole) else read_bulletin_a(file)
+    assert table is not None
     shown = (table.mjd - _MJD - record.time[-1]) <= days
     rows = np.flatnonzero(shown)[_shown(days, step)]
     return BulletinA(

@@ -122,7 +122,7 @@ class FreeRotor(
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")
     points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
-    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
+    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
 
 _SERIES = ("time", "component")

@@ -60,15 +60,16 @@ LARGEST = 30
 
 
 class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop", "step")):
-    """Computed pole compared with IAU 2006/2000A: budget, residuals, nutations, angles.
+    """Computed pole compared with IAU 2006/2000A: rates, residuals in time, nutations.
 
     Returns
     -------
     Dataset
         Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0), and
-        `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree` adds the
-        sections: residuals in time, the largest nutations, the free core nutation, the
-        angles of precession, and H and C as the IAU's rate implies them.
+        `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree(answer)`
+        adds sections: `residuals` (computed pole minus that of the IAU over `time`), the
+        largest nutations, the free core nutation, the angles of precession, and H and C as
+        implied by the rate of the IAU.
 
     Raises
     ------
@@ -81,6 +82,9 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     >>> budget = earthspin.compare_iau()
     >>> print((budget.closure * 1e5).round(1).values, "mas per century")
     -3.5 mas per century
+    >>> residuals = earthspin.run_tree(budget, sections=["residuals"])["residuals"]
+    >>> print(sorted(residuals.data_vars))
+    ['deps', 'dpsi_sineps', 'residual_error']
     """
 
     views, page = "iau", "pole"

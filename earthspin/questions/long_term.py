@@ -89,9 +89,9 @@ class LongTerm(
         "the step meets it",
     )
     step: YearStep = key("1 kyr", doc="time between two epochs")
-    times: YearList | None = key(None, doc="instead of span and step, the very times wanted")
+    times: YearList | None = key(None, doc="list of times, instead of span and step")
     orbit: Annotated[str | OrbitTable, OrbitChoice()] = key(
-        "own", doc="table of the orbit: the body's own, a file, or what read_orbit gives"
+        "own", doc="table of the orbit: that of the body, a file, or a result of read_orbit"
     )
     tides: Factor = key(1.0, doc="factor on the tides that slow Moon and spin; 0 is off")
     ellipticity: Annotated[float, Number("", "1.0", above=0.0)] = key(
@@ -99,17 +99,22 @@ class LongTerm(
     )
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
         None,
-        doc="relative rate of J2 at J2000.0, which fades from 2 to 10 kyr on; 0 is off, and if "
-        "it is not given that of the body is taken",
+        doc=(
+            "relative rate of J2 at J2000.0, which decays from 2 to 10 kyr; 0 switches it "
+            "off; that of the body if not given"
+        ),
     )
-    obliquity_shift: Shift = key(
-        "0 deg", doc="what is added to the obliquity at J2000.0: the axis starts from elsewhere"
-    )
+    obliquity_shift: Shift = key("0 deg", doc="change of the initial obliquity at J2000.0")
     longitude_shift: Shift = key(
         "0 deg",
-        doc="by what the start is turned about the normal of the orbit, in the sense of the motion",
+        doc=(
+            "rotation of the initial axis about the normal of the orbit, in the direction "
+            "of the orbital motion"
+        ),
     )
-    accuracy: AngleError | None = key(None, doc="largest error of the direction of the pole")
+    accuracy: AngleError | None = key(
+        None, doc=("largest allowed error of the direction of the pole")
+    )
 
     def check(self) -> None:
         """Require perturbers for a body that is not the Earth."""

@@ -87,8 +87,10 @@ class NutationLadder(
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
-        doc="whether a last rung couples the core to what is around it beside its figure; the "
-        "numbers are inferred from nutation itself",
+        doc=(
+            "coupling at the boundaries of the core in a last rung; its numbers are "
+            "inferred from nutation"
+        ),
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the mantle's quality factor"

@@ -76,8 +76,10 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     step: Step = key("5 d", doc="interval between dates")
     response: Literal["fitted", "predicted"] = key(
         "fitted",
-        doc="where the effect nonrigid takes the response of the inside from: fitted to IAU 2000A, "
-        "or predicted from the layers of the body",
+        doc=(
+            "source of the response of the interior for the effect nonrigid: fitted to "
+            "IAU 2000A, or predicted from the layers of the body"
+        ),
     )
     accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 

@@ -78,8 +78,10 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     )
     accuracy: Relative | None = key(
         None,
-        doc="largest relative error of the rate by all perturbers; the cheapest settings "
-        "that keep it are chosen",
+        doc=(
+            "largest allowed relative error of the total rate; the cheapest settings that "
+            "reach it are chosen"
+        ),
     )
 
     many_pulls = True

@@ -104,10 +104,13 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         None, doc="angular velocity along the principal axes, C last, at the first date"
     )
     torque: OwnTorque | None = key(
-        None, doc="a torque of one's own, in Python, along the principal axes, in N m"
+        None, doc="custom torque: a Python function, along the principal axes, in N m"
     )
     accuracy: AngleError | None = key(
-        None, doc="largest error of the attitude; the cheapest settings that keep it are chosen"
+        None,
+        doc=(
+            "largest allowed error of the attitude; the cheapest settings that reach it are chosen"
+        ),
     )
 
     needs = ("radius", "j2", "dynamical_flattening")

@@ -56,7 +56,7 @@ class Spheroid(
     point_mass: Annotated[float, Number("kg", "1 kg", low=0.0, high=1e60)] = setting(
         "1 kg", doc="mass at each point; its torque on the body is computed"
     )
-    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
+    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
         """Require a body with a mass."""

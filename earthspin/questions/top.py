@@ -85,7 +85,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     theta_rate: Rate = setting("0 rad/s", doc="rate of theta at t = 0")
     phi: Angle = setting("0 deg", doc="azimuth of the axis about the vertical at t = 0")
     psi: Angle = setting("0 deg", doc="rotation angle of the body about its axis at t = 0")
-    accuracy: Relative | None = key(None, doc="largest relative error that is allowed")
+    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
         """Refuse an impossible top or initial motion."""

@@ -182,7 +182,7 @@ def window_mean_and_error(
     Returns
     -------
     mean, error : ndarray, shape (label, ...) or (label, ..., m)
-        The total is last if there are several perturbers. The error is a 95 % half-width: the
+        The total is last. The error is a 95 % half-width: the
         largest difference from the neighbouring windows and from the same window on every second
         sample, combined with the slow variation.
     """
@@ -222,9 +222,7 @@ def _means_of_many(
 
 
 def with_total(values: FloatArray) -> FloatArray:
-    """Append the sum over perturbers (axis 1) if there is more than one."""
-    if values.shape[1] == 1:
-        return values
+    """Append the sum over perturbers (axis 1)."""
     return np.concatenate([values, values.sum(axis=1, keepdims=True)], axis=1)
 
 

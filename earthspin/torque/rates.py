@@ -102,12 +102,12 @@ def rate_ratio(precessing: Numeric) -> Numeric:
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
-    """Relative standard uncertainties of several torques due to GM, and of their total.
+    """Relative standard uncertainties of torques due to GM, and of their total.
 
     Parameters
     ----------
-    precessing : ndarray, shape (perturber, ...) or (perturber + 1, ...)
-        The precessing torques, and their total if there are several.
+    precessing : ndarray, shape (perturber + 1, ...)
+        The precessing torques and their total.
     u_gm : sequence of float, shape (perturber,)
 
     Returns
@@ -117,8 +117,6 @@ def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
     """
     u = np.reshape(np.asarray(u_gm, dtype=float), (-1, *(1,) * (precessing.ndim - 1)))
     each = np.broadcast_to(u, (u.size, *precessing.shape[1:]))
-    if len(precessing) == u.size:
-        return each
     absolute = np.sqrt(np.sum((precessing[:-1] * u) ** 2, axis=0, keepdims=True))
     whole = np.abs(precessing[-1:])
     total = np.divide(absolute, whole, out=np.full_like(absolute, u.max()), where=whole != 0)

@@ -96,6 +96,8 @@ def _millionths(known: xr.Dataset) -> str:
 def rates(tree: Result) -> Table:
     """Rates, periods and torques by perturber."""
     answer = answer_of(tree)
+    if answer.sizes["perturber"] == 2:  # the total of one perturber says nothing more
+        answer = answer.isel(perturber=[0])
     first, last = answer.perturber.values[[0, -1]]
     method, given = (
         table.two_digits(answer[f"precession_rate_error_{share}"][-1])

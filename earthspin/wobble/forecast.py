@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
 
 from earthspin.errors import UndefinedError
 from earthspin.wobble.burg import burg
@@ -252,6 +251,8 @@ def fit(p: Complex) -> FastExcitation:
     """
     record = last_of(p)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
+
+    from scipy.optimize import minimize
 
     def height(free: Array) -> float:
         system = model(FastExcitation.from_free(free)).every(THINNED)
