@@ -73,7 +73,7 @@ def run(lesson: Path) -> dict[str, Any]:
         for code in cells(lesson.read_text(encoding="utf-8")):
             exec(compile(code, str(lesson), "exec"), names)
     figures = [plt.figure(number) for number in plt.get_fignums()]
-    return {"lesson": lesson.stem, "printed": printed.getvalue(), "faults": faults(figures)}
+    return {"lesson": lesson.stem, "printed": printed.getvalue(), "faults": faults(figures, 1)}
 
 
 def main(lessons: list[str]) -> None:

@@ -16,7 +16,7 @@ from earthspin.views.long_term import plot_budget, plot_climate, plot_periods
 # ---------------------------------------------
 # The orbital plane moves, and the axis precesses about its normal, so that the obliquity varies
 # by two degrees with a period of some forty-one thousand years (Laskar et al. 2004). The band is
-# the 95 % error. Most of it comes from the mean ellipticity of the past Earth and from its tides;
+# the error. Most of it comes from the mean ellipticity of the past Earth and from its tides;
 # it grows with the distance from today, and is widest where the obliquity changes fastest.
 #
 # *Next:* leave the tides out, ``tides=0``, or change the ellipticity by a thousandth,
@@ -32,7 +32,7 @@ ax.set_xlabel("time from J2000.0 (1000 years)")
 # Period at the rate of each epoch, by Sun and Moon together and by each alone. The rate varies
 # with the cosine of the obliquity, and the Sun's share also with the eccentricity; over long
 # times tides move the Moon outwards and slow the spin, and the period increases (Quinn, Tremaine
-# & Duncan 1991). The band is the 95 % error.
+# & Duncan 1991). The band is the error.
 #
 # *Next:* Mars, whose obliquity varies far more: ``earthspin.long_term(body="mars")``.
 

@@ -14,7 +14,7 @@ from earthspin.views.pole_offsets import plot_core_nutation, plot_offsets
 # Celestial pole offsets since 1984
 # ---------------------------------
 # Observed offsets dX, dY of the celestial pole from IAU 2006/2000A: the daily series C04 of the
-# IERS, from very long baseline interferometry, with 95 % half-widths in grey. The errors have
+# IERS, from very long baseline interferometry, with half-widths in grey. The errors have
 # fallen tenfold since the first years. The oscillation with a period of fourteen months is the
 # free core nutation, which the model leaves out because it cannot be predicted for long (Mathews,
 # Herring & Buffett 2002).
@@ -29,7 +29,7 @@ plot_offsets(offsets, figure=fig)
 # %%
 # Amplitude of the free core nutation
 # -----------------------------------
-# Amplitude of the free core nutation in sliding windows of three years, with its 95 % error. The
+# Amplitude of the free core nutation in sliding windows of three years, with its error. The
 # period is fixed at the published one (Krásná, Böhm & Schuh 2013). Atmosphere and ocean excite
 # the core, so that the amplitude varies. Below the dashed limit an amplitude can be noise alone.
 #

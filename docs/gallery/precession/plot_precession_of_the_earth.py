@@ -31,7 +31,7 @@ ax.set(xlim=(-34, 32), ylim=(-28.5, 27.5))
 # equatorial bulge (middle; dashed: means over the year). The torque averaged over whole periods
 # of the Moon's node gives the rate and the period of precession (bottom).
 #
-# *Next:* leave the Moon out, ``perturbers="sun"``: the period is 81,000 years.
+# *Next:* leave the Moon out, ``perturbers="sun"``: the period is three times as long.
 
 precession = earthspin.run_tree("precession", sections=["convergence"])
 year = earthspin.torque_series("2000-01-01", "2001-01-01", "6 h", source="skyfield")

@@ -23,7 +23,7 @@ from earthspin.views.table import measured
 # The period of precession depends on the perturbers and on the spin and flattening of the body
 # (I.8). Without the Moon the Earth's period is three times as long, because the Sun exerts a
 # third of the torque. Mars, with small moons and at half again the distance from the Sun, has a
-# longer period still. The 95 % errors come from the inputs and are smaller than the dots.
+# longer period still. The errors come from the inputs and are smaller than the dots.
 #
 # *Next:* give Mars the Earth's day, ``MARS.replace(spin_period=...)``.
 

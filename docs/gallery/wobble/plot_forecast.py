@@ -2,7 +2,7 @@ r"""
 Forecast of the pole
 ====================
 
-A forecast over a year with its 95 % errors.
+A forecast over a year with its errors, beside the pole that was observed later.
 """
 
 import matplotlib.pyplot as plt
@@ -11,11 +11,10 @@ import earthspin
 from earthspin.views.forecast import plot_coordinates, plot_path
 
 # %%
-# A forecast beside later observations
-# ------------------------------------
-# Forecast from June 2018 with its 95 % band, and the pole that was observed later. The method is
-# the usual state-space form of a driven oscillator (I.6.7). The ellipses contain the pole in 95 %
-# of cases after 30, 90 and 365 days.
+# Coordinates of the pole, with error bands
+# -----------------------------------------
+# Forecast from June 2018, and the pole that was observed later. The Chandler wobble is a damped
+# oscillator (I.6.7) driven by noise; seasonal terms and a slow drift are added.
 #
 # *Next:* another origin, or the newest one: ``earthspin.forecast()``.
 
@@ -26,6 +25,14 @@ figure = plot_coordinates(ahead)
 for ax, name in zip(figure.axes, ("x", "y"), strict=True):
     ax.plot(seen.time, seen[name] * 1e3, color="black", lw=1, label="observed")
     ax.legend()
+
+# %%
+# Path of the pole, with error ellipses
+# -------------------------------------
+# The same forecast as a path on the ground (figure I.6.32). Each ellipse contains the pole of its
+# day with the probability of all errors of this package.
+#
+# *Next:* a forecast over two years, ``earthspin.forecast(730)``.
 
 fig, ax = plt.subplots(figsize=(6, 6))
 plot_path(ahead, ax=ax)

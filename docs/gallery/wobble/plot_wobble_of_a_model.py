@@ -2,7 +2,7 @@ r"""
 The Chandler wobble of a model Earth
 ====================================
 
-How the interior changes the period of the free wobble from 304 to about 433 days.
+How the interior changes the period of the free wobble.
 """
 
 from dataclasses import replace

@@ -13,16 +13,15 @@ def script(name: str) -> str:
 
 MEASURED: list[Sentence] = []
 TOLD = [
-    Told(script("bodies/rings"), "masses of {} kg", "given: what the script begins with"),
-    Told(script("precession/worlds"), "The {} % errors", "what an error is, by definition"),
+    Told(script("bodies/spheroids_and_rings"), "masses of {} kg", "given: what the script begins with"),
     Told(
-        script("rotation/hyperion"),
-        "# semi-axes {}, {} and {} km",
+        script("rotation/moons"),
+        "# semi-axes 180, {} and {} km",
         "published: 360 × 266 × 205 km, Tarnopolski 2015, Astrophys. Space Sci. 357, 160",
     ),
     Told(
-        script("rotation/phobos"),
-        "# semi-axes {}, {} and {} km",
+        script("rotation/moons"),
+        "PHOBOS.moments  # semi-axes {}, {} and {} km",
         "published: IAU, as on docs/rotation.md",
     ),
 ]

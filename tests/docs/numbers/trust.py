@@ -162,7 +162,6 @@ MEASURED = [
     ),
 ]
 TOLD: list[Told | Part] = [
-    Told("docs/gallery/precession/plot_chain.py", "and read off {} years", "rounded; a suggestion"),
     Told(STABILITY, "published size, ${}$ arcsec/yr", "published: Capitaine et al. 2003, table 3"),
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
