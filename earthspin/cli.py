@@ -105,7 +105,7 @@ def _parser() -> ArgumentParser:
     words = "de421, de440, or the path of a .bsp file"
     kernel: dict[str, Any] = {"metavar": "NAME|PATH", "help": words}
     opens = flag | {"help": "open the page in the browser"}
-    sections = "what to tell beside the answer (default: {})".format
+    sections = "sections to compute beside the answer (default: {})".format
 
     def command(name: str, run: Command, words: str, **settings: Any) -> ArgumentParser:
         added = commands.add_parser(name, help=words, **settings)
@@ -120,20 +120,20 @@ def _parser() -> ArgumentParser:
         several: dict[str, Any] = {"action": "append", "default": [], "dest": "settings"}
         words = "change a key of the scene, e.g. --set step='1 h'"
         added.add_argument("--set", metavar="KEY=VALUE", help=words, **several)
-        words = "show this, and the keys of a scene named before"
+        words = "show this help, and the keys of the scene if one is named"
         added.add_argument("-h", "--help", action=_ShowHelp, nargs=0, help=words)
         return added
 
     add = command("report", _report, "print and write the precession or wobble report").add_argument
     topics = ("precession", "wobble")
-    add("topic", nargs="?", default="precession", choices=topics, help="of what")
+    add("topic", nargs="?", default="precession", choices=topics, help="topic of the report")
     add("--out", default="report", metavar="DIR", help="folder (default: report)")
-    add("--no-figures", **flag, help="tables alone, much faster")
+    add("--no-figures", **flag, help="only tables, without figures; much faster")
     add("--open", **opens)
     add("--ephemeris", **kernel)
 
-    add = command("play", _play, "write a page to play with").add_argument
-    add("what", choices=PAGES, help="of what")
+    add = command("play", _play, "write an interactive page").add_argument
+    add("what", choices=PAGES, help="topic of the page")
     add("--out", metavar="FILE", help="default: play-WHAT.html")
     add("--open", **opens)
 
@@ -145,46 +145,54 @@ def _parser() -> ArgumentParser:
     words = sections("none on the screen, all with --out")
     add("--sections", metavar="NAMES|all", help=words)
 
-    ensemble = of_scene("ensemble", _ensemble, "run a scene for many members whose numbers differ")
+    ensemble = of_scene("ensemble", _ensemble, "run an ensemble of a scene")
     add = ensemble.add_argument
     words = "how many, or a .csv, .nc or .zarr with their values (default: what the scene says)"
     add("--members", metavar="N|FILE", help=words)
-    add("--seed", type=int, metavar="N", help="of the random numbers (default: 0)")
-    add("--out", required=True, metavar="X.zarr", help="store, gone on with if begun")
+    add("--seed", type=int, metavar="N", help="seed of the random numbers (default: 0)")
+    add("--out", required=True, metavar="X.zarr", help="store; an unfinished one is resumed")
     cluster = ensemble.add_mutually_exclusive_group()
-    cluster.add_argument("--workers", type=int, metavar="N", help="start a cluster of N here")
-    cluster.add_argument("--scheduler", metavar="ADDRESS", help="join one, like tcp://host:8786")
-    add("--block", type=int, metavar="N", help="members that are kept at a time")
-    add("--drop", **flag, help="leave out members that cannot exist, counted")
+    cluster.add_argument(
+        "--workers", type=int, metavar="N", help="start a local cluster of N workers"
+    )
+    cluster.add_argument(
+        "--scheduler", metavar="ADDRESS", help="use a running cluster, like tcp://host:8786"
+    )
+    add("--block", type=int, metavar="N", help="number of members computed and stored at a time")
+    add("--drop", **flag, help="leave out and count members that are not possible")
     add("--json", **flag, help="print progress as lines of JSON")
 
-    add = of_scene("plan", _plan, "show what a scene needs, and what it leaves out").add_argument
+    add = of_scene(
+        "plan", _plan, "show which parts a scene needs, and which it leaves out"
+    ).add_argument
     add("--sections", metavar="NAMES|all", help=sections("none"))
-    add("--script", **flag, help="the parts as a plain script")
+    add("--script", **flag, help="print the parts as a Python script")
 
     add = command("accuracy", _accuracy, "measure error against run time").add_argument
-    add("quantity", nargs="?", metavar="QUANTITY", help="all by default")
-    add("--quick", **flag, help="short problems, few settings")
+    add("quantity", nargs="?", metavar="QUANTITY", help="default: all")
+    add("--quick", **flag, help="short problems with few settings")
     add("--out", metavar="DIR", help="folder for data, figures and a page")
 
     command("scenes", _scenes, "list the shipped scenes")
 
-    add = command("keys", _keys, "list what can be asked, question by question").add_argument
-    add("question", nargs="?", help="all by default")
+    add = command("keys", _keys, "list the questions and their keys").add_argument
+    add("question", nargs="?", help="default: all")
 
-    add = command("info", _info, "versions and kernels; or what is known of bodies").add_argument
+    add = command(
+        "info", _info, "print versions and kernels, or the numbers of bodies"
+    ).add_argument
     add("what", nargs="?", choices=("bodies",), help="bodies: list them")
-    add("name", nargs="?", metavar="NAME", help="each number of one, and its source")
+    add("name", nargs="?", metavar="NAME", help="body whose numbers and sources are printed")
 
-    add = command("verify", _verify, "hold a result on disk to its checksums").add_argument
-    add("file", metavar="FILE", help="a .nc file or a .zarr folder of ours")
+    add = command("verify", _verify, "compare a stored result with its checksums").add_argument
+    add("file", metavar="FILE", help="a .nc file or a .zarr folder written by earthspin")
 
     add = command("stability", _stability, "run the stiff and extreme cases").add_argument
-    add("--quick", **flag, help="only those that take a moment")
-    add("--only", metavar="WORD", help="a part, or a word of a case's name")
-    add("--long", **flag, help="also those that take minutes")
+    add("--quick", **flag, help="only the fast cases")
+    add("--only", metavar="WORD", help="a part of the package, or a word of a case's title")
+    add("--long", **flag, help="also cases that take minutes")
 
-    add = command("completion", _completion, "print what a shell needs to complete").add_argument
+    add = command("completion", _completion, "print the completion script of a shell").add_argument
     add("shell", choices=("bash", "zsh", "fish"))
     return parser
 

@@ -13,7 +13,11 @@ def script(name: str) -> str:
 
 MEASURED: list[Sentence] = []
 TOLD = [
-    Told(script("bodies/spheroids_and_rings"), "masses of {} kg", "given: what the script begins with"),
+    Told(
+        script("bodies/spheroids_and_rings"),
+        "masses of {} kg",
+        "given: what the script begins with",
+    ),
     Told(
         script("rotation/moons"),
         "# semi-axes 180, {} and {} km",
