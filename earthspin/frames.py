@@ -1,0 +1,321 @@
+"""Axes of answers as frames of astropy and Skyfield.
+
+The frames rotate directions: no light time, aberration or light deflection is applied, unlike in
+astropy's GCRS and CIRS. The question of an answer is solved again at the very time of the frame,
+since interpolation between its dates would lose accuracy.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import astropy.units as u
+import erfa
+import numpy as np
+import xarray as xr
+from astropy.coordinates import (
+    ICRS,
+    Attribute,
+    BaseCoordinateFrame,
+    DynamicMatrixTransform,
+    RepresentationMapping,
+    SphericalRepresentation,
+    TimeAttribute,
+    frame_transform_graph,
+)
+from astropy.time import Time
+
+from earthspin.constants import DAY
+from earthspin.engine.question import Question
+from earthspin.errors import SceneError
+from earthspin.scenes import Scene, load_scene, run, run_tree
+from earthspin.secular.angles import equator_and_equinox
+from earthspin.units import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
+
+__all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
+
+#: Julian date of J2000.0.
+_J2000 = 2451545.0
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Question of an answer, solved at the times of a frame.
+
+    Attributes
+    ----------
+    question : Question
+        Of the answer, without its times.
+    first : float
+        First date of the answer, days from J2000.0 TDB; a rotation starts there.
+    text : str
+        Scene of the answer, by which models are compared.
+    """
+
+    question: Question
+    first: float
+    text: str
+
+    @classmethod
+    def of(cls, answer: Any, words: tuple[str, ...]) -> Model:
+        """Read the model of an answer.
+
+        Raises
+        ------
+        SceneError
+            If the answer is not that of one of the questions `words` for a single body.
+        """
+        if isinstance(answer, cls):
+            return answer
+        if isinstance(answer, xr.DataTree):
+            answer = answer.to_dataset()
+        if not isinstance(answer, xr.Dataset) or answer.attrs.get("compute") not in words:
+            allowed = " or ".join(f"'{word}'" for word in words)
+            raise SceneError("model", type(answer).__name__, f"give an answer to {allowed}")
+        question = load_scene(answer)
+        several = set(answer.dims) - {"time", "epoch", "axis", "component", "perturber"}
+        several -= {"quaternion", "effect", "cause"}
+        if several:
+            problem = "give the answer for one body; select a member by a question of its own"
+            raise SceneError("model", f"an answer along {', '.join(map(str, several))}", problem)
+        first = answer.time.values[0] if "time" in answer.coords else np.datetime64("2000-01-01")
+        days = float((first - np.datetime64("2000-01-01T12")) / np.timedelta64(1, "us")) / 864e8
+        return cls(question, days, answer.attrs["scene"])
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and other.text == self.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+    def __repr__(self) -> str:
+        return f"<answer to '{self.question.word}'>"
+
+    def at(self, **times: Any) -> Question:
+        """Give the question other times."""
+        own = {
+            name: getattr(self.question, name)
+            for name in self.question.given
+            if name not in ("span", "step", "times")
+        }
+        scene: Question = Scene(compute=self.question.word, **own, **times)
+        return scene
+
+
+@lru_cache(maxsize=64)
+def _solved(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """Matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of pole or attitude, rad."""
+    return {"long-term": _long_term, "pole": _pole, "rotation": _rotation}[model.question.word](
+        model, days
+    )
+
+
+def _long_term(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """Mean equator and equinox of date."""
+    times, place = np.unique(days, return_inverse=True)
+    tree = run_tree(model.at(times=times * u.d), sections=["matrices"])
+    section = tree["matrices"].to_dataset()
+    error = np.radians(section.matrix_error.values / 3600)
+    return section.matrix.values[place], error[place]
+
+
+def _pole(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """Equator of the figure axis, with nutation, and its node on the ecliptic of date or orbit."""
+    answer = run(model.at(times=_times(days))).sel(axis="figure")
+    axis = np.stack([answer[name].values for name in "XYZ"])
+    body = model.question.body  # type: ignore[attr-defined]
+    if body.needed("pole").of_the_iau:
+        normal = erfa.ecm06(_J2000, np.array(days))[:, 2].T
+    else:
+        own = body.needed("pole").orbit_normal(body.orbit_pole)
+        normal = np.repeat(own[:, np.newaxis], len(days), axis=1)
+    return equator_and_equinox(axis, normal), answer.direction_error.values * u.uas.to(u.rad)
+
+
+def _rotation(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """Principal axes of the body."""
+    if min(days) < model.first:
+        start = np.datetime_as_string(
+            np.datetime64("2000-01-01T12") + np.timedelta64(round(model.first * DAY), "s")
+        )
+        problem = f"the rotation starts at {start} TDB; take a later time"
+        raise SceneError("obstime", f"{min(days):.3f} d from J2000.0", problem)
+    answer = run(model.at(times=_times((model.first, *days)))).isel(time=slice(1, None))
+    matrix = rotations(answer).inv().as_matrix()
+    error = answer.attitude_error * u.Unit(answer.attitude_error.attrs["units"]).to(u.rad)
+    return matrix, error.values
+
+
+def _times(days: tuple[float, ...]) -> Time:
+    return Time(_J2000, np.array(days), format="jd", scale="tdb")
+
+
+def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
+    """Matrices and errors at the times of a frame, of their shape."""
+    if model is None:
+        raise SceneError("model", "nothing", "give an answer, as in model=answer")
+    time = obstime.tdb
+    days = (time.jd1 - _J2000) + time.jd2
+    matrix, error = _solved(model, tuple(np.ravel(days).tolist()))
+    return matrix.reshape(*np.shape(days), 3, 3), error.reshape(np.shape(days))
+
+
+class _ModelAttribute(Attribute):  # type: ignore[misc]
+    """Attribute of a frame that holds an answer."""
+
+    def __init__(self, *words: str) -> None:
+        self.words = words
+        super().__init__(default=None)
+
+    def convert_input(self, value: Any) -> tuple[Any, bool]:
+        """Read the model of an answer."""
+        return (None, False) if value is None else (Model.of(value, self.words), True)
+
+
+class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
+    """Frame whose axes an answer gives."""
+
+    default_representation = SphericalRepresentation
+
+    @property
+    def error(self) -> u.Quantity:
+        """95 % half-width of the direction of the pole, or of the attitude, in arcsec."""
+        return (_at(self.model, self.obstime)[1] * u.rad).to(u.arcsec)
+
+    @property
+    def matrix(self) -> FloatArray:
+        """Matrix from the ICRS to this frame, shape (..., 3, 3)."""
+        return _at(self.model, self.obstime)[0]
+
+
+class EquatorOfDate(_Rotated):
+    """Equator and equinox of date of a computed pole, as a frame of astropy.
+
+    Directions are rotated only: no light time, aberration or light deflection is applied, unlike
+    in astropy's GCRS and CIRS.
+
+    Parameters
+    ----------
+    obstime : Time
+        Time of the equator and equinox; several times are allowed.
+    model : Dataset
+        Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: equator of the
+        figure axis with its nutation, and its node on the ecliptic of date of IAU 2006; for another
+        body than the Earth its node on the orbit. The question is solved at `obstime` itself.
+
+    Raises
+    ------
+    SceneError
+        If `model` is no such answer.
+    CoverageError
+        If the orbit or the kernel of the answer does not cover `obstime`.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> from astropy.coordinates import SkyCoord
+    >>> from astropy.time import Time
+    >>> from earthspin.frames import EquatorOfDate
+    >>> past = earthspin.long_term("-12 kyr", "0 kyr", "1 kyr")
+    >>> date = EquatorOfDate(obstime=Time(-9999.0, format="jyear", scale="tdb"), model=past)
+    >>> vega = SkyCoord("18h36m56.3s", "+38d47m01s").transform_to(date)
+    >>> print(f"{vega.ra.deg:.1f} {vega.dec.deg:.1f}")
+    183.3 76.8
+    """
+
+    frame_specific_representation_info = {  # noqa: RUF012 - astropy makes it a property
+        SphericalRepresentation: [
+            RepresentationMapping("lon", "ra"),
+            RepresentationMapping("lat", "dec"),
+        ]
+    }
+    obstime = TimeAttribute(default=Time(_J2000, format="jd", scale="tdb"))
+    model = _ModelAttribute("long-term", "pole")
+
+
+class BodyFixed(_Rotated):
+    """Principal axes of a rotating body, as a frame of astropy.
+
+    Parameters
+    ----------
+    obstime : Time
+        Time of the attitude, not before the start of the answer.
+    model : Dataset
+        Answer of `rotation`, which is solved at `obstime` itself.
+
+    Raises
+    ------
+    SceneError
+        If `model` is no such answer, or if `obstime` is before its start.
+    """
+
+    obstime = TimeAttribute(default=Time(_J2000, format="jd", scale="tdb"))
+    model = _ModelAttribute("rotation")
+
+
+for _frame in (EquatorOfDate, BodyFixed):
+    frame_transform_graph.add_transform(
+        ICRS, _frame, DynamicMatrixTransform(lambda _, to: to.matrix, ICRS, _frame)
+    )
+    frame_transform_graph.add_transform(
+        _frame,
+        ICRS,
+        DynamicMatrixTransform(lambda frame, _: np.swapaxes(frame.matrix, -1, -2), _frame, ICRS),
+    )
+    frame_transform_graph.add_transform(
+        _frame,
+        _frame,
+        DynamicMatrixTransform(
+            lambda frame, to: to.matrix @ np.swapaxes(frame.matrix, -1, -2), _frame, _frame
+        ),
+    )
+
+
+class SkyfieldFrame:
+    """Axes of an answer for `frame_xyz` and `frame_latlon` of Skyfield.
+
+    Parameters
+    ----------
+    answer : Dataset
+        Answer of `long_term`, `pole` or `rotation`, as in `EquatorOfDate` and `BodyFixed`.
+    """
+
+    def __init__(self, answer: xr.Dataset) -> None:
+        self.model = Model.of(answer, ("long-term", "pole", "rotation"))
+
+    def rotation_at(self, t: Any) -> FloatArray:
+        """Matrix from the ICRF at a time of Skyfield, shape (3, 3) or (3, 3, n)."""
+        time = Time(np.asarray(t.whole), np.asarray(t.tdb_fraction), format="jd", scale="tdb")
+        return np.moveaxis(_at(self.model, time)[0], (-2, -1), (0, 1))
+
+
+def rotations(answer: xr.Dataset) -> Rotation:
+    """Attitudes of an answer as rotations of SciPy, from body axes to inertial axes.
+
+    Parameters
+    ----------
+    answer : Dataset
+        Answer of `rotation`, `free_rotor` or `heavy_top`, with quaternions in `attitude`.
+
+    Returns
+    -------
+    Rotation
+        One for each time; `as_matrix`, `as_quat` and `as_euler` give other forms.
+
+    Raises
+    ------
+    SceneError
+        If the answer has no attitude.
+    """
+    from scipy.spatial.transform import Rotation
+
+    if "attitude" not in answer:
+        raise SceneError("answer", answer.attrs.get("compute", ""), "it has no 'attitude'")
+    return Rotation.from_quat(
+        answer.attitude.transpose(..., "quaternion").values, scalar_first=True
+    )
