@@ -375,7 +375,7 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     return "; ".join(phrases)
 
 
-@part(tells=from_where)
+@part(describe=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     """Open the source of positions and find the bodies in it."""
     if places.by_elements:

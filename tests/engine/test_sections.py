@@ -8,7 +8,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import SceneError, load_scene
-from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.question import Graph
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from tests import shipped
@@ -64,7 +64,7 @@ def test_a_section_alone_runs_what_it_needs(word: str, section: str) -> None:
     assert {part.name for part in plan.parts} == needed_for(graph, wanted, always)
     assert plan.sections == (section,)
     for title, why in plan.left_out.items():
-        assert why == always.get(title, NOT_ASKED)
+        assert why == always.get(title, NOT_REQUESTED)
 
 
 @pytest.mark.parametrize(

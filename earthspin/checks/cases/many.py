@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.given import MEMBER
+from earthspin.engine.member_values import MEMBER
 from earthspin.engine.question import Question
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.many import ensemble
