@@ -222,7 +222,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
     shown = "" if unit == "1" else f", {unit}"
     columns = (
         Column("method_chosen", head="method chosen"),
-        Column("error_asked", ".3g", f"error asked for{shown}"),
+        Column("error_asked", ".3g", f"requested error{shown}"),
         Column("error_estimated", ".3g", f"error claimed{shown}"),
         Column("evaluations", ",.0f", "evaluations"),
     )

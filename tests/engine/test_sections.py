@@ -109,10 +109,10 @@ def test_an_unknown_section_is_refused(sections: str | list[str], words: str) ->
 NOT_HERE = [
     ("sun-only", {}, "standstills", "the moon is not among the perturbers"),
     ("sun-only", {}, "seasons", "the moon is not among the perturbers"),
-    ("precession", {"body.spin_period": "12 h"}, "iau_2006", "those of another Earth"),
+    ("precession", {"body.spin_period": "12 h"}, "iau_2006", "a modified Earth"),
     ("precession", {"body": "mars", "perturbers": "sun"}, "iau_2006", "no precession model"),
     ("precession", {"body.j2": 0.0, "body.dynamical_flattening": 0.0}, "free_wobble", "sphere"),
-    ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of the Earth is kept"),
+    ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of the Earth is known"),
     ("wobble", {"body": "mars"}, "interior", "published numbers, but no layers"),
     (
         "poinsot",

@@ -106,7 +106,7 @@ def _far() -> Distances:
 SWOLLEN = 5e8  # m, beyond the Moon
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_a_series() -> None:
     """torque series with a perturber inside the body
 
@@ -115,7 +115,7 @@ def _inside_a_series() -> None:
     torque_series(times=["2000-01-01"], body=BODY.replace(radius=SWOLLEN))
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_an_average() -> None:
     """averaged torque of a perturber inside the body
 
@@ -124,7 +124,7 @@ def _inside_an_average() -> None:
     _rate(BODY.replace(radius=SWOLLEN), MOON)
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_the_pole() -> None:
     """pole of a body with a perturber inside it
 
