@@ -25,7 +25,7 @@ from earthspin.checks.ladders import (
     of_rotation,
     of_spheroid,
     of_top,
-    turning_bodies,
+    rotating_bodies,
 )
 from earthspin.checks.sky import BODY
 from earthspin.sky import iau
@@ -172,9 +172,9 @@ MAKERS: dict[str, Callable[[], Made]] = {
 
 def _times(period: float) -> list[float]:
     """Half of the times within a few periods, the other half up to the last."""
-    half = turning_bodies.TIMES // 2
-    early = np.linspace(0, turning_bodies.FEW_PERIODS, half + 1)[1:]
-    late = np.linspace(turning_bodies.FEW_PERIODS, turning_bodies.PERIODS, half + 1)[1:]
+    half = rotating_bodies.TIMES // 2
+    early = np.linspace(0, rotating_bodies.FEW_PERIODS, half + 1)[1:]
+    late = np.linspace(rotating_bodies.FEW_PERIODS, rotating_bodies.PERIODS, half + 1)[1:]
     return [float(time) for time in np.concatenate([early, late]) * period]
 
 

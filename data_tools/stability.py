@@ -30,7 +30,7 @@ def with_tables(page: str, tables: str) -> str:
 
 
 def markdown(result: xr.Dataset) -> str:
-    """Return the tables in markdown, with what each case is held against.
+    """Return the tables in markdown, with the reference of each case.
 
     Parameters
     ----------
@@ -55,8 +55,8 @@ def markdown(result: xr.Dataset) -> str:
         ]
         lines.append(f"### {part}\n")
         for head, cells in (
-            (("case", "hard because", "held against", "measured", "bound", "verdict"), answered),
-            (("refused", "hard because", "the line"), refused),
+            (("case", "hard because", "compared with", "measured", "bound", "verdict"), answered),
+            (("refused", "hard because", "message"), refused),
         ):
             if cells:
                 rule = f"|{'---|' * len(head)}"

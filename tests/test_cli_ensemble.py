@@ -60,7 +60,7 @@ def test_members_must_be_said_by_someone(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert cli.main(["ensemble", "wobble", "--out", str(tmp_path / "r.zarr")]) == 2
-    assert "say how many members" in capsys.readouterr().err
+    assert "give the number of members" in capsys.readouterr().err
 
 
 #: Ensembles in which no number differs among the members, and one in which some differ.

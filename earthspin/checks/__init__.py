@@ -1,1 +1,1 @@
-"""What the package checks of itself on request: error against run time, stiff cases."""
+"""Self-checks on request: ladders of error against run time, and stiff and extreme cases."""

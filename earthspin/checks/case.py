@@ -1,20 +1,20 @@
-"""A stiff or extreme case, and how it is judged.
+"""Stiff and extreme cases, and how they are judged.
 
-A case measures how far a result is from what it is held against: an invariant, a closed form,
-another method. It runs with every warning and every overflow, division by zero and invalid
-operation of numpy made an error. A case that must have an answer is a function that yields
-distances, and its docstring holds the words:
+A case measures the distance of a result from a reference: an invariant, a closed form or another
+method. During a case, every warning and every overflow, division by zero and invalid operation of
+numpy is an error. A case that must have an answer is a function that yields distances, with a
+docstring of this form:
 
     @holds(bound=1e-14, unit="rad")
     def _name() -> Distances:
-        \"\"\"what is tried
+        \"\"\"name of the case
 
-        Hard because: what makes it extreme
-        Held against: what it has to agree with
+        Hard because: reason why it is extreme
+        Compared with: reference
         \"\"\"
         yield result - reference
 
-A case without an answer has ``@refused("words of the refusal")`` and no line "Held against".
+A case that must be refused has ``@refused("part of the message")`` and no line "Compared with".
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ FloatArray = NDArray[np.float64]
 
 HOLDS, REFUSED, FAILS = "holds", "refused", "fails"
 
-#: What a measure yields: numbers or arrays, the largest of whose sizes is the distance.
+#: Numbers or arrays that a measure yields; the distance is the largest absolute value.
 Distances = Iterable[ArrayLike]
 Measure = Callable[[], Distances | None]
 
@@ -54,25 +54,25 @@ class Case:
     Attributes
     ----------
     measure : callable
-        Yields distances from the reference; the measure of a refusal returns None.
+        Function that yields distances from the reference; for a refusal, it returns None.
     held_against : str
-        The invariant or the independent reference; for a refusal, what it must say.
+        The invariant or the independent reference; for a refusal, part of the message.
     hard_because : str
-        What makes it hard.
+        Reason why the case is hard.
     name : str
-        In plain words, like no other.
+        Unique name in plain words.
     part : str
-        Of the package.
+        Part of the package.
     unit : str
-        Of that distance; "1" for a pure number.
+        Unit of the distance; "1" for a pure number.
     bound : float
-        Largest distance that holds.
+        Largest allowed distance.
     refusal : str
-        Words that an expected refusal holds; empty where an answer is expected.
+        Part of the message of an expected refusal; empty if an answer is expected.
     slow : bool
-        Left out of a quick run.
+        True if a quick run omits the case.
     long : bool
-        Run only when it is asked for.
+        True if the case runs only on request.
     """
 
     measure: Measure
@@ -88,26 +88,26 @@ class Case:
 
     @property
     def must_hold(self) -> bool:
-        """Whether only an answer will do; False where a refusal is expected."""
+        """Return True if an answer is expected, False if a refusal is expected."""
         return not self.refusal
 
 
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Make a measure a case that must hold within a bound; arguments as of `Case`."""
+    """Decorate a measure whose distance must be within a bound; see `Case` for the arguments."""
     return partial(_case, bound=bound, unit=unit, slow=slow, long=long)
 
 
-def refused(words: str) -> Callable[[Measure], Case]:
-    """Make a measure a case that must be refused in a line that holds these words."""
-    return partial(_case, refusal=words)
+def refused(message: str) -> Callable[[Measure], Case]:
+    """Decorate a measure that must be refused with a one-line message that contains `message`."""
+    return partial(_case, refusal=message)
 
 
 def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
-    """Take name, difficulty and reference of a case from the docstring of its measure."""
+    """Make a case with name, difficulty and reference from the docstring of its measure."""
     name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
-    why, _, reference = rest.partition("Held against:")
+    why, _, reference = rest.partition("Compared with:")
     if refusal:
         reference = f"a refusal in one line that says '{refusal}'"
     return Case(
@@ -123,14 +123,14 @@ class Outcome:
     Attributes
     ----------
     measured, bound : float
-        Both 0 where a refusal was expected and came; `measured` is infinite where a case that
-        fails gave no number. Never NaN.
+        Measured and largest allowed distance; both 0 after an expected refusal. `measured` is
+        infinite if a failed case gave no number, and is never NaN.
     verdict : str
         ``"holds"``, ``"refused"`` or ``"fails"``.
     reason : str
-        The line of a refusal, or why it fails; empty if it holds.
+        Message of the refusal, or reason of the failure; empty if the case holds.
     run_time : float
-        s.
+        Run time, s.
     """
 
     measured: float
@@ -150,10 +150,9 @@ def judge(case: Case) -> Outcome:
     Returns
     -------
     Outcome
-        ``holds`` if the distance is finite and within the bound. ``refused`` if a refusal was
-        expected and came in the expected words.
-        ``fails`` for all else: a NaN, a warning, an overflow, an exception, an answer where a
-        refusal was due.
+        The verdict is ``holds`` if the distance is finite and within the bound, and ``refused`` if
+        an expected refusal has the expected message. It is ``fails`` otherwise: after a NaN, a
+        warning, an overflow, another exception, or an answer instead of a refusal.
     """
     begin = time.perf_counter()
     measured, verdict, reason = _verdict(case)
@@ -172,18 +171,18 @@ def _verdict(case: Case) -> tuple[float, str, str]:
             sizes = [] if distances is None else [float(np.max(np.abs(d))) for d in distances]
     except EarthspinError as error:
         return _refusal_verdict(case, str(error))
-    except Exception as error:  # any other exception is a defect, which is to be reported
+    except Exception as error:  # any other exception is a defect of the package
         return math.inf, FAILS, _one_line(f"{type(error).__name__}: {error}")
     if case.refusal:
-        return math.inf, FAILS, f"it answered where a refusal was due ('{case.refusal}')"
+        return math.inf, FAILS, f"it gave an answer instead of a refusal ('{case.refusal}')"
     if not sizes:
         return math.inf, FAILS, "it gave no distance"
-    measured = float(np.max(sizes))  # NaN if any of them is
+    measured = float(np.max(sizes))  # NaN if any distance is NaN
     if math.isnan(measured):
         return math.inf, FAILS, "it gave a NaN"
     if measured <= case.bound:
         return measured, HOLDS, ""
-    return measured, FAILS, f"{measured:.3g} is beyond the bound of {case.bound:.3g}"
+    return measured, FAILS, f"{measured:.3g} exceeds the bound of {case.bound:.3g}"
 
 
 def _refusal_verdict(case: Case, line: str) -> tuple[float, str, str]:
@@ -201,14 +200,14 @@ def _one_line(text: str) -> str:
 
 
 def relative_error(values: ArrayLike, reference: ArrayLike) -> float:
-    """Largest difference of two arrays, over the largest size of the second."""
+    """Largest absolute difference of two arrays, relative to the largest value of the second."""
     difference = np.max(np.abs(np.subtract(values, reference)))
     return float(difference / np.max(np.abs(reference)))
 
 
 @contextmanager
 def temporary(name: str) -> Iterator[Path]:
-    """Give the path of a file in a temporary folder, which refusals name without that folder."""
+    """Yield the path of a file in a temporary folder; messages name the file without the folder."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
         try:

@@ -1,4 +1,4 @@
-"""What is tried, and its sky: the Earth under Sun and Moon of the kernel that comes along."""
+"""Earth, Sun and Moon from DE421: the test problem of the ladders and cases."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 
 FloatArray = NDArray[np.float64]
 
-#: What spins, and is pulled.
+#: The rotating body.
 BODY = EARTH
-#: Its dynamical flattening, J2, and spin rate in rad/s.
+#: Dynamical flattening and J2 of the body, and its spin rate in rad/s.
 H, J2 = float(BODY.needed("dynamical_flattening")), float(BODY.needed("j2"))
 SPIN = float(BODY.spin_rate)
-#: What pulls: GM (m3 s-2) and code of each; and the code of what is pulled.
+#: GM (m3 s-2) and kernel code of each perturber, and the kernel code of the body.
 GM = {"sun": float(SUN.gm), "moon": float(MOON.gm)}
 CODES = {"sun": SUN.naif[0], "moon": MOON.naif[0]}
 CENTRE = BODY.naif[0]
@@ -34,18 +34,18 @@ def kernel() -> Ephemeris:
 
 
 def positions(days: FloatArray) -> dict[str, FloatArray]:
-    """Sun and Moon as seen from the body at days from J2000.0 TDB, m, shape (n, 3) each."""
+    """Positions of Sun and Moon from the body at days from J2000.0 TDB, m, shape (n, 3) each."""
     return kernel().positions(CODES, CENTRE, days)
 
 
-#: Sun and Moon on the round body.
+#: Torques of Sun and Moon on the axisymmetric body.
 FORCES = Forces(
     figure=Figure(h=H, spin_rate=SPIN), gm=GM, positions=lambda times: positions(times / DAY)
 )
 
 
 def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
-    """Directions of angles in rad, shape (n, 3)."""
+    """Unit vectors from longitude and latitude in rad, shape (n, 3)."""
     across = np.cos(latitude)
     return np.stack(
         [across * np.cos(longitude), across * np.sin(longitude), np.sin(latitude)], axis=-1
@@ -55,7 +55,7 @@ def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
 def eccentric_anomaly(
     mean: FloatArray, e: float, steps: int, start: FloatArray | None = None
 ) -> FloatArray:
-    """Solve Kepler's equation by Newton's method as one would type it, rad.
+    """Solve Kepler's equation by a fixed number of plain Newton steps; eccentric anomaly in rad.
 
     Parameters
     ----------
@@ -64,53 +64,58 @@ def eccentric_anomaly(
     e : float
         Eccentricity.
     steps : int
+        Number of Newton steps.
     start : ndarray, optional
-        By default the mean anomaly.
+        First estimate; the mean anomaly by default.
     """
     anomaly = mean if start is None else start
     for _ in range(steps):
-        off = anomaly - e * np.sin(anomaly) - mean
-        anomaly = anomaly - off / (1 - e * np.cos(anomaly))
+        residual = anomaly - e * np.sin(anomaly) - mean
+        anomaly = anomaly - residual / (1 - e * np.cos(anomaly))
     return anomaly
 
 
 def chebyshev_pieces(
-    of: Callable[[FloatArray], FloatArray], first: float, length: float, count: int, nodes: int
+    function: Callable[[FloatArray], FloatArray],
+    first: float,
+    length: float,
+    count: int,
+    nodes: int,
 ) -> FloatArray:
     """Chebyshev series of a function over pieces of equal length, shape (count, nodes, k).
 
     Parameters
     ----------
-    of : callable
-        From times, shape (n,), to k values at each, of any shape (n, ...).
+    function : callable
+        Function of times, shape (n,), that returns k values at each time, of any shape (n, ...).
     first, length : float
-        Where the first piece begins, and how long each is, in units of those times.
+        Start of the first piece and length of each piece, in the unit of the times.
     count, nodes : int
-        Pieces, and terms of each.
+        Number of pieces, and of terms in each piece.
     """
     x = np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)
     times = first + length * (np.arange(count)[:, np.newaxis] + (x + 1) / 2)
-    values = of(times.ravel()).reshape(count, nodes, -1)
+    values = function(times.ravel()).reshape(count, nodes, -1)
     return np.asarray(np.linalg.solve(chebyshev.chebvander(x, nodes - 1), values))
 
 
 class Tide:
-    """Tidal tensor of Sun and Moon at any time, for solvers that go step by step.
+    """Tidal tensor of Sun and Moon at any time, for step-by-step integrators.
 
-    It is made of Chebyshev series over pieces of two days, and shares no node, rule or formula
-    with the windows of the pole's solver.
+    It is evaluated from Chebyshev series over pieces of two days, and shares no node, quadrature
+    rule or formula with the windows of the axis solver.
 
     Parameters
     ----------
     end : float
-        Time up to which it is known, from J2000.0, s.
+        Last time for which the tensor is available, from J2000.0, s.
     gm : mapping
-        Of Sun and Moon, m3 s-2.
+        GM of Sun and Moon, m3 s-2.
 
     Attributes
     ----------
     calls : int
-        How often it was asked.
+        Number of evaluations so far.
     """
 
     PIECE, NODES = 2 * DAY, 16
@@ -131,7 +136,7 @@ class Tide:
         return tensor
 
     def __call__(self, time: float) -> FloatArray:
-        """Tensor at a time in s, shape (3, 3)."""
+        """Tensor at a time in s, s-2, shape (3, 3)."""
         self.calls += 1
         piece = int(time / self.PIECE)
         angle = np.arccos(min(max(2 * (time / self.PIECE - piece) - 1, -1.0), 1.0))

@@ -1,4 +1,4 @@
-"""Run and judge every stiff and extreme case, and return the verdicts as one dataset."""
+"""Run the stiff and extreme cases, and return their verdicts as one dataset."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ PARTS = (
     "nutation", "sky", "scene", "many", "units", "storage",
 )  # fmt: skip
 
-_UNIT = "in the unit that 'unit' names for the case"
+_UNIT = "in the unit of the case, see 'unit'"
 
 
 class Cases(Variables, along=("case",)):
     """Cases and their outcomes."""
 
-    measured: Value = words("distance from what the case is held against", comment=_UNIT)
-    bound: Value = words("largest distance that holds", comment=_UNIT)
+    measured: Value = words("distance from the reference", comment=_UNIT)
+    bound: Value = words("largest allowed distance", comment=_UNIT)
     unit: Value = words("unit of the distance and its bound")
-    verdict: Value = words("holds, refused or fails")
-    must_hold: Value = words("whether only an answer will do")
-    case_part: Value = words("part of the package that is tried")
-    hard_because: Value = words("what makes it hard")
-    held_against: Value = words("invariant, or independent reference")
-    reason: Value = words("why it was refused, or fails")
+    verdict: Value = words("verdict: holds, refused or fails")
+    must_hold: Value = words("whether an answer is expected, not a refusal")
+    case_part: Value = words("part of the package")
+    hard_because: Value = words("reason why the case is hard")
+    held_against: Value = words("reference: invariant or independent method")
+    reason: Value = words("message of the refusal, or reason of the failure")
     run_time: Value = number("s", "run time of the case")
     case: Labels = labels("stiff or extreme case")
 
@@ -47,24 +47,24 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
     Parameters
     ----------
     quick : bool
-        Leave out those that take more than a moment.
+        Omit the cases that take seconds.
     only : str, optional
-        A part (``"motion"``), or a word in the names of the cases that are wanted.
+        Run only the cases of a part (``"motion"``), or with this text in their names.
     long : bool
-        Also run those that take minutes.
+        Also run the cases that take minutes.
 
     Returns
     -------
     Dataset
-        Over `case`: `measured`, `bound` and their `unit`; `verdict` (``holds``, ``refused``,
+        Along `case`: `measured`, `bound` and their `unit`; `verdict` (``holds``, ``refused``,
         ``fails``); `must_hold`; `case_part`, `hard_because`, `held_against`, `reason`,
-        `run_time` (s). Where a refusal was expected and came, `measured` and `bound` are 0 and
-        `reason` is its line.
+        `run_time` (s). After an expected refusal, `measured` and `bound` are 0 and `reason` is the
+        message.
 
     Raises
     ------
     SceneError
-        If no case has that word.
+        If no case matches `only`.
 
     Examples
     --------
@@ -83,7 +83,7 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
 
 
 def all_cases() -> tuple[Case, ...]:
-    """Return every case, in the order of `PARTS` and of definition."""
+    """Return every case, in the order of `PARTS` and of their definition."""
     modules = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
     return tuple(c for module in modules for c in vars(module).values() if isinstance(c, Case))
 
@@ -91,12 +91,12 @@ def all_cases() -> tuple[Case, ...]:
 def chosen_cases(
     *, quick: bool = False, only: str | None = None, long: bool = False
 ) -> tuple[Case, ...]:
-    """Return the cases that a run takes; arguments as of `stability`.
+    """Return the selected cases; see `stability` for the arguments.
 
     Raises
     ------
     SceneError
-        If there are none.
+        If no case is selected.
     """
     cases = every = all_cases()
     for name, value in (("quick", quick), ("long", long)):
@@ -104,28 +104,28 @@ def chosen_cases(
             raise SceneError(name, value, "give True or False", source="stability")
     if only is not None:
         if not isinstance(only, str):
-            raise SceneError("only", only, "give a word", source="stability")
+            raise SceneError("only", only, "give text", source="stability")
         word = only.lower()
         if word in PARTS:
             cases = tuple(c for c in every if c.part == word)
         else:
             cases = tuple(c for c in every if word in c.name.lower())
         if not word or not cases:
-            words = {*PARTS, *(w for c in every for w in c.name.lower().split())}
-            hint = nearest(only, words).split("allowed:")[0]
+            known = {*PARTS, *(w for c in every for w in c.name.lower().split())}
+            hint = nearest(only, known).split("allowed:")[0]
             allowed = f"give a part ({', '.join(PARTS)}) or a word of a case's name"
             reason = f"no case has that word; {hint}{allowed}"
             raise SceneError("only", only, reason, source="stability")
     cases = tuple(c for c in cases if (long or not c.long) and not (quick and c.slow))
     if not cases:
-        reason = "its cases take long; leave out --quick, or add --long"
+        reason = "these cases take long; remove --quick, or add --long"
         raise SceneError("only", only, reason, source="stability")
     return cases
 
 
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
     """Return the dataset of cases and their outcomes."""
-    # the bound of an outcome replaces that of its case
+    # The later keys win: the bound of an outcome replaces that of its case.
     rows = [
         {"case_part": case.part, "must_hold": case.must_hold} | vars(case) | vars(outcome)
         for case, outcome in zip(cases, outcomes, strict=True)

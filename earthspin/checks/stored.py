@@ -1,7 +1,7 @@
-"""References that were made once, with many digits, and are shipped.
+"""Reference values with 32 digits, which are shipped with the package.
 
-Each number is an unevaluated sum of two floats, so that errors of the last digit of a float
-can be measured. `python -m data_tools references` makes the files again.
+Each number is an unevaluated sum of two floats, so that errors in the last digit of a float can be
+measured. `python -m data_tools references` computes the files again.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ FOLDER = Path(__file__).parent / "references"
 
 
 def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
-    """Read a reference and check that it was made for the problem as it is now.
+    """Read a reference and check that it belongs to the current inputs of the problem.
 
     Parameters
     ----------
     name : str
     inputs : mapping
-        Plain numbers and lists that the values depend on.
+        Plain numbers and lists on which the values depend.
 
     Raises
     ------
     UndefinedError
-        If it was made for other numbers.
+        If the reference was computed for other inputs.
     """
     stored = json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
     if stored["inputs"] != json.loads(json.dumps(inputs)):
         raise UndefinedError(
-            f"the stored reference '{name}' was made for other numbers; make it again with "
+            f"the stored reference '{name}' was computed for other inputs; compute it again with "
             "python -m data_tools references"
         )
     return {
@@ -49,29 +49,30 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
 
 
 def attitude_error(values: FloatArray, true: DoubleDouble) -> float:
-    """Largest angle between attitudes given as unit quaternions, rad.
+    """Largest angle between attitudes as unit quaternions, rad.
 
     Parameters
     ----------
     values : ndarray, shape (n, 4)
-        q and -q are the same attitude.
+        Computed attitudes; q and -q are the same attitude.
     true : DoubleDouble, shape (n, 4)
+        Reference.
     """
-    same = np.where(np.sum(values * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
-    return float(2 * np.max(np.linalg.norm((same * values - true).hi, axis=1)))
+    sign = np.where(np.sum(values * true.hi, axis=1) < 0, -1.0, 1.0)[:, np.newaxis]
+    return float(2 * np.max(np.linalg.norm((sign * values - true).hi, axis=1)))
 
 
 def rotation_error(
     values: tuple[FloatArray, FloatArray], omega: DoubleDouble, attitude: DoubleDouble
 ) -> float:
-    """Larger of the errors of angular velocity, relative to its size, and of attitude, rad.
+    """Larger of the relative error of the angular velocity and the error of the attitude, rad.
 
     Parameters
     ----------
     values : pair of ndarray, shapes (n, 3) and (n, 4)
-        Angular velocity along the body's axes (rad/s), and unit quaternions.
+        Computed angular velocity along the body's axes (rad/s), and unit quaternions.
     omega, attitude : DoubleDouble
-        The same, as stored.
+        Reference of angular velocity and attitude.
     """
-    off = np.linalg.norm((values[0] - omega).hi, axis=1) / np.linalg.norm(omega.hi, axis=1)
-    return max(float(np.max(off)), attitude_error(values[1], attitude))
+    error = np.linalg.norm((values[0] - omega).hi, axis=1) / np.linalg.norm(omega.hi, axis=1)
+    return max(float(np.max(error)), attitude_error(values[1], attitude))

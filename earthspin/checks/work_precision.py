@@ -1,11 +1,11 @@
-"""Error against run time: what each way to a number costs, and how wrong it then is.
+"""Error against run time of every method for a quantity (work-precision diagrams).
 
-A ladder holds, for one quantity, every method with its settings from coarse to fine, and a
-reference made in another way that is at least a hundred times better. Each setting is run and
-timed; no point of the front (Pareto's) is beaten in error and run time at once by another.
+A ladder contains every method for one quantity, with settings from coarse to fine, and an
+independent reference that is at least a hundred times more accurate. Each setting is run and timed.
+A point is on the Pareto front if no other point has both a smaller error and a shorter run time.
 
-Run times are medians after a warm-up, with half their range as spread; what takes less than
-two milliseconds is repeated until a sample lasts that long.
+Run times are medians after a warm-up, with half their range as spread. Runs shorter than two
+milliseconds are repeated until a sample lasts that long.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-#: Values, and how often the costly function was evaluated.
+#: Values, and the number of evaluations of the costly function.
 Result = tuple[Any, int]
 
 #: Quantities, each with a module of `earthspin.checks.ladders`.
@@ -45,25 +45,26 @@ QUANTITIES = (
     "free-rotor", "top", "spheroid", "excitation", "chandler", "compliances", "ensemble",
 )  # fmt: skip
 
-#: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
+#: Shortest sample, s; number of samples, and of samples for runs longer than `LONG_RUN`, s.
 SHORTEST_SAMPLE = 2e-3
 SAMPLES, FEW_SAMPLES, LONG_RUN = 5, 3, 1.0
-#: How much better than a measured error its reference has to be.
+#: Required ratio of a measured error to the error of the reference.
 REFERENCE_MARGIN = 100.0
-#: Most steps of error that the sentence tells of.
+#: Largest number of error levels in the summary sentence.
 MOST_STEPS = 4
 
 
 @dataclass(frozen=True)
 class Setting:
-    """One way to run a method.
+    """One setting of a method.
 
     Attributes
     ----------
     words : str
-        What is set, e.g. ``"8 d, 14 nodes"``.
+        Description of the setting, e.g. ``"8 d, 14 nodes"``.
     run : callable
-        What is timed; gives values and how often the costly function was evaluated.
+        Function that is timed; it returns values and the number of evaluations of the costly
+        function.
     judged : callable or None
         Values that the error is taken from, where those of one run are too few (many epochs,
         many records); it is not timed.
@@ -71,7 +72,7 @@ class Setting:
 
     words: str
     run: Callable[[], Result]
-    judged: Callable[[], Any] | None = None
+    error_values: Callable[[], Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -82,12 +83,12 @@ class Method:
     ----------
     name : str
     settings : sequence of Setting
-        From coarse to fine.
+        Settings from coarse to fine.
     bound : float
-        Error that the last setting stays within, SI, or the method fails. Methods of this package
-        have one; SciPy set by hand and other libraries have none (infinite).
+        Largest allowed error of the last setting, SI. Methods of this package have a bound; direct
+        calls of SciPy and other libraries have none (infinite).
     task : str
-        Direction, where a ladder holds two.
+        Direction of the computation, if a ladder has two.
     """
 
     name: str
@@ -97,7 +98,7 @@ class Method:
 
     @property
     def ours(self) -> bool:
-        """Whether this is a method of this package."""
+        """Return True for a method of this package."""
         return math.isfinite(self.bound)
 
 
@@ -114,13 +115,13 @@ def method(
     ----------
     name : str
     words : str
-        With braces in the place of that number, e.g. ``"rtol {}"``.
+        Description of a setting with braces for the number, e.g. ``"rtol {}"``.
     run : callable
-        From that number.
+        Function of the number.
     values : iterable, optional
-        From coarse to fine; by default there is one setting, whose run takes nothing.
+        Numbers from coarse to fine; by default there is one setting, and `run` has no argument.
     bound : float
-        As of `Method`.
+        See `Method`.
     """
     if values is None:
         return Method(name, [Setting(words, run)], bound)
@@ -136,22 +137,22 @@ class Ladder:
     ----------
     quantity : str
     unit : str
-        In which errors are shown.
+        Unit of errors in results.
     problem : str
-        What is solved, and what the error is.
+        Description of the problem and definition of the error.
     subject : str
-        The same in a few words, for a sentence that begins with "For".
+        The problem in a few words, for a sentence that begins with "For".
     reference : str
-        Where the true values come from.
+        Source of the true values.
     reference_error : float
-        SI.
+        Error of the reference, SI.
     methods : sequence of Method
     error : callable
-        From values to their error, SI.
+        Function that returns the error of values, SI.
     useful : float
-        Larger errors are of no use to anybody, SI; the sentence passes over them.
+        Largest useful error, SI; the summary sentence ignores larger ones.
     skipped : str
-        What is left out here, and why.
+        Methods that are omitted, with the reason.
     """
 
     quantity: str
@@ -167,7 +168,7 @@ class Ladder:
 
     @property
     def rungs(self) -> int:
-        """Settings of the method that has most."""
+        """Largest number of settings of a method."""
         return max(len(method.settings) for method in self.methods)
 
 
@@ -177,9 +178,9 @@ class Timing(NamedTuple):
     Attributes
     ----------
     first : float
-        Of the first call, with what it imports and prepares, s.
+        Run time of the first call, including imports and preparations, s.
     median, spread : float
-        Of the calls after it, and half the range, s.
+        Median and half the range of the run times of the later calls, s.
     result : object
         Result of the first call.
     """
@@ -192,7 +193,7 @@ class Timing(NamedTuple):
 
 @dataclass(frozen=True)
 class Point:
-    """A setting, measured; errors in SI, times in s; named as the variables of a result."""
+    """Measured values of a setting: error in SI, times in s, under the names of the result."""
 
     setting: str
     error: float
@@ -206,14 +207,14 @@ class Point:
 
 
 def timed(run: Callable[[], Any]) -> Timing:
-    """Time a call: once to warm up, then as often as its length asks for.
+    """Time a call: once to warm up, then repeatedly, depending on its run time.
 
     Parameters
     ----------
     run : callable
     """
     collecting = gc.isenabled()
-    gc.disable()  # the collector must not run in the middle of a sample
+    gc.disable()  # the garbage collector must not run during a sample
     try:
         first, result = _seconds(run, 1)
         once, _ = _seconds(run, 1)
@@ -222,7 +223,7 @@ def timed(run: Callable[[], Any]) -> Timing:
         wanted = FEW_SAMPLES if once > LONG_RUN else SAMPLES
         while len(samples) < wanted:
             seconds, _ = _seconds(run, loops)
-            if seconds < SHORTEST_SAMPLE:  # the first guess was too slow
+            if seconds < SHORTEST_SAMPLE:  # the first estimate of the run time was too long
                 loops, samples = 2 * loops, []
                 continue
             samples.append(seconds / loops)
@@ -233,7 +234,7 @@ def timed(run: Callable[[], Any]) -> Timing:
 
 
 def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
-    """Time of so many calls, s, and the result of the last one."""
+    """Run time of `loops` calls, s, and the result of the last call."""
     result = None
     begin = time.perf_counter()
     for _ in range(loops):
@@ -253,15 +254,15 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
     Returns
     -------
     list of list of Point
-        By method; as many as its settings.
+        A list for each method, with a point for each setting.
     """
 
     def point(setting: Setting) -> Point:
         timing = timed(setting.run)
         values, evaluations = timing.result
-        if setting.judged is not None:
-            values = setting.judged()
-        # nothing is known below the error of the reference
+        if setting.error_values is not None:
+            values = setting.error_values()
+        # Errors below that of the reference cannot be measured.
         error = max(float(ladder.error(values)), ladder.reference_error)
         advance(1)
         times = timing.median, timing.spread, timing.first
@@ -271,12 +272,15 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
 
 
 def pareto_front(error: Any, run_time: Any) -> BoolArray:
-    """Points that no other beats: none has both at most the error and at most the run time.
+    """Return True for each point of the Pareto front.
+
+    A point is not on the front if another point is better in error or run time and not worse in the
+    other.
 
     Parameters
     ----------
-    error, run_time : array_like, of one shape
-        Equal points do not beat each other.
+    error, run_time : array_like
+        Arrays of the same shape.
     """
     e, t = np.ravel(error), np.ravel(run_time)
     no_worse = (e[:, np.newaxis] <= e) & (t[:, np.newaxis] <= t)
@@ -289,7 +293,7 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
 
 
 def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
-    """Error against run time of every method for a quantity, ours and those set by hand.
+    """Measure error and run time of every method for a quantity, with other libraries.
 
     Parameters
     ----------
@@ -298,21 +302,22 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
         ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
         ``"excitation"``, ``"chandler"``, ``"compliances"`` or ``"ensemble"``.
     quick : bool
-        A short problem with few settings, in a second or two.
+        Use a short problem with few settings, which takes a second or two.
 
     Returns
     -------
     Dataset
-        Over `method` and `rung`: `error` (in the unit of the quantity), `run_time` with its
-        `run_time_spread` and `warm_up_time` (s), `evaluations`, `setting` in words, `pareto`,
-        and `at_floor` where the reference is not a hundred times better; over `method`:
-        `ours`, `bound` (infinite where none is claimed), `holds`, and `task`, of which each
-        has a front of its own. A method with few settings stays at its last one.
+        Along `method` and `rung`: `error` (in the unit of the quantity), `run_time`,
+        `run_time_spread` and `warm_up_time` (s), `evaluations`, `setting` (text), `pareto` (True
+        on the front), and `at_floor` (True if the error is less than 100 times that of the
+        reference). Along `method`: `ours`, `bound` (infinite for other libraries), `holds`, and
+        `task`; each task has its own front. If a method has fewer settings, its last one is
+        repeated.
 
     Raises
     ------
     SceneError
-        If there is no such quantity.
+        If the quantity is unknown.
 
     Examples
     --------
@@ -333,7 +338,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
     Raises
     ------
     SceneError
-        If there is no such quantity.
+        If the quantity is unknown.
     """
     if not isinstance(quantity, str) or quantity not in QUANTITIES:  # type: ignore[redundant-expr]
         raise SceneError("quantity", quantity, nearest(quantity, QUANTITIES), source="accuracy")
@@ -343,13 +348,13 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
 
 
 def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -> xr.Dataset:
-    """Label what was measured.
+    """Make a labelled dataset of measured points.
 
     Parameters
     ----------
     ladder : Ladder
     points : sequence of sequence of Point
-        As `measure` gives them.
+        Result of `measure`.
     quick : bool
     """
     methods = ladder.methods
@@ -366,8 +371,8 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
     values["holds"] = ~values["ours"] | (error[:, -1] <= values["bound"])
     values["pareto"] = np.zeros(error.shape, dtype=bool)
     for task in {method.task for method in methods}:
-        mine = values["task"] == task
-        values["pareto"][mine] = pareto_front(error[mine], run_time[mine])
+        rows = values["task"] == task
+        values["pareto"][rows] = pareto_front(error[rows], run_time[rows])
     values["method"] = [method.name for method in methods]
     values["rung"] = np.arange(1, ladder.rungs + 1)
     result = points_class(ladder.unit)(**values).dataset()
@@ -387,42 +392,42 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
 
 
 def points_class(unit: str) -> type[Variables]:
-    """Return the class of a result whose errors are shown in `unit`."""
+    """Return the class of a result with errors in `unit`."""
     by_method = ("method",)
 
     class Points(Variables, along=("method", "rung")):
         """Errors and run times of each method at each setting."""
 
-        error: Value = number(unit, "error against the reference")
+        error: Value = number(unit, "error with respect to the reference")
         run_time: Value = number("s", "median run time")
         run_time_spread: Value = number("s", "half the range of the run times")
         warm_up_time: Value = number("s", "run time of the first call")
         evaluations: Value = number("1", "evaluations of the costly function")
         setting: Value = words("setting")
-        pareto: Value = words("no other point has less error and less run time")
-        at_floor: Value = words("the reference is less than a hundred times better")
-        ours: Value = words("a method of this package", along=by_method)
+        pareto: Value = words("whether the point is on the Pareto front")
+        at_floor: Value = words("whether the error is below 100 times that of the reference")
+        ours: Value = words("whether the method belongs to this package", along=by_method)
         bound: Value = number(unit, "bound on the error of the last setting", along=by_method)
-        holds: Value = words("the last setting stays within its bound", along=by_method)
-        settings: Value = number("1", "how many settings differ", along=by_method)
-        task: Value = words("what is asked for, where there are two", along=by_method)
+        holds: Value = words("whether the last setting is within the bound", along=by_method)
+        settings: Value = number("1", "number of settings", along=by_method)
+        task: Value = words("task, if the quantity has two", along=by_method)
         method: Labels = labels()
         rung: Labels = labels()
 
     return Points
 
 
-# --- in a sentence -----------------------------------------------------------------------------
+# --- summary sentence --------------------------------------------------------------------------
 
 
 def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
-    """Say which method is cheapest for a few errors, and what it costs.
+    """Summarize in a sentence which method is fastest for a few error levels.
 
     Parameters
     ----------
     ladder : Ladder
     points : sequence of sequence of Point
-        As `measure` gives them.
+        Result of `measure`.
     """
     tasks = list(dict.fromkeys(method.task for method in ladder.methods))
     return " ".join(_sentence_of_task(ladder, points, task) for task in tasks)
@@ -439,7 +444,7 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
         if method.task == task and point.error <= ladder.useful
     ]
     if not rows:
-        return f"For {subject}: none is of use."
+        return f"For {subject}: no method is accurate enough."
     parts = [
         f"within {plain(level)}{shown_unit(ladder.unit)} use "
         f"{row.method}{f' ({row.words})' if row.words else ''}, {duration(row.run_time)}"
@@ -449,7 +454,7 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
 
 
 class _Row(NamedTuple):
-    """A point as the sentence needs it, its error in the unit shown."""
+    """A point with the error in the unit of the result."""
 
     error: float
     run_time: float
@@ -459,14 +464,14 @@ class _Row(NamedTuple):
 
 
 def _cheapest(rows: list[_Row]) -> _Row:
-    """Cheapest row; of those that the clock cannot tell from it, the most accurate."""
-    best = min(rows, key=lambda row: row.run_time)
-    alike = [r for r in rows if r.run_time - best.run_time <= max(r.spread, best.spread)]
-    return min(alike, key=lambda row: row.error)
+    """Fastest row; among rows whose run times agree within their spread, the most accurate."""
+    fastest = min(rows, key=lambda row: row.run_time)
+    similar = [r for r in rows if r.run_time - fastest.run_time <= max(r.spread, fastest.spread)]
+    return min(similar, key=lambda row: row.error)
 
 
 def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
-    """Cheapest row for each level of error, each once, at the finest level that it meets."""
+    """Fastest row for each error level; a row appears once, with the smallest level it reaches."""
     finest: dict[_Row, float] = {}
     for level in _levels(min(row.error for row in rows), max(row.error for row in rows)):
         finest[_cheapest([row for row in rows if row.error <= level])] = level
@@ -478,7 +483,7 @@ def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
 
 
 def _levels(least: float, largest: float) -> list[float]:
-    """Powers of ten that frame errors, falling; with 2 and 5 between where there are few."""
+    """Descending powers of ten that enclose the errors, with 2 and 5 in a short range."""
     between = (5.0, 2.0, 1.0) if largest < 100 * least else (1.0,)
     powers = range(math.floor(math.log10(largest)) + 1, math.floor(math.log10(least)) - 1, -1)
     levels = [float(f"{digit:g}e{power}") for power in powers for digit in between]

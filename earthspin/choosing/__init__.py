@@ -1,7 +1,7 @@
-"""Accuracy on request: the cheapest settings whose measured error is small enough.
+"""Accuracy on request: choose the cheapest settings whose measured error is small enough.
 
-What each setting costs in error was measured once on the sky alone (`python -m data_tools
-error-models` writes `error_models.json`); what it does to a body follows from `motion.sampling` and
-`torque.average`. Where the sky is not in the table (another perturber, another body), nothing is
-chosen and the finest settings stand.
+The errors of all settings were measured on positions and torques of the shipped bodies (`python -m
+data_tools error-models` writes `error_models.json`). The resulting errors of a body's axis follow
+from `motion.sampling` and `torque.average`. If the table does not contain a body or perturber, no
+settings are chosen and the finest are used.
 """

@@ -1,4 +1,4 @@
-"""Windows of an average over orbits: how many turns, and how far apart the samples."""
+"""Choices for averages over orbits: length of the window and time between samples."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from earthspin.constants import DAY
 from earthspin.sky.equator import angle
 from earthspin.torque.average import best_window, precessing_of_tensor
 
-#: Orbits whose normals are closer than this are the one that was measured.
+#: Largest difference of unit orbit normals for which measured errors apply.
 SAME_ORBIT = 1e-6
 
 
 @dataclass(frozen=True)
 class Averaging:
-    """A window of an average, with what it may miss.
+    """Settings of an average over orbits, with their measured errors.
 
     Attributes
     ----------
     cycles : float
-        Its length in turns of the slowest cycle.
+        Length of the window in slowest cycles.
     step : float
-        Between two samples, s.
+        Time between samples, s.
     precessing_errors, torque_errors : mapping of str to float
-        By perturber: of its precessing torque, and of its torque along any axis, both per
-        C - A, s-2.
+        Errors of the precessing torque and of any component of the torque per C - A, s-2, by
+        perturber.
     """
 
     cycles: float
@@ -42,19 +42,19 @@ class Averaging:
 def average_choices(
     body: Body, perturbers: tuple[Body, ...], first: float, last: float
 ) -> list[Choice[Averaging]]:
-    """Windows of an average over orbits with the relative error of the rate.
+    """Settings of an average over orbits, with the relative error of the precession rate.
 
     Parameters
     ----------
     body : Body
     perturbers : tuple of Body
     first, last : float
-        Days from J2000.0 TDB between which the average lies.
+        First and last day of the average, days from J2000.0 TDB.
 
     Returns
     -------
     list of Choice of Averaging
-        Empty if the sky has not been measured, or the rate vanishes.
+        Empty if the errors for these bodies were not measured, or the rate is zero.
     """
     if not all(member.naif for member in (body, *perturbers)):
         return []
@@ -86,9 +86,9 @@ def average_choices(
     choices = []
     for i, turns in enumerate(turns for turns in table["cycles"] if turns <= cycles):
         for j, days in enumerate(table["steps"]):
-            off = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in rows}
+            errors = {name: (in_plane[name][i, j], out_of_plane[name][i, j]) for name in rows}
             precessing = {
-                name: precessing_of_tensor(*pair, obliquity) for name, pair in off.items()
+                name: precessing_of_tensor(*pair, obliquity) for name, pair in errors.items()
             }
             choices.append(
                 Choice(
@@ -97,7 +97,7 @@ def average_choices(
                         cycles=turns,
                         step=days * DAY,
                         precessing_errors=precessing,
-                        torque_errors={name: 3 * sum(pair) for name, pair in off.items()},
+                        torque_errors={name: 3 * sum(pair) for name, pair in errors.items()},
                     ),
                     error=(sum(precessing.values()) + swing) / total,
                     evaluations=2 * math.floor(turns * cycle / DAY / 2 / days) + 1,

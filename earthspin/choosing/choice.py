@@ -1,4 +1,4 @@
-"""A choice of settings: one typed shape for all that can be chosen."""
+"""A choice of settings, of one type for all methods."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-#: What was measured.
+#: File of the measured errors.
 DATA = Path(__file__).with_name("error_models.json")
 
 S = TypeVar("S")
@@ -17,18 +17,18 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class Choice(Generic[S]):
-    """Settings that meet what was asked, and what they cost.
+    """Settings of a method, with their error and cost.
 
     Attributes
     ----------
     words : str
-        For people.
+        Description of the settings.
     settings : S
-        For the function that computes; each method has its own type.
+        Settings for the function that computes; each method has its own type.
     error : float
-        Bound on the error of the method, SI: rad, or relative.
+        Bound on the error of the method, in rad or relative.
     evaluations : int
-        How often the sky (or a term of the nutation) will be evaluated.
+        Number of evaluations of positions, or of terms of the nutation.
     """
 
     words: str
@@ -39,12 +39,12 @@ class Choice(Generic[S]):
 
 @lru_cache
 def models() -> dict[str, Any]:
-    """Read what was measured."""
+    """Read the measured errors."""
     table: dict[str, Any] = json.loads(DATA.read_text(encoding="utf-8"))
     return table
 
 
 def cheapest(choices: Iterable[Choice[S]], allowed: float) -> Choice[S] | None:
-    """Choose the cheapest within the error allowed; of equally cheap ones the most accurate."""
-    good = [choice for choice in choices if choice.error <= allowed]
-    return min(good, key=lambda choice: (choice.evaluations, choice.error), default=None)
+    """Choose the cheapest settings within the allowed error; among these, the most accurate."""
+    valid = [choice for choice in choices if choice.error <= allowed]
+    return min(valid, key=lambda choice: (choice.evaluations, choice.error), default=None)

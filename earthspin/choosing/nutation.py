@@ -1,4 +1,4 @@
-"""Ways to the true equator: which series of nutation, and how far apart its nodes."""
+"""Choices for the true equator: series of nutation, and spacing of its nodes."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from dataclasses import dataclass
 
 from earthspin.choosing.choice import Choice, models
 
-#: Days from J2000.0 within which the short series of nutation was measured, and what another phase
-#: of the nodes may add to an error.
+#: Largest time from J2000.0 for which the short series of nutation was measured, d, and the factor
+#: by which the error may grow with another phase of the nodes.
 NUTATION_MEASURED, NUTATION_PHASE = 36525.0, 1.1
 
 
 @dataclass(frozen=True)
 class NutationNodes:
-    """A series of nutation, evaluated at nodes.
+    """Settings of a nutation series that is interpolated between nodes.
 
     Attributes
     ----------
     model : str
         ``"2000A"`` or ``"2000B"``.
     spacing : float
-        Between two nodes, d.
+        Time between nodes, d.
     """
 
     model: str
@@ -29,30 +29,30 @@ class NutationNodes:
 
 
 def nutation_choices(first: float, last: float, size: int) -> list[Choice[NutationNodes | None]]:
-    """Ways to the true equator with their errors.
+    """Settings for the true equator, with their errors.
 
     Parameters
     ----------
     first, last : float
-        Days from J2000.0 TDB.
+        First and last day, days from J2000.0 TDB.
     size : int
-        How many epochs lie between them.
+        Number of epochs.
 
     Returns
     -------
     list of Choice of NutationNodes
-        The first one leaves nutation out.
+        The first choice neglects nutation.
     """
     choices: list[Choice[NutationNodes | None]] = []
     measured = max(abs(first), abs(last)) <= NUTATION_MEASURED
     for row in models()["nutation"]:
         if row["model"] == "2000B" and not measured:
-            continue  # a series for our time
+            continue  # this series is accurate only near the present
         nodes = math.ceil((last - first) / row["step"]) + 9 if row["step"] else 0
         words = (
             f"IAU {row['model']} nutation, a node each {row['step']:g} d"
             if row["terms"]
-            else "no nutation: the mean equator is near enough"
+            else "no nutation: the mean equator is accurate enough"
         )
         choices.append(
             Choice(

@@ -1,4 +1,4 @@
-"""Report on a requested accuracy: asked, estimated and the method chosen, or a refusal."""
+"""Report on a requested accuracy: the request, the estimated error and the chosen method."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from earthspin.errors import AccuracyError
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Of what is asked for, what is given to the method, so that a result never claims more than asked.
+#: Fraction of the requested error that a method may use, as a margin for rounding.
 MARGIN = 0.99
 
 
 class Report(Variables):
-    """Accuracy: asked, estimated, and the method chosen.
+    """Requested error, estimated error, and the chosen method.
 
-    A class of it names the units of the error, and what it is the error of.
+    A subclass defines the unit of the errors and the quantity to which they apply.
     """
 
-    error_asked: Value = number("1", "error asked for")
-    error_estimated: Value = number("1", "error estimated, at its largest")
-    method_chosen: Value = words("method and settings chosen for it")
-    evaluations: Value = number("1", "evaluations of the sky, or of terms of nutation")
+    error_asked: Value = number("1", "requested error")
+    error_estimated: Value = number("1", "largest estimated error")
+    method_chosen: Value = words("chosen method and settings")
+    evaluations: Value = number("1", "evaluations of positions, or of terms of nutation")
 
     def __init_subclass__(cls, units: str, error_of: str) -> None:
-        """Declare the report on one accuracy."""
+        """Declare the unit and the quantity of the errors."""
         super().__init_subclass__()
         cls.schema = {
             name: replace(variable, units=units, long_name=f"{variable.long_name}, {error_of}")
@@ -38,15 +38,15 @@ class Report(Variables):
         }
 
     def dataset(self) -> xr.Dataset:
-        """Lay it out, the error asked for as it was asked for."""
+        """Convert the report to a Dataset, with the requested error as the user wrote it."""
         result = super().dataset()
-        # 1 arcsec is 1e6 uas, not a rounding less
+        # The conversion of units must not change 1e6 uas in the last digit.
         result["error_asked"].values[...] = float(f"{float(result.error_asked):.14g}")
         return result
 
     @classmethod
     def of_series(cls, asked: float | None, error: xr.DataArray) -> Self:
-        """Report the largest error of a series, which names its method."""
+        """Report the largest error of a series, whose attributes name its method."""
         return cls(
             error_asked=asked,
             error_estimated=float(si(error).max()),
@@ -56,14 +56,14 @@ class Report(Variables):
 
     @classmethod
     def closed_form(cls, asked: float | None, bound: float, method: str, evaluations: int) -> Self:
-        """Report the accuracy of a method without settings, or refuse.
+        """Report the accuracy of a method without settings.
 
         Raises
         ------
         AccuracyError
-            If more is asked than a float carries.
+            If the requested error is below the bound.
         """
-        refuse_unkept(asked, bound, "1", "no float of 64 bits carries more; ask for less")
+        refuse_unkept(asked, bound, "1", "64-bit floats allow no more; request a larger error")
         return cls(
             error_asked=asked,
             error_estimated=bound,
@@ -73,19 +73,21 @@ class Report(Variables):
 
 
 def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> None:
-    """Refuse an accuracy that is not kept, but for what a change of units rounds away.
+    """Raise an error if a requested accuracy is not reached, except for rounding of units.
 
     Parameters
     ----------
     asked, best : float
-        SI: rad, or relative.
+        Requested and estimated error, in rad or relative.
     unit : str
-        In which both are shown.
+        Unit of both errors in the message.
     remedy : str
+        Advice for the message.
 
     Raises
     ------
     AccuracyError
+        If `best` exceeds `asked`.
     """
     if asked is not None and not best <= asked * (1 + 1e-12):
         factor = from_si(unit)

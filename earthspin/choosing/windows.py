@@ -1,4 +1,4 @@
-"""Windows of the pole: how long each is, and with how many nodes."""
+"""Choices for the windows of the axis solver: length and number of nodes."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from earthspin.units import FloatArray
 
 @dataclass(frozen=True)
 class PoleWindows:
-    """Gauss windows of the pole.
+    """Gauss windows of the axis solver.
 
     Attributes
     ----------
     window : float
-        Length of each, s.
+        Length of a window, s.
     order : int
-        Nodes in each.
+        Number of nodes in a window.
     """
 
     window: float
@@ -40,25 +40,25 @@ def window_choices(
     *,
     geodesic: float = 0.0,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the pole with the error of each.
+    """Windows of the axis solver, with the error of each.
 
     Parameters
     ----------
     code : int
-        NAIF, of the body.
+        NAIF code of the body.
     figure : Figure
     gm : mapping of int to float
-        What pulls, by NAIF code, m3 s-2.
+        GM of the perturbers by NAIF code, m3 s-2.
     span : tuple of float
         First and last time, s from the epoch.
     geodesic : float
-        GM of the mass whose geodesic precession turns the frame, m3 s-2; 0 if none does.
+        GM of the mass that causes geodesic precession, m3 s-2; 0 without it.
 
     Returns
     -------
     list of Choice of PoleWindows
-        Empty if the sky of this body has not been measured, or if its higher zonal coefficients,
-        which were not, exceed J2.
+        Empty if the errors for these bodies were not measured, or if higher zonal coefficients,
+        which were not included in the measurement, exceed J2.
     """
     table = models()["pole"]
     rows = table["tensor"].get(str(code), {})
@@ -68,35 +68,35 @@ def window_choices(
         return []
     reach = max(map(abs, span))
 
-    def of_all(name: str) -> FloatArray:
-        each = [
+    def total(name: str) -> FloatArray:
+        errors = [
             mass * _in_reach(rows[str(puller)][name], table["reach"], reach)
             for puller, mass in gm.items()
         ]
-        return np.asarray(np.sum(each, axis=0))
+        return np.asarray(np.sum(errors, axis=0))
 
     mean = sum(mass * 10.0 ** rows[str(puller)]["mean"] for puller, mass in gm.items())
-    integral, value, derivative = map(of_all, ("integral", "value", "derivative"))
-    turned = turn_by_mean(figure, mean, reach)
-    error = turn_by_sampling(figure, integral, value, derivative, turned)
+    integral, value, derivative = map(total, ("integral", "value", "derivative"))
+    rotation = turn_by_mean(figure, mean, reach)
+    error = turn_by_sampling(figure, integral, value, derivative, rotation)
     if geodesic:
         error = error + geodesic * _in_reach(table["geodesic"][str(code)], table["reach"], reach)
     return [
         Choice(
             words=f"Gauss windows of {days} d with {nodes} nodes",
             settings=PoleWindows(days * DAY, nodes),
-            error=float(off),
+            error=float(bound),
             evaluations=nodes * window_count(0.0, span, days * DAY),
         )
-        for (days, nodes), off in zip(table["settings"], error, strict=True)
+        for (days, nodes), bound in zip(table["settings"], error, strict=True)
     ]
 
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
-    """Errors of all settings within a reach in s; beyond the last one they grow with it."""
-    reached = 10.0 ** np.asarray(rows)
-    if reached.ndim == 1:
-        return reached
+    """Errors of all settings for a time span (s) from the epoch, extrapolated linearly."""
+    errors = 10.0 ** np.asarray(rows)
+    if errors.ndim == 1:
+        return errors
     years = reach / JULIAN_YEAR
-    place = min(int(np.searchsorted(reaches, years)), len(reaches) - 1)
-    return np.asarray(reached[:, place] * max(1.0, years / reaches[-1]))
+    column = min(int(np.searchsorted(reaches, years)), len(reaches) - 1)
+    return np.asarray(errors[:, column] * max(1.0, years / reaches[-1]))

@@ -1,1 +1,1 @@
-"""Questions, the parts that answer them, plans, runs, labels and files; no physics, no sky."""
+"""Framework without physics: questions, parts, plans, runs, labels and files."""

@@ -1,4 +1,4 @@
-"""`ds.earthspin`: what an answer knows of itself, registered with the first answer.
+"""Accessor `ds.earthspin` of answers; it is registered when the first answer is made.
 
 ``import earthspin.engine.accessor`` registers it without an answer.
 """
@@ -26,22 +26,23 @@ if TYPE_CHECKING:
 
     from earthspin.engine.question import Question
 
-#: Ends of the names of errors, which stand beside their values.
+#: Suffix of the names of errors.
 _ERROR = "_error"
-_NO_VECTOR = "the answer has no vector along the axes of the GCRS"
+_NO_VECTOR = "the answer has no vector in the GCRS"
 
 
 @xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
 @xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
-    """What an answer of earthspin knows of itself.
+    """Question, plan, tables, statistics and figures of an answer.
 
     Attributes
     ----------
     scene : Question
-        The question that made it, complete with every number.
+        The question of this answer, with every number.
     plan : Plan
-        What ran for it and what was left out and why; with seconds if it ran in this process.
+        Plan of the run: parts that ran, and parts that were left out, with reasons; with run times
+        if it ran in this process.
 
     Examples
     --------
@@ -56,22 +57,22 @@ class Answer:
 
     @property
     def scene(self) -> Question:
-        """The question that made it, complete."""
+        """Question of this answer, with every number."""
         question: Question = earthspin.load_scene(self._dataset)
         return question
 
     @property
     def plan(self) -> Plan:
-        """What ran for it, and what was left out and why."""
+        """Plan of the run: parts that ran, and parts that were left out, with reasons."""
         seconds = seconds_of(scene_of(self._dataset))
         return replace(plan_parts(self.scene), seconds=dict(seconds))
 
     def to_frame(self) -> pd.DataFrame:
-        """Give a tidy table of pandas: a row for each label, a column for each number.
+        """Return a tidy pandas table with a row for each label and a column for each number.
 
-        The rows have the labels that most variables have. Further labels, and vectors along
-        `component`, `quaternion` and `axis`, become columns; each error follows its value. Numbers
-        without labels are left out where others have labels.
+        The rows are labelled by the dimensions that most variables have. Further dimensions,
+        including `component`, `quaternion` and `axis`, become columns. Each error follows its
+        value. If some variables have dimensions, variables without dimensions are omitted.
 
         Returns
         -------
@@ -90,28 +91,28 @@ class Answer:
         spread = _spread(self._dataset)
         names: list[str] = []
         for name in (str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes):
-            beside = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
-            names += [n for n in (name, *beside) if n not in names]
-        if not spread.sizes:  # an answer without labels is one row
+            errors = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
+            names += [n for n in (name, *errors) if n not in names]
+        if not spread.sizes:  # an answer without dimensions is one row
             return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
         frame = spread.to_dataframe()
         return frame.reset_index()[[*map(str, frame.index.names), *names]]
 
     def to_skycoord(self, name: str = "") -> SkyCoord:
-        """Give unit vectors as coordinates of astropy, in the ICRS.
+        """Return unit vectors as astropy coordinates in the ICRS.
 
-        The axes of the GCRS are those of the ICRS; no aberration is added.
+        The axes of the GCRS are parallel to those of the ICRS; no aberration is applied.
 
         Parameters
         ----------
         name : str
-            A variable along `component`, such as ``"pole"`` of `long_term`; not needed where
-            `X`, `Y` and `Z` are the answer, as of `pole`.
+            A variable along `component`, such as ``"pole"`` of `long_term`; not needed for an
+            answer with `X`, `Y` and `Z`, such as that of `pole`.
 
         Raises
         ------
         SceneError
-            If that is no vector along the axes of the GCRS.
+            If the variable is not a vector in the GCRS.
 
         Examples
         --------
@@ -152,17 +153,18 @@ class Answer:
         Parameters
         ----------
         shares : sequence of float
-            Between 0 and 1; by default the ends of the central 95 % and its middle.
+            Shares of the members below the quantile, between 0 and 1; by default the median and
+            the ends of the central 95 % interval.
 
         Returns
         -------
         Dataset
-            Each number that differs among the members, along `quantile` instead of `member`.
+            Every number with dimension `member`, along `quantile` instead.
 
         Raises
         ------
         SceneError
-            If it is no ensemble, or a share is not between 0 and 1.
+            If the answer is not an ensemble, or a share is not between 0 and 1.
 
         Examples
         --------
@@ -175,24 +177,24 @@ class Answer:
         return quantiles(self._dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
-        """How much each input of an ensemble has to do with each number of its answer.
+        """Slope and share of variance of each number of an ensemble, for each input.
 
-        Straight lines in all inputs are fitted together (`numerics.sampling`). An input that is no
-        number, such as the table of an orbit, has its classes: their share is that of the variance
-        between the means of their members (eta squared), and there is no slope, NaN.
+        The numbers are fitted by a linear function of all inputs (`numerics.sampling`). An input
+        that is a name, such as an orbit table, divides the members into classes: its share is that
+        of the variance between the means of the classes (eta squared), and its slope is NaN.
 
         Returns
         -------
         Dataset
-            Along `input`: for each number ``<name>_slope``, its change per unit of the input, and
-            ``<name>_share``, the share of its variance; and ``<name>_unexplained``, the share that
-            straight lines leave.
+            For each number, ``<name>_slope``, the change per unit of the input, and
+            ``<name>_share``, the share of the variance, both along `input`; and
+            ``<name>_unexplained``, the share of the variance that the fit does not explain.
 
         Raises
         ------
         SceneError
-            If it is no ensemble, or has too few members: two more than there are inputs, an input
-            in words counting for as many as there are of these, less one.
+            If the answer is not an ensemble, or has too few members: at least 2 are needed, plus 1
+            for each input that is a number, plus k - 1 for each input with k names.
 
         Examples
         --------
@@ -205,7 +207,7 @@ class Answer:
         return sensitivity(self._dataset)
 
     def plot(self) -> Any:
-        """Draw the figures that belong to the question.
+        """Draw the figures of the question.
 
         Returns
         -------
@@ -214,7 +216,7 @@ class Answer:
         Raises
         ------
         SceneError
-            If it is a part of an answer that cannot be drawn alone.
+            If this is a selection of an answer that cannot be drawn.
 
         Examples
         --------
@@ -222,19 +224,20 @@ class Answer:
         >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
         >>> year.earthspin.plot()[0].savefig("torque.png")
         """
-        views = import_module("earthspin.views.of_question")  # which stands above the engine
+        views = import_module("earthspin.views.of_question")  # at run time: views import the engine
         if figures := views.figures_of_fit(self._dataset):
             return figures
-        whole = self.scene
+        question = self.scene
         try:
             return views.figures_of(self._dataset)
         except (AttributeError, KeyError, ValueError):
-            what = f"a part of the answer to '{whole.word}'"
-            raise SceneError("plot", what, "draw the whole: earthspin.run(ds)") from None
+            selection = f"a selection of the answer to '{question.word}'"
+            remedy = "plot the full result, which earthspin.run(ds) computes again"
+            raise SceneError("plot", selection, remedy) from None
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Variables with the dimensions that most have; one for each label of any other dimension."""
+    """Split variables along all dimensions except those that most variables have."""
     columns: dict[str, xr.DataArray] = {}
     common = Counter(
         frozenset(array.dims).difference(("component", "quaternion", "axis"))

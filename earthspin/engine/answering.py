@@ -1,4 +1,4 @@
-"""Answer a question: for one, for many, or for one with the errors of a sample."""
+"""Answer a question for a single case, for an ensemble, or with errors from a sample."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.given import MEMBER
+from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import Members
 from earthspin.engine.plan import ALL, plan_parts
 from earthspin.engine.question import NEGLECTED, Question
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: How many members are drawn if nothing says it.
+#: Default number of members of a sample.
 MEMBERS = 1000
-#: Ends of the central 95 %.
+#: Quantiles at the ends of the central 95 % interval.
 _ENDS = (0.025, 0.975)
 
 
@@ -35,13 +35,13 @@ def answer(question: Question) -> xr.Dataset:
     Returns
     -------
     Dataset
-        Along `member` if it is asked for members; with the errors of a sample if these are asked
-        for.
+        With dimension `member` if the question has members; with sampled errors if
+        ``uncertainty = "sample"``.
 
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line.
+        If the question cannot be answered; the message is one line.
     """
     if question.members is not None:
         return Ensemble(question).hold()
@@ -50,7 +50,7 @@ def answer(question: Question) -> xr.Dataset:
 
 
 def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
-    """Answer a question with sections; for many the answer, the plan, and what is neglected.
+    """Answer a question with sections; an ensemble has the sections `plan` and `neglected` only.
 
     Parameters
     ----------
@@ -61,19 +61,19 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; among it a section of an ensemble.
+        If the question cannot be answered, or another section of an ensemble is requested.
     """
     import xarray as xr
 
     if question.members is not None:
         named = [sections] if isinstance(sections, str) else [*sections]
         if not {*named} <= {ALL, NEGLECTED}:
-            words = f"an ensemble tells its answer, and of its sections '{NEGLECTED}' alone"
-            raise SceneError("sections", sections, words)
+            problem = f"an ensemble has only the section '{NEGLECTED}'; request that or none"
+            raise SceneError("sections", sections, problem)
         work = Ensemble(question)
         nodes = {"/": work.hold(), "plan": work.plan_data()}
         if named:
-            single = work.variants.question(work.words(0))
+            single = work.variants.question(work.names(0))
             nodes[NEGLECTED] = answer_tree(single, NEGLECTED)[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
     tree = run_parts(plan_parts(question, sections)).tree()
@@ -83,7 +83,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Give beside each linear error of an answer that of a sample.
+    """Add to each linearly propagated error of an answer the error from a sample.
 
     Parameters
     ----------
@@ -94,19 +94,20 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     Dataset
-        The answer; for each ``<name>_error`` there is ``<name>_error_sampled``, the half-width of
-        the central 95 % of the members, whose attributes say how far the linear error of the same
-        numbers is from it, at most, and by how much the middle of the sample is off.
+        The answer with a variable ``<name>_error_sampled`` for each ``<name>_error``: half the
+        width of the central 95 % interval of the members. Its attributes hold the largest
+        difference from the linear error, and the largest difference between the median of the
+        sample and the value.
 
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line.
+        If the members cannot be computed.
     """
     plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
     sample = Ensemble(plain.replace(members=Members(n=count, published=True))).hold()
-    beside: dict[str, Any] = {}
+    sampled: dict[str, Any] = {}
     for name in map(str, answer.data_vars):
         linear = answer.get(f"{name}_error_input", answer.get(f"{name}_error"))
         if linear is None or answer[name].dtype.kind != "f" or linear.dims != answer[name].dims:
@@ -128,7 +129,7 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
             "difference_from_linear": f"{difference:.3g} {units} at most from {linear.name}",
             "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
-        beside[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
+        sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
     summary = {"sampled": f"{count} members in {inputs}"}
-    return answer.assign(beside).assign_attrs(summary)
+    return answer.assign(sampled).assign_attrs(summary)

@@ -1,4 +1,4 @@
-"""Public calls, and the plain script of a question, made from its class."""
+"""Make the public call and the plain script of a question from its class."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from earthspin.errors import SceneError
 if TYPE_CHECKING:
     import xarray as xr
 
-#: A call of a series takes its span as two arguments.
+#: Arguments of a call that give the two ends of a span.
 ENDS = ("start", "stop")
 
 
 def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
-    """Make the public call of a question: its keys are the arguments.
+    """Make the public function of a question; its keys are the arguments.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
 
 def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Put start and stop together; both are given, or neither."""
+    """Replace `start` and `stop` by `span`; refuse one without the other."""
     if "start" not in question.positional:
         return values
     ends = {end: values.pop(end, None) for end in ENDS}
@@ -57,7 +57,7 @@ def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, An
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
-    """Arguments of the call in order; the two ends of a span have no key of their own."""
+    """Arguments of the call in order; `start` and `stop`, which are not keys, map to None."""
     keys = {name: entry for name, entry in keys_of(question).items() if name != "title"}
     ends = "start" in question.positional
     rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
@@ -78,14 +78,14 @@ def signature_of(question: type[Question]) -> inspect.Signature:
 
 
 def _as_written(value: Any) -> Any:
-    """A default as one would type it: bodies by their names."""
+    """Return a default value as a user would type it, with bodies by their names."""
     if isinstance(value, tuple):
         return tuple(_as_written(item) for item in value)
     return getattr(value, "name", value)
 
 
 def docstring_of(question: type[Question]) -> str:
-    """Docstring of the public call: that of the class, with a sentence for each argument."""
+    """Docstring of the public call: the class docstring with a sentence for each argument."""
     head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
     lines = [head, "", "Parameters", "----------"]
     for name, entry in arguments_of(question).items():
@@ -102,7 +102,7 @@ def docstring_of(question: type[Question]) -> str:
     return "\n".join([*lines, before.rstrip(), *notes, f"{heading}{after}", ""])
 
 
-#: Said in a docstring that cites an equation of the source text by its number.
+#: Note of docstrings that cite an equation of the source text by its number.
 SOURCE_TEXT = (
     "Numbers such as I.8.7 are equations and sections of the source text, Appendix I,",
     '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
@@ -120,7 +120,7 @@ _END = {
 
 
 def script_of(question: type[Question]) -> str:
-    """Write the graph of a question as a plain script: every part, in order, by name and type.
+    """Write the graph of a question as a Python script that calls every part in order.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def script_of(question: type[Question]) -> str:
     Returns
     -------
     str
-        Python; a type checker sees through it what it cannot see through names.
+        Python source; a type checker can check in it that results and parameters agree.
     """
     from graphlib import TopologicalSorter
 
@@ -137,12 +137,12 @@ def script_of(question: type[Question]) -> str:
     needs = {n: [i for i in (*p.needs, *p.uses) if i in parts] for n, p in parts.items()}
     order = list(TopologicalSorter(needs).static_order())
     modules = sorted({parts[name].__module__ for name in order} | {question.__module__})
-    lines = [f'"""{question.__name__}: what each part takes, and in which order they run."""', ""]
+    lines = [f'"""{question.__name__}: inputs of each part, in the order in which they run."""', ""]
     lines += [f"import {module}" for module in modules]
     lines += ["", "", f"def {question.word.replace('-', '_')}("]
     lines += [f"    question: {question.__module__}.{question.__name__},", ") -> None:"]
     lines.append(f'    """{_head(question)}"""')
-    lines.append("    # every part, as if none were left out")
+    lines.append("    # every part, including those that a plan may leave out")
     used = {i for name in order for i in (*parts[name].needs, *parts[name].uses)}
     lines += [f"    {name} = question.{name}" for name in keys if name in used]
     for name in order:

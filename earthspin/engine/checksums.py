@@ -1,18 +1,19 @@
-"""Checksums of what is stored: SHA-256 of all bytes, and of all that a file says.
+"""Checksums of stored results: SHA-256 of all bytes, and of the content of a file.
 
-Of bytes: a netCDF file of ours ends in a line with the checksum of every byte before it, and a Zarr
-store holds a ledger of its files as ``sha256sum`` writes it. Both can be checked by hand::
+Bytes: a netCDF file ends with a line that holds the checksum of every byte before it, and a Zarr
+store holds a ledger of its files in the format of ``sha256sum``. Both can be checked without
+earthspin::
 
     head -c -110 answer.nc | sha256sum; tail -n 1 answer.nc
     cd answer.zarr && sha256sum --check --quiet */SHA256SUMS
 
-The library that reads netCDF trusts the tables of a file: damaged ones can keep it busy without
-end. So the bytes are checked before it opens them. The line stands behind what the format counts as
-the file, where other readers do not look; the ledger stands in the folder of the first array, since
-Zarr takes a file beside the arrays for a mistake and warns of it.
+The bytes are checked before the netCDF library opens the file, because damaged tables in a file can
+make that library run without end. The line follows the end of the file as the format defines it,
+so other readers ignore it. The ledger is in the folder of the first array, because Zarr warns of
+unknown files next to the arrays.
 
-Of content: another program that writes to a netCDF file cuts the line off. An attribute holds a
-checksum of what is read, which remains.
+Content: a program that changes a netCDF file removes the line. An attribute holds a checksum of the
+content, which remains in the file.
 """
 
 from __future__ import annotations
@@ -34,15 +35,15 @@ if TYPE_CHECKING:
 
 #: Attribute of the root of a netCDF file.
 CONTENT = "content_sha256"
-#: Attributes of files of earlier versions, whose checksums of content are not checked any more.
+#: Attributes with checksums of earlier versions, which are no longer checked.
 EARLIER = ("header_sha256", "data_sha256", "made_in_blocks")
 #: Name of the ledger in a Zarr store.
 LEDGER = "SHA256SUMS"
 
-_WORDS = b"\nearthspin: SHA-256 of all before this line: "
+_PREFIX = b"\nearthspin: SHA-256 of all before this line: "
 #: Bytes of the last line of a netCDF file.
-LENGTH = len(_WORDS) + 64 + 1
-#: Bytes that are read at once.
+LENGTH = len(_PREFIX) + 64 + 1
+#: Number of bytes that are read in one call.
 _AT_ONCE = 1 << 20
 _ENTRY = re.compile(r"([0-9a-f]{64})  (.+)")
 
@@ -51,7 +52,7 @@ _ENTRY = re.compile(r"([0-9a-f]{64})  (.+)")
 
 
 def append_line(path: Path) -> None:
-    """Append the checksum of its bytes to a file that is complete."""
+    """Append the line with the checksum to a complete file."""
     with path.open("r+b") as file:
         size = file.seek(0, os.SEEK_END)
         line = _line(file, size)
@@ -60,7 +61,7 @@ def append_line(path: Path) -> None:
 
 
 def line_holds(path: Path) -> bool | None:
-    """Whether the last line of a file matches the bytes before it.
+    """Return True if the last line of a file matches the bytes before it.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ def line_holds(path: Path) -> bool | None:
     Returns
     -------
     bool or None
-        None for a file without such a line: another program's, or one that it has written to.
+        None if the file has no such line, because another program wrote or changed it.
     """
     with path.open("rb") as file:
         size = file.seek(0, os.SEEK_END) - LENGTH
@@ -77,32 +78,32 @@ def line_holds(path: Path) -> bool | None:
             return None
         file.seek(size)
         line = file.read(LENGTH)
-        # Damaged words are ours still: by chance three of them in four agree nowhere.
-        agree = sum(one == other for one, other in zip(line, _WORDS, strict=False))
-        return line == _line(file, size) if agree > 3 * len(_WORDS) // 4 else None
+        # A line of which three quarters agree is a damaged line, not bytes of another program.
+        agree = sum(byte == expected for byte, expected in zip(line, _PREFIX, strict=False))
+        return line == _line(file, size) if agree > 3 * len(_PREFIX) // 4 else None
 
 
 def _line(file: BinaryIO, size: int) -> bytes:
-    """The line that belongs behind the first `size` bytes of a file."""
+    """Make the line with the checksum of the first `size` bytes of a file."""
     total = hashlib.sha256()
     file.seek(0)
     while size and (piece := file.read(min(size, _AT_ONCE))):
         total.update(piece)
         size -= len(piece)
-    return _WORDS + total.hexdigest().encode("ascii") + b"\n"
+    return _PREFIX + total.hexdigest().encode("ascii") + b"\n"
 
 
 # --- the ledger of a Zarr store ------------------------------------------------------------------
 
 
 def files_in(store: Path) -> list[str]:
-    """Paths of all files in a Zarr store but its ledger, in order."""
+    """Paths of all files in a Zarr store except its ledger, sorted."""
     files = (path for path in store.rglob("*") if path.is_file() and path.name != LEDGER)
     return sorted(path.relative_to(store).as_posix() for path in files)
 
 
 def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
-    """SHA-256 of files in a Zarr store by their paths; empty for one that is not there."""
+    """SHA-256 of files in a Zarr store by their paths; empty text for a missing file."""
     sums = dict.fromkeys(names, "")
     for name in sums:
         with suppress(FileNotFoundError, NotADirectoryError), (store / name).open("rb") as file:
@@ -111,19 +112,19 @@ def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
 
 
 def entries(sums: Mapping[str, str]) -> bytes:
-    """Lines of a ledger."""
+    """Write checksums as the lines of a ledger."""
     lines = "".join(f"{digest}  {path}\n" for path, digest in sums.items())
     return lines.encode("utf-8", "surrogateescape")
 
 
 def read_entries(ledger: Path) -> dict[str, str]:
-    """SHA-256 of each file by its path, as the lines of a ledger say; of two lines, the last."""
+    """Read SHA-256 of each file by its path from a ledger; of two lines for a file, the last."""
     lines = ledger.read_bytes().decode("utf-8", "surrogateescape").split("\n")
     return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
 
 
 def ledger_of(store: Path) -> dict[str, str] | None:
-    """SHA-256 of each file of a Zarr store as its ledger says; None if it has no ledger."""
+    """SHA-256 of each file of a Zarr store from its ledger; None if there is no ledger."""
     ledger = min(store.rglob(LEDGER), default=None)
     return None if ledger is None else read_entries(ledger)
 
@@ -136,7 +137,7 @@ def write_ledger(store: Path, sums: Mapping[str, str]) -> None:
 
 
 def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -> None:
-    """Refuse a file of a Zarr store that is not the one in its ledger.
+    """Raise an error if a file of a Zarr store does not match the ledger.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -
     name : str
         Path of the file in the store.
     digest : str
-        Its SHA-256; empty if it is not there.
+        SHA-256 of the file; empty if the file is missing.
     ledger : mapping of str to str
 
     Raises
@@ -154,15 +155,15 @@ def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -
     if digest == ledger.get(name, ""):
         return
     if Path(name).name.startswith("."):
-        raise changed(store, "its names, sizes or attributes")
+        raise mismatch_error(store, "its names, sizes or attributes")
     if not digest:
         raise OutputError(store, f"the chunk '{name}' is missing", "write it again")
-    raise changed(store, "its numbers or words")
+    raise mismatch_error(store, "its numbers or words")
 
 
-def changed(path: Path, what: str) -> OutputError:
-    """What is said of a file that does not match a checksum."""
-    remedy = "if they were changed on purpose, read it with xarray.open_dataset"
+def mismatch_error(path: Path, what: str) -> OutputError:
+    """Make the error for a file that does not match a checksum."""
+    remedy = "if they were changed on purpose, read the file with xarray.open_dataset"
     return OutputError(path, f"{what} are not what was written", remedy)
 
 
@@ -170,12 +171,12 @@ def changed(path: Path, what: str) -> OutputError:
 
 
 def of_content(groups: Mapping[str, xr.Dataset]) -> str:
-    """SHA-256 of all that a file says, the same before it is written and after it is read.
+    """SHA-256 of the content of a file, which is the same before writing and after reading.
 
     Parameters
     ----------
     groups : mapping of str to Dataset
-        By path, ``"/"`` for the root; an attribute `CONTENT` of it does not count.
+        Groups by path, ``"/"`` for the root, whose attribute `CONTENT` is ignored.
     """
     total = hashlib.sha256()
     for group, node in sorted(groups.items()):
@@ -188,7 +189,7 @@ def of_content(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _add(total: Any, *pieces: str | bytes) -> None:
-    """Add pieces with their number and lengths, so that no two lists of pieces are alike."""
+    """Add pieces with their number and lengths, so that different lists give different bytes."""
     total.update(b"%d;" % len(pieces))
     for piece in pieces:
         coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")
@@ -197,7 +198,7 @@ def _add(total: Any, *pieces: str | bytes) -> None:
 
 
 def _attributes(attrs: Mapping[Any, Any]) -> Iterator[str]:
-    """A line for each attribute, in order of names; lists of one are what netCDF makes of them."""
+    """Yield a line for each attribute, sorted; netCDF reads a list of length one as a number."""
     for name, value in sorted(attrs.items()):
         if name != CONTENT:
             listed = [value] if isinstance(value, str) else np.ravel(value).tolist()
@@ -211,7 +212,7 @@ def _kind(dtype: np.dtype[Any]) -> str:
 
 
 def _bytes(values: np.ndarray[Any, Any]) -> bytes:
-    """The same bytes for the same numbers, on any machine and from any file."""
+    """Encode values as bytes that do not depend on the machine or the file format."""
     kind = _kind(values.dtype)
     if kind == "words":
         return repr([_text(word) for word in np.ravel(values).tolist()]).encode()

@@ -1,15 +1,16 @@
-"""Whole or not at all: what is written goes into a draft, which then takes its place.
+"""Atomic writes: results are written to a draft, which then replaces the target.
 
-What is promised. Whoever reads a file finds the old one or the new one, never a part of either,
-whatever happens to the writer: an exception, a kill, a loss of power. When `replacing` has ended,
-the new one is on the disk, as far as the disk keeps what it is told to keep. Two who write to the
-same place do not disturb each other, in two processes, two containers, or on two machines whose
-network folder has locks; the last to finish stays.
+A reader always finds the complete old file or the complete new file, even if the writer is ended by
+an exception, a kill or a power failure. When `replacing` returns, the new file is on the disk, if
+the disk honours the request to store it. Processes that write to the same target do not disturb
+one another, also in different containers, or on different machines if the network folder supports
+locks; the last one to finish wins.
 
-A file is replaced in one step, and so is a folder (a Zarr store) where the system can exchange two
-folders, as Linux and macOS can on their own file systems. Elsewhere a folder takes two steps: the
-old one is moved aside, and the new one into its place. A reader who comes between waits for the
-second step; if the writer is killed there, the next who opens or writes it puts the old one back.
+A file is replaced in one step. A folder (a Zarr store) is replaced in one step if the system can
+exchange two folders, as Linux and macOS can on their own file systems. Otherwise there are two
+steps: the old folder is moved aside, then the new folder is moved to the target. A reader between
+the two steps waits for the second one. If the writer is killed between them, the next process that
+opens or writes the target restores the old folder.
 """
 
 from __future__ import annotations
@@ -30,24 +31,24 @@ from filelock import FileLock, Timeout
 
 from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
 
-#: Names inside the hidden folder of a draft: its owner's lock, and what was moved aside.
+#: Names in the hidden folder of a draft: the lock of its owner, and the old target.
 _LOCK, _OLD = "owner", "old"
-#: A draft without a lock, older than this against the clock of its disk, has no owner, s. Its
-#: owner had a moment to make one.
+#: Age by the clock of the disk after which a draft without a lock has no owner, s. A new draft has
+#: no lock for a moment.
 _GRACE = 60.0
-#: Time between two looks at a folder that is being replaced, s, and how often is looked.
-_MOMENT, _MOMENTS = 0.01, 500
+#: Time between two checks of a folder that is being replaced, s, and the number of checks.
+_WAIT, _WAITS = 0.01, 500
 
 
 def as_path(path: object) -> Path:
-    """Read the path of a file or folder.
+    """Convert a str or Path to a Path.
 
     Raises
     ------
     TypeError
-        If it is something else.
+        If `path` is of another type.
     OutputError
-        If no file can have that name.
+        If no file can have this name.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise TypeError(f"path is of type {type(path).__name__}; give a str or a Path")
@@ -59,12 +60,12 @@ def as_path(path: object) -> Path:
 
 
 def check_writable(folder: str | Path) -> Path:
-    """Check that a folder can be written to, or made, before anything is computed for it.
+    """Check that a folder can be written to or created, before a result is computed.
 
     Raises
     ------
     OutputError
-        If it cannot.
+        If the folder cannot be written to or created.
     """
     path = as_path(folder)
     try:
@@ -72,22 +73,22 @@ def check_writable(folder: str | Path) -> Path:
         with tempfile.TemporaryFile(dir=existing):
             pass
     except (OSError, ValueError) as error:
-        words = f"the folder cannot be written to: {one_line(error)}"
-        raise OutputError(path, words, "choose another with --out") from None
+        problem = f"the folder cannot be written to: {one_line(error)}"
+        raise OutputError(path, problem, "choose another with --out") from None
     return path
 
 
 def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
-    """Refuse what the disk has no room for, before it is half-written.
+    """Refuse a result that is too large for the disk, before it is written.
 
     Parameters
     ----------
     path : Path
-        Where it should go.
+        Path of the result.
     size : float
-        Bytes, before they are packed.
+        Size before compression, bytes.
     what : str
-        For the message.
+        Name of the result, for the message.
 
     Raises
     ------
@@ -96,58 +97,57 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
     existing = next(p for p in path.absolute().parents if p.exists())
     free = shutil.disk_usage(existing).free
     if size > free:
-        words = f"{what} take {in_bytes(size)}, and {in_bytes(free)} of the disk are free"
-        raise OutputError(path, words, "ask for less: a longer step, a shorter span, fewer members")
+        problem = f"{what} take {in_bytes(size)}, but only {in_bytes(free)} of the disk are free"
+        raise OutputError(path, problem, "choose a longer step, a shorter span or fewer members")
 
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Give a draft beside `path`, and put it in place if all goes well.
+    """Yield the path of a draft, and replace `path` by the draft if no error occurs.
 
     Parameters
     ----------
     path : str or Path
-        A file, or a folder that holds a Zarr store. A link stays a link; what it leads to is
-        replaced.
+        A file, or a folder that holds a Zarr store. If `path` is a link, its target is replaced.
 
     Yields
     ------
     Path
-        Where to write; it has the same name.
+        Path of the draft, which has the same name.
 
     Raises
     ------
     OutputError
-        If the place cannot be written; it is then as it was.
+        If the target cannot be written; it is then not changed.
     """
     target = prepared(path)
-    remedy = "what stood there is kept" if target.exists() else ""
+    remedy = "the existing file is not changed" if target.exists() else ""
     with output_errors(path, remedy), box_of(target) as box:
         yield box / target.name
         put_in_place(box / target.name, target, box)
 
 
 def prepared(path: str | Path) -> Path:
-    """Make the folder in which something is to stand, and give its place, links followed.
+    """Create the parent folder of a target, and return the target with links resolved.
 
     Raises
     ------
     OutputError
-        If it cannot be written, or a folder stands there that is none of ours.
+        If the folder cannot be written, or the target is a folder that is not a Zarr store.
     """
     check_writable(as_path(path).parent)
     with output_errors(path):
         target = Path(path).resolve()
         zarr = (target / ".zgroup").exists() or (target / "zarr.json").exists()
         if target.is_dir() and not zarr:
-            raise OutputError(path, "a folder stands there that is no Zarr store", "move it away")
+            raise OutputError(path, "it is a folder, but not a Zarr store", "move it away")
         target.parent.mkdir(parents=True, exist_ok=True)
         return target
 
 
 @contextmanager
 def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
-    """Say in one line what the system says of something that cannot be written.
+    """Convert errors of the operating system to an `OutputError` with one line.
 
     Raises
     ------
@@ -161,18 +161,18 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
         raise OutputError(path, f"it cannot be written: {one_line(error)}", remedy) from None
 
 
-# --- whose a draft is ----------------------------------------------------------------------------
+# --- drafts and their owners ---------------------------------------------------------------------
 
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Make a hidden folder beside the target, locked by its owner; remove those of dead owners."""
+    """Make a locked hidden folder next to the target, and remove abandoned folders."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = FileLock(box / _LOCK)
-    with suppress(OSError, NotImplementedError):  # where there are no locks, no draft is cleared
+    with suppress(OSError, NotImplementedError):  # without locks, abandoned drafts stay
         lock.acquire()
     try:
-        _clear_up_after_the_dead(target, box)
+        _clear_abandoned_drafts(target, box)
         yield box
     finally:
         _remove(box, target)
@@ -180,25 +180,25 @@ def box_of(target: Path) -> Iterator[Path]:
 
 
 def put_back(path: str | Path) -> None:
-    """Put back a folder whose writer was killed after he had moved it aside.
+    """Restore a folder whose writer was killed after it had moved the folder aside.
 
     Parameters
     ----------
     path : str or Path
-        Where it should be; if something stands there, nothing is done. While its writer lives, the
-        new one is waited for.
+        Path of the folder; if it exists, nothing is done. If the writer still runs, this function
+        waits for the new folder.
     """
     with suppress(OSError):
         target = Path(path).resolve()
-        for _ in range(_MOMENTS):
+        for _ in range(_WAITS):
             if target.exists() or not any((box / _OLD).exists() for box in _boxes(target)):
                 break
-            _clear_up_after_the_dead(target)
-            time.sleep(_MOMENT)
+            _clear_abandoned_drafts(target)
+            time.sleep(_WAIT)
 
 
 def identity(path: Path) -> tuple[int, int, int] | None:
-    """What tells a file or folder from another that takes its place; None if there is none."""
+    """Device, inode and modification time of a file or folder; None if it does not exist."""
     try:
         status = path.stat()
     except OSError:
@@ -207,7 +207,7 @@ def identity(path: Path) -> tuple[int, int, int] | None:
 
 
 def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
-    """Refuse to read on in a file or folder that is not the one that was opened.
+    """Raise an error if a file or folder was replaced since it was opened.
 
     Raises
     ------
@@ -217,10 +217,10 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
         raise OutputError(path, "it was replaced while it was read", "open it again")
 
 
-def _clear_up_after_the_dead(target: Path, own: Path | None = None) -> None:
-    """Remove drafts whose owners are gone; put back a folder that one had moved aside."""
+def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
+    """Remove drafts whose owners have ended, and restore a folder that one had moved aside."""
     for box in _boxes(target):
-        if box != own and _is_left(box, own):
+        if box != own and _is_abandoned(box, own):
             _remove(box, target)
 
 
@@ -235,24 +235,24 @@ def _boxes(target: Path) -> Iterator[Path]:
     return target.parent.glob(f".{glob.escape(target.name)}.*.draft")
 
 
-def _is_left(box: Path, own: Path | None) -> bool:
-    """Whether the owner of a draft has ended."""
+def _is_abandoned(box: Path, own: Path | None) -> bool:
+    """Return True if the owner of a draft has ended."""
     with suppress(OSError, NotImplementedError, Timeout):
         if not (box / _LOCK).exists():
-            # Its owner may be about to lock it. Clocks of machines differ, a disk has one.
+            # The owner may be about to lock it. Both times are by the clock of the disk.
             return own is not None and own.stat().st_mtime - box.stat().st_mtime > _GRACE
         with FileLock(box / _LOCK, blocking=False):
             return True
     return False
 
 
-# --- into its place ------------------------------------------------------------------------------
+# --- replacement of the target -------------------------------------------------------------------
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Keep the draft on the disk, then let it take its place, then keep that.
+    """Sync the draft to the disk, replace the target by it, and sync the parent folder.
 
-    If it cannot take its place, the end of `box_of` puts back what was moved aside.
+    If the draft cannot be moved, the end of `box_of` restores the old target.
     """
     sync(draft)
     if not (target.is_dir() and _exchange(draft, target)):
@@ -263,7 +263,7 @@ def put_in_place(draft: Path, target: Path, box: Path) -> None:
 
 
 def _exchange(draft: Path, target: Path) -> bool:
-    """Let two folders change places in one step; False where the system cannot."""
+    """Exchange two folders in one step; return False if the system cannot."""
     here, swap = -100, 2  # AT_FDCWD; RENAME_EXCHANGE of Linux and RENAME_SWAP of macOS
     names = os.fsencode(draft), os.fsencode(target)
     try:
@@ -276,13 +276,13 @@ def _exchange(draft: Path, target: Path) -> bool:
 
 
 def sync(path: Path) -> None:
-    """Have a file, or a folder with all that is in it, written to the disk."""
+    """Sync a file, or a folder with all its contents, to the disk."""
     for each in (*path.rglob("*"), path):
         sync_one(each)
 
 
 def sync_one(path: Path) -> None:
-    """Have one file written to the disk, or the names in one folder."""
+    """Sync one file, or the list of names of one folder, to the disk."""
     try:
         file = os.open(path, os.O_RDONLY)
     except OSError:
@@ -290,7 +290,7 @@ def sync_one(path: Path) -> None:
     try:
         os.fsync(file)
     except OSError as error:
-        # Some file systems cannot; a disk that is full or broken must be told.
+        # Some file systems cannot sync; errors of a full or broken disk must be raised.
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.EACCES):
             raise
     finally:

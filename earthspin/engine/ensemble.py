@@ -1,10 +1,10 @@
-"""A question asked for many members: drawn, checked, made in blocks, laid along `member`.
+"""Ensembles: members of a question are drawn, checked and computed in blocks along `member`.
 
-A question whose physics takes arrays throughout says so (`define_parts`, `together`); its members
-are computed side by side, and those of every other question one by one. Side by side, members stand
-in rows of `ROW`, each at the place of its number: whatever adds up products by the row (a BLAS)
-then rounds them alike, however many members there are, and a member is the same bits alone. Members
-that differ in words stand side by side with those of the same words.
+If the parts of a question take arrays (`define_parts`, `together`), its members are computed
+together; otherwise separately. Members that are computed together are arranged in rows of `ROW`,
+each at the index of its number. A BLAS, which sums products by row, then rounds in the same way
+for any number of members, and a member has the same bits alone. Only members with the same names
+in all inputs that are names are computed together.
 """
 
 from __future__ import annotations
@@ -21,15 +21,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.engine import loop
-from earthspin.engine.given import MEMBER
-from earthspin.engine.inputs import Input, along_members, changed, inputs_of, one_member, published
+from earthspin.engine.inputs import (
+    Input,
+    along_members,
+    inputs_of,
+    one_member,
+    published,
+    with_values,
+)
+from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
 from earthspin.engine.run import plan_data, scene_text
-from earthspin.engine.series import asked_of
+from earthspin.engine.series import request_of
 from earthspin.engine.unfinished import Layout
-from earthspin.engine.variants import Variants, Words
+from earthspin.engine.variants import Names, Variants
 from earthspin.errors import ApartError, EarthspinError
 
 if TYPE_CHECKING:
@@ -37,54 +44,56 @@ if TYPE_CHECKING:
 
 IntArray = NDArray[np.int64]
 
-#: Members that stand in a row.
+#: Number of members in a row.
 ROW = 64
-#: Bytes that a block should have, and the most members in one.
+#: Intended size of a block in bytes, and the largest number of members in a block.
 BLOCK_BYTES, LONGEST_BLOCK = 8_000_000, 16_384
-#: The same where members are computed one by one, and a block is what a kill may cost.
-ONE_BY_ONE = 16
-#: Bytes of an ensemble that is held in memory.
+#: Largest block of members that are computed separately; a killed run loses at most one block.
+SEPARATE_BLOCK = 16
+#: Largest size of an ensemble in memory, bytes.
 LARGEST_IN_MEMORY = 4_000_000_000
-#: Members that a message names.
-NAMED = 5
+#: Largest number of members that a message lists.
+LISTED = 5
 
 
 class Ensemble:
-    """A question asked for many members, as work in blocks.
+    """A question with members, computed in blocks.
 
     Parameters
     ----------
     question : Question
-        With members.
+        Question with members.
     block : int, optional
-        How many make a block; by their size if not given.
+        Number of members in a block; chosen from their size by default.
 
     Attributes
     ----------
     inputs : dict of str to Input
-        What differs among them.
+        Inputs in which the members differ.
     values : dict of str to ndarray, shape (n, ...)
-        Of every member that is made; text where words differ.
+        Values of each input for all computed members; text for inputs that are names.
     which : ndarray of int
-        Their numbers.
+        Numbers of the computed members.
     dropped : list of int
-        Numbers of those that cannot exist, where these are left out.
+        Numbers of the impossible members that were left out.
 
     Raises
     ------
     SceneError
-        If nothing differs among the members, or some cannot exist.
+        If the members have no varying input, or some cannot exist.
     """
 
     def __init__(self, question: Question, *, block: int | None = None) -> None:
-        self.asked_question, self.question = question, question.replace(members=None)
+        self.full_question, self.question = question, question.replace(members=None)
         members = question.members or Members()
         where = question.where("members")
         distributions = published(self.question) if members.published else {}
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
         if not self.inputs:
-            problem = "no body of this question has a published uncertainty; say what differs"
+            problem = (
+                "no input of this question has a published uncertainty; name the inputs to vary"
+            )
             raise where.error(None, problem)
         n = count_of(members, distributions, where)
         self.which = np.array(members.only or range(n))
@@ -98,195 +107,198 @@ class Ensemble:
             for name, values in members.values.items()
         }
         self.dropped: list[int] = []
-        self._leave_out_the_impossible(members.impossible == "drop", n)
+        self._drop_impossible_members(members.impossible == "drop", n)
         self._length = block
 
     def __getstate__(self) -> dict[str, Any]:
-        _ = self.layout, self.width  # known before it is sent
+        _ = self.layout, self.width  # computed once, before workers receive copies
         return {n: value for n, value in vars(self).items() if n not in ("variants", "nominal")}
 
-    # --- what there is to do ---------------------------------------------------------------------
+    # --- work of `loop` --------------------------------------------------------------------------
 
     @property
     def what(self) -> str:
-        """What is made, for people."""
+        """Name of the result, for the progress bar."""
         return f"{self.question.word} members"
 
     @cached_property
     def numbers(self) -> dict[str, Input]:
-        """The inputs that are numbers; the others are words."""
+        """Inputs that are numbers; the others are names."""
         return {name: entry for name, entry in self.inputs.items() if not entry.named}
 
     @cached_property
     def variants(self) -> Variants:
-        """The question, or one for all the words of a member."""
+        """The questions of the ensemble, one for each combination of names."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
         return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
-    def words(self, place: int) -> Words:
-        """What is chosen for a member that is not a number."""
-        names = (name for name, entry in self.inputs.items() if entry.named)
-        return tuple(str(self.values[name][place]) for name in names)
+    def names(self, index: int) -> Names:
+        """Names that a member has in the inputs that are names."""
+        inputs = (name for name, entry in self.inputs.items() if entry.named)
+        return tuple(str(self.values[name][index]) for name in inputs)
 
     @cached_property
-    def every(self) -> dict[Words, IntArray]:
-        """Places of the members of all words that there are, ascending."""
+    def groups(self) -> dict[Names, IntArray]:
+        """Indices of the members with the same names, ascending, by names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
-        places: dict[Words, list[int]] = {}
-        for place in range(len(self.which)):
-            places.setdefault(self.words(place), []).append(place)
-        return {words: np.array(group) for words, group in places.items()}
+        indices: dict[Names, list[int]] = {}
+        for index in range(len(self.which)):
+            indices.setdefault(self.names(index), []).append(index)
+        return {names: np.array(group) for names, group in indices.items()}
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """The question as it is, without members; its words are those of the first."""
-        return self.variants.nominal(next(iter(self.every)))
+        """Answer to the question without members, with the names of the first member."""
+        return self.variants.nominal(next(iter(self.groups)))
 
     @cached_property
     def width(self) -> int:
-        """How many members are computed side by side; 1 if one by one."""
+        """Number of members that are computed together; 1 if they are computed separately."""
         rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
         if not self.numbers:
-            return rows * ROW or 1  # nothing is computed but the answer to each of their words
+            return rows * ROW or 1  # one answer for each combination of names is computed
         together = self.question.graph.together
         fit = all(entry.key in together and entry.labelled for entry in self.numbers.values())
         if not fit or getattr(self.question, "accuracy", None) is not None:
-            return 1  # what is chosen for an accuracy is chosen for each alone
+            return 1  # settings for an accuracy are chosen for each member
         return min(rows * ROW, self.question.graph.widest) or 1
 
     @cached_property
     def layout(self) -> Layout:
-        """Cut along its members."""
+        """Division into blocks along `member`."""
         length = self._length
         if length is None:
             fits = BLOCK_BYTES // self.nominal.nbytes
             rows = max(1, min(fits, LONGEST_BLOCK) // ROW) * ROW
-            length = rows if self.width > 1 else max(1, min(fits, ONE_BY_ONE))
+            length = rows if self.width > 1 else max(1, min(fits, SEPARATE_BLOCK))
         return Layout(MEMBER, len(self.which), min(length, len(self.which)))
 
     @cached_property
-    def asked(self) -> Mapping[str, str]:
-        """The question with its members, the versions, and checksums of what is read."""
-        return asked_of(self.asked_question, self.variants.provenance(self.every))
+    def request(self) -> Mapping[str, str]:
+        """Record of the question with its members, the versions, and checksums of files."""
+        return request_of(self.full_question, self.variants.provenance(self.groups))
 
     def plan_data(self) -> xr.Dataset:
-        """The plan of one member, as data."""
-        return plan_data(self.variants[self.words(0)]().plan)
+        """Plan of the first member as a Dataset."""
+        return plan_data(self.variants[self.names(0)]().plan)
 
     def hold(self, client: object = None) -> xr.Dataset:
-        """Make it in memory.
+        """Compute the ensemble in memory.
 
         Raises
         ------
         SceneError
-            If it does not fit.
+            If the result is too large for memory.
         """
         size = self.nominal.nbytes * self.layout.size
         if size > LARGEST_IN_MEMORY:
-            problem = f"they take about {size / 1e9:.3g} GB; write them to a store: give a path"
+            problem = f"they need about {size / 1e9:.3g} GB; give a path to write them to a store"
             raise self.question.error("members", self.layout.size, problem)
         return loop.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
-        """Make it in a store, or go on with one."""
+        """Compute the ensemble into a store, or continue an unfinished store."""
         return loop.write(self, path, client=client)
 
     # --- the members -----------------------------------------------------------------------------
 
-    def _leave_out_the_impossible(self, drop: bool, n: int) -> None:
-        """Refuse members that cannot exist, or leave them out; say which and why."""
-        wrong = dict(sorted(self._impossible(), key=itemgetter(0)))
-        if not wrong:
+    def _drop_impossible_members(self, drop: bool, n: int) -> None:
+        """Refuse members that cannot exist, or leave them out."""
+        impossible = dict(sorted(self._impossible_members(), key=itemgetter(0)))
+        if not impossible:
             return
-        numbers = [int(self.which[place]) for place in wrong]
-        named = _named(numbers)
+        numbers = [int(self.which[index]) for index in impossible]
         if not drop or len(numbers) == len(self.which):
-            problem = f"of {n} these cannot be: {next(iter(wrong.values()))}"
+            count = f"{len(numbers)} of {n} members cannot exist"
+            problem = f"{count}: {next(iter(impossible.values()))}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
-            raise self.question.error("members", named, problem + remedy)
-        possible = np.delete(np.arange(len(self.which)), list(wrong))
+            raise self.question.error("members", _list_of_numbers(numbers), problem + remedy)
+        possible = np.delete(np.arange(len(self.which)), list(impossible))
         self.which, self.dropped = self.which[possible], numbers
         self.values = {name: values[possible] for name, values in self.values.items()}
-        del self.every
+        del self.groups
 
-    def _impossible(self) -> Iterator[tuple[int, EarthspinError]]:
-        """Places of members that cannot exist, and why; at once where arrays tell."""
-        at_once = all(entry.field and entry.labelled for entry in self.numbers.values())
-        for words, places in self.every.items():
+    def _impossible_members(self) -> Iterator[tuple[int, EarthspinError]]:
+        """Yield the indices of members that cannot exist, with the errors that they raise."""
+        arrays = all(entry.field and entry.labelled for entry in self.numbers.values())
+        for names, indices in self.groups.items():
             try:
-                question = self.variants.question(words)
+                question = self.variants.question(names)
             except EarthspinError as error:
-                yield from ((int(place), error) for place in places)
+                yield from ((int(index), error) for index in indices)
                 continue
-            if at_once:
+            if arrays:
                 with suppress(EarthspinError):
-                    changed(question, self.numbers, along_members(self._of_numbers, places))
+                    with_values(question, self.numbers, along_members(self._number_values, indices))
                     continue
-            for place in places.tolist():
+            for index in indices.tolist():
                 try:
-                    changed(question, self.numbers, one_member(self._of_numbers, place))
+                    with_values(question, self.numbers, one_member(self._number_values, index))
                 except EarthspinError as error:
-                    yield place, error
+                    yield index, error
 
     # --- blocks ----------------------------------------------------------------------------------
 
     def first(self) -> xr.Dataset:
-        """Block 0, with the attributes of the whole."""
-        question = self.asked_question
+        """Make block 0, with the attributes of the whole result."""
+        question = self.full_question
         attributes = {"title": question.title, SCENE: scene_text(question)}
         if self.dropped:
-            count = f"{len(self.dropped)} that cannot exist: {_named(self.dropped)}"
+            count = f"{len(self.dropped)} that cannot exist: {_list_of_numbers(self.dropped)}"
             attributes["members_dropped"] = count
-        return self.variants.describe(self.make(0), self.every).assign_attrs(attributes)
+        return self.variants.describe(self.make(0), self.groups).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
         """Make one block of members."""
         first, last = self.layout.bounds(number)
         if self.width == 1:
-            places = [np.array([place]) for place in range(first, last)]
-            pieces = [self._single(place) for place in range(first, last)]
+            indices = [np.array([index]) for index in range(first, last)]
+            pieces = [self._single(index) for index in range(first, last)]
         else:
-            places, pieces = map(list, zip(*self._side_by_side(first, last), strict=True))
-        block = _laid(pieces)
-        order = np.argsort(np.concatenate(places))
+            indices, pieces = map(list, zip(*self._together(first, last), strict=True))
+        block = _concatenated(pieces)
+        order = np.argsort(np.concatenate(indices))
         if (np.diff(order) != 1).any():
             block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
         return block.assign_coords(self._labels(slice(first, last), block))
 
-    def _side_by_side(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Members in whole rows, and of these the ones that are wanted, by their words."""
+    def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
+        """Compute whole rows of members with the same names; yield those from first to last - 1.
+
+        Columns of other members hold a copy of a wanted one, so that a row is always complete.
+        """
         for begin in range(first - first % ROW, last, self.width):
             end = min(begin + self.width, -(-last // ROW) * ROW)
             row = np.arange(begin, end)
-            for words, all_places in self.every.items():
-                places = all_places[np.searchsorted(all_places, max(begin, first)) :]
-                places = places[: np.searchsorted(places, min(end, last))]
-                if not places.size:
+            for names, group in self.groups.items():
+                indices = group[np.searchsorted(group, max(begin, first)) :]
+                indices = indices[: np.searchsorted(indices, min(end, last))]
+                if not indices.size:
                     continue
-                stand_in = np.where(np.isin(row, places), row, places[0])
-                values = along_members(self._of_numbers, stand_in)
-                which = _named(self.which[places].tolist())
+                columns = np.where(np.isin(row, indices), row, indices[0])
+                values = along_members(self._number_values, columns)
+                which = _list_of_numbers(self.which[indices].tolist())
                 try:
-                    answer = self._answer(words, values, which)
+                    answer = self._answer(names, values, which)
                 except ApartError:
-                    yield from ((np.array([place]), self._single(place)) for place in places)
+                    yield from ((np.array([index]), self._single(index)) for index in indices)
                     continue
-                if words:
-                    answer = _for_each(answer, len(row))
+                if names:
+                    answer = _along_all_members(answer, len(row))
                 if MEMBER in answer.dims:
-                    answer = answer.isel({MEMBER: _short(places - begin)})
-                yield places, answer
+                    answer = answer.isel({MEMBER: _as_slice(indices - begin)})
+                yield indices, answer
 
-    def _single(self, place: int) -> xr.Dataset:
-        values, which = one_member(self._of_numbers, place), str(self.which[place])
-        return _for_each(self._answer(self.words(place), values, which), 1)
+    def _single(self, index: int) -> xr.Dataset:
+        values, which = one_member(self._number_values, index), str(self.which[index])
+        return _along_all_members(self._answer(self.names(index), values, which), 1)
 
-    def _answer(self, words: Words, values: Mapping[str, Any], which: str) -> xr.Dataset:
-        """The numbers of one member, or of several with the same words."""
+    def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
+        """Compute the numbers of one member, or of several members with the same names."""
         try:
-            rerun = self.variants[words]
-            answer = rerun(changed(rerun.plan.question, self.numbers, values)).numbers()
+            rerun = self.variants[names]
+            answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
@@ -297,12 +309,15 @@ class Ensemble:
         return answer
 
     @property
-    def _of_numbers(self) -> dict[str, NDArray[Any]]:
-        """Values of the inputs that are numbers."""
+    def _number_values(self) -> dict[str, NDArray[Any]]:
+        """Values of the inputs that are numbers, by name."""
         return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
-        """Numbers of members, and their inputs; of what moves, as theta, the one that is given."""
+        """Make the coordinates along `member`: the numbers of the members, and their inputs.
+
+        An input with the name of a result, such as theta, is labelled ``<name>_given``.
+        """
         labels: dict[str, Any] = {
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
@@ -317,30 +332,30 @@ class Ensemble:
         return labels
 
 
-def _named(numbers: list[int]) -> str:
-    """Numbers of members, the first few by name."""
-    more = f" and {len(numbers) - NAMED} more" if len(numbers) > NAMED else ""
-    return f"{', '.join(map(str, numbers[:NAMED]))}{more}"
+def _list_of_numbers(numbers: list[int]) -> str:
+    """Write numbers of members as text, at most `LISTED` of them."""
+    more = f" and {len(numbers) - LISTED} more" if len(numbers) > LISTED else ""
+    return f"{', '.join(map(str, numbers[:LISTED]))}{more}"
 
 
-def _short(places: IntArray) -> IntArray | slice:
-    """Places as a slice where they stand next to one another, which takes no copy."""
-    first, last = int(places[0]), int(places[-1])
-    return slice(first, last + 1) if last - first + 1 == len(places) else places
+def _as_slice(indices: IntArray) -> IntArray | slice:
+    """Return consecutive indices as a slice, which avoids a copy."""
+    first, last = int(indices[0]), int(indices[-1])
+    return slice(first, last + 1) if last - first + 1 == len(indices) else indices
 
 
-def _for_each(answer: xr.Dataset, count: int) -> xr.Dataset:
-    """An answer whose every number stands along `member`, that of one for so many."""
-    alone = {
+def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
+    """Repeat the numbers of an answer without dimension `member` for `count` members."""
+    repeated = {
         name: variable.expand_dims({MEMBER: count})
         for name, variable in answer.data_vars.items()
         if variable.dtype.kind in "fiubM" and MEMBER not in variable.dims
     }
-    return answer.assign(alone)
+    return answer.assign(repeated)
 
 
-def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
-    """Pieces one after the other, `member` first; what no input touches stands once."""
+def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
+    """Concatenate pieces along `member`; variables without this dimension are taken once."""
     import xarray as xr
 
     variables: dict[Any, Any] = {}
@@ -353,16 +368,16 @@ def _laid(pieces: list[xr.Dataset]) -> xr.Dataset:
     return xr.Dataset(variables, pieces[0].coords)
 
 
-def asked_of_members(
+def with_members(
     question: Question, members: object, seed: int | None = None, **more: Any
 ) -> Question:
-    """Put members into a question, in place of its own where they are given.
+    """Return the question with members, which replace or modify its own.
 
     Parameters
     ----------
     question : Question
     members : object, optional
-        As the key takes them; a number alone changes how many the question has.
+        Value of the key `members`; a whole number changes only the number of members.
     seed : int, optional
     **more
         Fields of `Members` to change.
@@ -370,7 +385,7 @@ def asked_of_members(
     own, where = question.members, question.where("members")
     request: Members | None = own if members is None else Members.read(members, where)
     if request is None:
-        raise where.error(None, "say how many members, or give a file or a table")
+        raise where.error(None, "give the number of members, a file or a table")
     if own is not None and isinstance(members, (int, np.integer)):
         request = replace(own, n=request.n)
     changes = {name: value for name, value in {"seed": seed, **more}.items() if value is not None}

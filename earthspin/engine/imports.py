@@ -1,8 +1,8 @@
-"""Time spent in importing modules, so that the run time of a part can leave it out.
+"""Time spent in importing modules, which the run times of parts exclude.
 
-Parts import what they need when they first run, and the first part of a process would be charged
-for libraries that all parts share. While a clock runs, import statements are timed; statements
-inside an imported module count with the outermost one, in each thread by itself.
+Parts import modules when they first run, so the first part of a process would include the import
+of libraries that all parts share. While a clock runs, import statements are timed. Statements
+inside an imported module count with the outermost one, separately in each thread.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _import = builtins.__import__
 
 
 class _Clock(threading.local):
-    """Seconds of imports in this thread, and how deep they are nested."""
+    """Time spent in imports in this thread, s, and the depth of nested imports."""
 
     seconds = 0.0
     depth = 0
@@ -43,7 +43,7 @@ def _timed_import(*args: Any, **kwargs: Any) -> Any:
 
 @contextmanager
 def import_clock() -> Iterator[_Clock]:
-    """Time the imports of this thread; `seconds` of the clock grows with each."""
+    """Time the imports of this thread; the clock's `seconds` is the sum."""
     global _users, _import
     with _LOCK:
         if not _users:

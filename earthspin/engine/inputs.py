@@ -1,8 +1,8 @@
-"""What members of an ensemble may differ in, by name.
+"""Inputs in which the members of an ensemble may differ, by name.
 
 ``"body.j2"`` is a number of the body, ``"moon.gm"`` one of a perturber, ``"spin"`` a key that is a
-number, and ``"moments.2"`` a number of a key that is a list of them. ``"orbit"`` is a key whose
-values have names: what is chosen for it is told by text.
+number, and ``"moments.2"`` a number in a key that is a list of numbers. ``"orbit"`` is a key whose
+values are names.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.given import MEMBER
-from earthspin.engine.members import Distribution, texts
+from earthspin.engine.member_values import MEMBER
+from earthspin.engine.members import Distribution, checked_names
 from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
 from earthspin.units import Number, by_name
@@ -31,17 +31,17 @@ class Input:
     Attributes
     ----------
     name : str
-        As it was given.
+        Name of the input, as the user wrote it.
     key : str
-        The key of the question.
+        Key of the question.
     element : int or None
-        Which of several, where the key holds a list.
+        Index in the list that the key holds; None if the key holds no list.
     field : str
-        The field of a body; empty if it is the key itself.
+        Field of a body; empty if the input is the key itself.
     kind : Kind
-        How it is read.
+        Type that reads and checks a value.
     labelled : bool
-        Whether it may be an array that stands for many, where the question takes one in this key.
+        Whether the input may be an array along `member`, if the question takes arrays in this key.
     """
 
     name: str
@@ -58,24 +58,24 @@ class Input:
 
     @property
     def unit(self) -> str:
-        """In which it is kept; empty for pure numbers and names."""
+        """Unit of the values; empty for pure numbers and names."""
         return "" if self.named else str(self.kind.unit)
 
     @property
     def label(self) -> str:
-        """Its name among the coordinates of an answer."""
+        """Name of the input among the coordinates of an answer."""
         return self.name.replace(".", "_")
 
     def checked(self, values: NDArray[Any], where: Where) -> NDArray[Any]:
-        """Values of the members as they were given, if they are numbers where it is one.
+        """Return the values of the members if their type fits the input.
 
         Raises
         ------
         EarthspinError
-            If they are not, or one of the names is none that the key takes.
+            If a number is required and names were given, or the key does not take one of the names.
         """
         if self.named:
-            texts(np.unique(values).tolist(), self.kind, where)
+            checked_names(np.unique(values).tolist(), self.kind, where)
         elif values.dtype.kind == "U":
             raise where.error(str(values[0]), "give finite numbers")
         return values
@@ -89,15 +89,15 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
     question : Question
     names : iterable of str
     where : Where
-        What named them.
+        The key that holds the names, for messages.
 
     Raises
     ------
     SceneError
-        If there is none of a name, which names the nearest; or a number belongs to something that
-        is itself chosen.
+        If the question has no input of a name (the message suggests the nearest one), or a number
+        belongs to a key whose value itself varies.
     """
-    every = {entry.name: entry for entry in _every(question)}
+    every = {entry.name: entry for entry in _all_inputs(question)}
     inputs: dict[str, Input] = {}
     for name in names:
         short = name.removeprefix(f"{question.table}.") if question.table else name
@@ -108,13 +108,15 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
     chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
     for entry in inputs.values():
         if chosen.get(entry.key, entry.name) != entry.name:
-            problem = f"members differ in '{chosen[entry.key]}' itself; leave out one of the two"
+            problem = (
+                f"members already differ in '{chosen[entry.key]}' itself; remove one of the two"
+            )
             raise where.at(entry.name).error("a number", problem)
     return inputs
 
 
-def _every(question: Question) -> Iterator[Input]:
-    """Every number of a question that is set, and every key that takes a name."""
+def _all_inputs(question: Question) -> Iterator[Input]:
+    """Yield every number of a question that has a value, and every key that takes a name."""
     for key, entry in keys_of(question.__class__).items():
         value = getattr(question, key)
         if by_name(entry.kind) and key not in keys_of(Question):
@@ -123,10 +125,10 @@ def _every(question: Question) -> Iterator[Input]:
             for field, kind in value.magnitudes().items():
                 yield Input(f"{key}.{field}", key, None, field, kind, field in value.LABELLED)
         elif isinstance(value, tuple) and value and hasattr(value[0], "magnitudes"):
-            for place, body in enumerate(value):
+            for index, body in enumerate(value):
                 for field, kind in body.magnitudes().items():
                     name, labelled = f"{body.name}.{field}", field in body.LABELLED
-                    yield Input(name, key, place, field, kind, labelled)
+                    yield Input(name, key, index, field, kind, labelled)
         elif isinstance(entry.kind, Number):
             yield Input(key, key, None, "", entry.kind, True)
         elif hasattr(value, "numbers") or isinstance(value, np.ndarray):
@@ -134,18 +136,18 @@ def _every(question: Question) -> Iterator[Input]:
             kind = Number(list_kind.unit, list_kind.example)
             if isinstance(value, np.ndarray):
                 yield Input(key, key, None, "", entry.kind, True)
-            for place in range(np.size(getattr(value, "numbers", value))):
-                yield Input(f"{key}.{place}", key, place, "", kind, True)
+            for index in range(np.size(getattr(value, "numbers", value))):
+                yield Input(f"{key}.{index}", key, index, "", kind, True)
 
 
 def published(question: Question) -> dict[str, Distribution]:
-    """Distributions of the numbers whose uncertainty is published, by name of the input.
+    """Distributions of the numbers with a published uncertainty, by name of the input.
 
-    Those of bodies are normal; of a perturber, the mass alone counts. The question adds those of
-    its own keys. No correlation was published with any.
+    Numbers of bodies have normal distributions; of a perturber, only the mass varies. The question
+    adds distributions of its own keys. No correlations are published.
     """
     distributions: dict[str, Distribution] = {}
-    for item in _every(question):
+    for item in _all_inputs(question):
         body = getattr(question, item.key)
         if item.element is not None and item.field:
             body = body[item.element]
@@ -158,20 +160,22 @@ def published(question: Question) -> dict[str, Distribution]:
     return distributions | {name: Distribution(*entry) for name, entry in own.items()}
 
 
-def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]) -> Question:
-    """Put values into a question, which is then one of a member, or of several.
+def with_values(
+    question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]
+) -> Question:
+    """Return the question with the input values of one member or of several members.
 
     Parameters
     ----------
     question : Question
     inputs : mapping of str to Input
     values : mapping of str to float, ndarray or DataArray
-        By the same names; labelled arrays along `member` stand for several members.
+        Values by name of the input; arrays along `member` hold values of several members.
 
     Raises
     ------
     EarthspinError
-        If it cannot be, in one line.
+        If a body or question with these values is impossible.
     """
     fields: dict[tuple[str, int | None], dict[str, Any]] = {}
     for name, entry in inputs.items():
@@ -196,37 +200,37 @@ def changed(question: Question, inputs: Mapping[str, Input], values: Mapping[str
     return changed.holding(**changes) if labelled else changed.replace(**changes)
 
 
-def _with_item(items: tuple[Any, ...], place: int, item: Any) -> tuple[Any, ...]:
-    return (*items[:place], item, *items[place + 1 :])
+def _with_item(items: tuple[Any, ...], index: int, item: Any) -> tuple[Any, ...]:
+    return (*items[:index], item, *items[index + 1 :])
 
 
-def _with_number(sequence: Any, place: Any, value: Any) -> Any:
-    """A list of numbers with one of them changed, or changed to one for each member."""
+def _with_number(sequence: Any, index: Any, value: Any) -> Any:
+    """Replace one number of a list by another number, or by one number for each member."""
     if hasattr(sequence, "numbers"):
-        return replace(sequence, numbers=_with_item(sequence.numbers, place, value))
+        return replace(sequence, numbers=_with_item(sequence.numbers, index, value))
     labelled = hasattr(value, "dims")
     if labelled and not hasattr(sequence, "dims"):
         sequence = _along_members(np.stack([sequence] * value.size))
     sequence = sequence.copy()
     rows = value.size if labelled else 1
-    getattr(sequence, "values", sequence).reshape(rows, -1)[:, place] = value
+    getattr(sequence, "values", sequence).reshape(rows, -1)[:, index] = value
     return sequence
 
 
 def _along_members(values: NDArray[Any]) -> xr.DataArray:
-    """A labelled array, `member` first."""
+    """Make a labelled array whose first dimension is `member`."""
     import xarray as xr
 
     return xr.DataArray(values, dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(values.ndim - 1))))
 
 
 def along_members(values: Mapping[str, NDArray[Any]], which: Any) -> dict[str, Any]:
-    """Values of several members as labelled arrays."""
+    """Return the values of several members as labelled arrays."""
     return {name: _along_members(array[which]) for name, array in values.items()}
 
 
 def one_member(values: Mapping[str, NDArray[Any]], number: int) -> dict[str, Any]:
-    """Values of one member."""
+    """Return the values of one member."""
     return {
         name: array[number].item() if array.ndim == 1 else array[number]
         for name, array in values.items()

@@ -1,4 +1,4 @@
-"""Units that results are shown in, their factors from SI, and how files spell them."""
+"""Units of results, their factors from SI, and their spelling in files."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 CONVENTIONS = "CF-1.11"
 
-#: Units that are SI themselves; "1" for pure numbers, "" for words and dates.
+#: Units that are SI themselves; "1" for pure numbers, "" for text and dates.
 _SI = (
     "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
     "m/s2", "J/kg",
 )  # fmt: skip
 
-#: Factor from SI to each unit that results are shown in.
+#: Factor from SI to each unit of results.
 FROM_SI: dict[str, float] = {
     "arcsec/yr": 1 / ARCSEC_PER_YEAR,
     "arcsec": 1 / ARCSEC,
@@ -32,8 +32,8 @@ FROM_SI: dict[str, float] = {
 }
 
 
-#: Spelling in files of units that people read otherwise: UDUNITS and astropy read it as the same
-#: number. UDUNITS takes `a` for are, and its `yr` is 2e-5 shorter than the Julian year.
+#: Spelling of units in files, which UDUNITS and astropy read as the same number. UDUNITS reads `a`
+#: as the are, and its `yr` is 2e-5 shorter than the Julian year.
 IN_FILES: dict[str, str] = {
     "arcsec/yr": f"{1 / JULIAN_YEAR!r} arcsec s-1",
     "yr": "365.25 d",
@@ -55,7 +55,7 @@ def from_si(unit: str) -> float:
     Raises
     ------
     SceneError
-        For a unit that no result is shown in; it is never taken for SI.
+        If the unit is not among those of results.
     """
     if unit not in FROM_SI:
         raise SceneError("units", unit, nearest(unit, [u for u in FROM_SI if u]))
@@ -63,11 +63,11 @@ def from_si(unit: str) -> float:
 
 
 def si(array: xr.DataArray) -> xr.DataArray:
-    """Values of a variable of a result, back in SI units.
+    """Convert a variable of a result to SI units.
 
     Raises
     ------
     SceneError
-        If its units are not among those that results are shown in.
+        If its unit is not among those of results.
     """
     return array / from_si(array.attrs.get("units", ""))

@@ -1,11 +1,12 @@
-"""Members of an ensemble: what differs among them, and how it is drawn.
+"""Members of an ensemble: their varying inputs, and how these are drawn.
 
-What differs are numbers of a question, or words in it: the table of an orbit, a kernel, a model.
+An input is a number of a question, or a name in it: an orbit table, a kernel, a model.
 
-Every member has random numbers of its own, by its number and the seed (Philox over
-``SeedSequence(seed, spawn_key=(member,))``), so that member 17 is the same alone, in any block and
-on any machine. A member draws one standard normal number for each input, in the order in which they
-are named, and each distribution turns it into its own: correlations are those of these numbers.
+Each member has its own random generator, defined by its number and the seed (Philox with
+``SeedSequence(seed, spawn_key=(member,))``). Member 17 is therefore the same alone, in any block
+and on any machine. A member draws one standard normal number for each input, in the order in which
+the inputs are named, and each distribution transforms it. Correlations are those of the normal
+numbers.
 """
 
 from __future__ import annotations
@@ -20,33 +21,33 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.given import from_scene, of_dataset, read_file
+from earthspin.engine.member_values import read_file, values_from_dataset, values_from_scene
 from earthspin.errors import Where, nearest
 from earthspin.units import FloatArray, Word, by_name, pack
 
-#: As many members as numbers of one kind are ever held whole.
-MOST = 10_000_000
+#: Largest number of members, which limits the memory for the values of one input.
+LARGEST_COUNT = 10_000_000
 
 Shape = Literal["normal", "uniform", "choice", "grid"]
 _SHAPES: dict[str, str] = {
     "normal": "a mean and one standard deviation",
     "uniform": "a lowest and a highest value",
     "choice": "one value or more",
-    "grid": "one value or more, of which every combination is made",
+    "grid": "one value or more; members take every combination of all grids",
 }
 _SETTINGS = ("n", "seed", "uncertainty", "impossible", "only", "correlations", "values")
 
 
 @dataclass(frozen=True)
 class Distribution:
-    """How one input is distributed, its numbers as they were given.
+    """Distribution of one input, with its numbers as the user wrote them.
 
     Attributes
     ----------
     shape : str
         ``"normal"``, ``"uniform"``, ``"choice"`` or ``"grid"``.
     numbers : tuple
-        Numbers, text with units, or words.
+        Numbers, text with units, or names.
     """
 
     shape: str
@@ -63,32 +64,32 @@ class Distribution:
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
         if many == 0 or (shape in ("normal", "uniform") and many != 2):
             raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
-        return cls(shape, tuple(map(_plain, numbers)))
+        return cls(shape, tuple(map(_scene_value, numbers)))
 
     def checked(self, kind: Any, where: Where) -> Distribution:
-        """Return it with its numbers as the input is kept, or its words, checked."""
+        """Check the distribution and return it with its numbers converted to SI units."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
-                problem = f"{self.shape} is of numbers; of words and names give choice or grid"
+                problem = f"{self.shape} applies to numbers; for names give choice or grid"
                 raise where.error(list(self.numbers), problem)
-            return Distribution(self.shape, texts(self.numbers, kind, where))
+            return Distribution(self.shape, checked_names(self.numbers, kind, where))
         numbers = [kind.read(number, where) for number in self.numbers]
         if any(map(np.ndim, numbers)):
             raise where.error(self.numbers, "give single numbers")
         if self.shape == "normal" and not numbers[1] >= 0:
-            raise where.error(self.numbers, "a standard deviation is zero or more")
+            raise where.error(self.numbers, "the standard deviation must be zero or positive")
         if self.shape == "uniform" and not numbers[0] <= numbers[1]:
-            raise where.error(self.numbers, "the lowest value comes first")
+            raise where.error(self.numbers, "give the lowest value first")
         return Distribution(self.shape, tuple(map(float, numbers)))
 
-    def values(self, normal: FloatArray, place: FloatArray) -> NDArray[Any]:
-        """Turn standard normal numbers into those of the distribution.
+    def values(self, normal: FloatArray, index: FloatArray) -> NDArray[Any]:
+        """Transform standard normal numbers into values of the distribution.
 
         Parameters
         ----------
         normal : ndarray, shape (n,)
-        place : ndarray of int, shape (n,)
-            Of a grid: which value.
+        index : ndarray of int, shape (n,)
+            Indices of the values of a grid; ignored by the other shapes.
 
         Returns
         -------
@@ -103,29 +104,29 @@ class Distribution:
         if self.shape == "uniform":
             return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
         if self.shape == "choice":
-            place = np.minimum((share * numbers.size).astype(int), numbers.size - 1)
-        return np.asarray(numbers[place])
+            index = np.minimum((share * numbers.size).astype(int), numbers.size - 1)
+        return np.asarray(numbers[index])
 
 
-def texts(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
-    """Words of an input that is no number, as they were given, each checked.
+def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
+    """Check the names that are chosen for an input, and return them.
 
     Raises
     ------
     EarthspinError
-        If the input does not take one, or it is told by more than text.
+        If the input does not take one of them, or one is not text.
     """
     names = tuple(values)
-    for word in names:
-        kind.read(word, where)
-        if not isinstance(word, str):
-            problem = "members are labelled by text: give a name, or the path of a file it is in"
-            raise where.error(type(word).__name__, problem)
+    for name in names:
+        kind.read(name, where)
+        if not isinstance(name, str):
+            problem = "members are labelled by text: give a name or the path of a file"
+            raise where.error(type(name).__name__, problem)
     return names
 
 
-def _plain(number: Any) -> Any:
-    """A number as a scene holds it, or a path."""
+def _scene_value(number: Any) -> Any:
+    """Convert a number, Quantity or path to the value that a scene file holds."""
     if isinstance(number, os.PathLike):
         return os.fspath(number)
     if hasattr(number, "to_value"):
@@ -134,14 +135,14 @@ def _plain(number: Any) -> Any:
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
-    """Standard normal numbers of members, each from a generator of its own.
+    """Draw standard normal numbers, with a separate generator for each member.
 
     Parameters
     ----------
     seed : int
     members : ndarray of int, shape (n,)
     inputs : int
-        How many for each.
+        How many numbers each member draws.
 
     Returns
     -------
@@ -156,24 +157,24 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Members:
-    """The members that a question is asked for.
+    """Specification of the members of an ensemble.
 
     Attributes
     ----------
     n : int or None
-        How many are drawn; None if grids or values say it.
+        How many members are drawn; None if the number follows from grids or values.
     seed : int
     published : bool
         Whether the numbers of the bodies are drawn from their published uncertainties.
     impossible : str
-        ``"refuse"`` or ``"drop"``: what is done with members that cannot exist.
+        ``"refuse"`` or ``"drop"``: how members that cannot exist are treated.
     only : tuple of int
-        Numbers of the members that are made; all, if empty.
+        Numbers of the members that are computed; all if empty.
     correlations : tuple of (str, str, float)
     distributions : mapping of str to Distribution
-        By the name of the input, like ``"body.j2"``.
+        Distributions by name of the input, like ``"body.j2"``.
     values : mapping of str to ndarray, shape (n, ...)
-        Given member by member: numbers, or words.
+        Numbers or names of every member, by name of the input.
     """
 
     n: int | None = None
@@ -192,21 +193,21 @@ class Members:
 
     @classmethod
     def read(cls, value: object, where: Where) -> Members:
-        """Read how many, a table, a Dataset, or the path of a file with one.
+        """Read the number of members, a table, a Dataset, or the path of a file with a Dataset.
 
         Raises
         ------
         SceneError
-            If it is none of these, a name or a number is wrong, or there is no member.
+            If the value is none of these, a name or a number is wrong, or there are no members.
         """
         if isinstance(value, Members):
             return value
         if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-            return cls(n=_whole(value, where, 1), published=True)
+            return cls(n=_whole_number(value, where, 1), published=True)
         if isinstance(value, (str, os.PathLike)):
             value = read_file(Path(value))
         if hasattr(value, "data_vars"):
-            return cls(values=of_dataset(value, where))
+            return cls(values=values_from_dataset(value, where))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
         return cls._of_table(value, where)
@@ -232,18 +233,20 @@ class Members:
                 raise where.at(name).error(settings[name], "give a list")
         n = settings.get("n")
         return cls(
-            n=None if n is None else _whole(n, where.at("n"), 1),
-            seed=_whole(settings.get("seed", 0), where.at("seed"), 0, 2**64 - 1),
+            n=None if n is None else _whole_number(n, where.at("n"), 1),
+            seed=_whole_number(settings.get("seed", 0), where.at("seed"), 0, 2**64 - 1),
             published=uncertainty is not None,
             impossible=impossible,
-            only=tuple(_whole(m, where.at("only"), 0) for m in settings.get("only", ())),
+            only=tuple(_whole_number(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
             distributions=dict(_distributions(inputs, where)),
-            values={name: from_scene(entry, where.at(name)) for name, entry in values.items()},
+            values={
+                name: values_from_scene(entry, where.at(name)) for name, entry in values.items()
+            },
         )
 
     def write(self) -> dict[str, Any]:
-        """Give the table, with every number."""
+        """Return the table of a scene, with every number."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         options = {
             "n": self.n,
@@ -263,18 +266,18 @@ class Members:
         return table
 
 
-def _whole(value: Any, where: Where, low: int, high: int = MOST) -> int:
+def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT) -> int:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise where.error(value, "give a whole number")
     if not low <= int(value) <= high:
-        raise where.error(value, f"it lies between {low} and {high}")
+        raise where.error(value, f"give a number from {low} to {high}")
     return int(value)
 
 
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
-    """Distributions by name; TOML makes tables within tables of names with points."""
+    """Distributions by name; a dotted name in TOML becomes a table within a table."""
     for name, entry in table.items():
         full = f"{before}{name}"
         if not isinstance(entry, Mapping):
@@ -305,39 +308,40 @@ def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
 
 
 def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where) -> int:
-    """How many members there are, by number, grids or values, which must agree.
+    """Number of members, from `n`, the grids or the values.
 
     Raises
     ------
     SceneError
-        If they do not, or nothing says it.
+        If these disagree, or none of them is given.
     """
     grids = [len(entry.numbers) for entry in inputs.values() if entry.shape == "grid"]
     grid = math.prod(grids)
     counts = {"n": members.n} if members.n is not None else {}
     counts |= {name: len(entry) for name, entry in members.values.items()}
     if len(set(counts.values())) > 1:
-        raise where.error(counts, "these are not equally many")
+        raise where.error(counts, "these numbers of members differ; give equally many values")
     n = next(iter(counts.values()), grid if grids else None)
     if n is None:
-        raise where.at("n").error(None, "say how many members are drawn")
+        raise where.at("n").error(None, "give the number of members to draw")
     if grids and n % grid:
-        raise where.at("n").error(n, f"the grid has {grid} points: give a multiple of that")
+        raise where.at("n").error(n, f"the grid has {grid} points: give a multiple of {grid}")
     if max((*members.only, 0)) >= n:
-        raise where.at("only").error(max(members.only), f"there are {n} members, from 0")
+        problem = f"members are numbered from 0 to {n - 1}"
+        raise where.at("only").error(max(members.only), problem)
     return int(n)
 
 
 def draw(
     members: Members, inputs: Mapping[str, Distribution], which: FloatArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Draw the values of every input that is drawn.
+    """Draw values from the distributions of all inputs.
 
     Parameters
     ----------
     members : Members
     inputs : mapping of str to Distribution
-        With their numbers as the inputs are kept.
+        Distributions with numbers in SI units.
     which : ndarray of int, shape (n,)
         Numbers of the members.
     where : Where
@@ -350,18 +354,18 @@ def draw(
         return {}
     normal = standard_normal(members.seed, which, len(inputs))
     if members.correlations:
-        normal = _mixed(normal, _root(members, [*inputs], where))
-    place, values = which.astype(int), {}
+        normal = _correlated(normal, _root(members, [*inputs], where))
+    index, values = which.astype(int), {}
     for (name, distribution), column in zip(inputs.items(), normal.T, strict=True):
         size = len(distribution.numbers)
-        values[name] = distribution.values(column, place % size)
+        values[name] = distribution.values(column, index % size)
         if distribution.shape == "grid":
-            place = place // size
+            index = index // size
     return values
 
 
-def _mixed(normal: FloatArray, root: FloatArray) -> FloatArray:
-    """Each row times the root, summed number by number: a BLAS rounds a row alone otherwise."""
+def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
+    """Multiply each row by the root, without a BLAS, whose rounding depends on the row count."""
     mixed = np.zeros_like(normal)
     for column, weights in zip(normal.T, root.T, strict=True):
         mixed += np.multiply.outer(column, weights)
@@ -369,7 +373,7 @@ def _mixed(normal: FloatArray, root: FloatArray) -> FloatArray:
 
 
 def _root(members: Members, names: list[str], where: Where) -> FloatArray:
-    """Lower triangle whose product with its transpose is the matrix of correlations."""
+    """Cholesky factor of the matrix of correlations."""
     matrix = np.eye(len(names))
     for first, second, size in members.correlations:
         for name in (first, second):
@@ -381,5 +385,5 @@ def _root(members: Members, names: list[str], where: Where) -> FloatArray:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError:
         rows = [list(row) for row in members.correlations]
-        problem = "no numbers are correlated so; the matrix is not positive"
+        problem = "the matrix of correlations is not positive definite; give smaller ones"
         raise where.at("correlations").error(rows, problem) from None

@@ -1,4 +1,4 @@
-"""What a model leaves out, named with its size; it never hides in an error."""
+"""Effects that a model does not include, with their sizes, which are not part of the errors."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-BOUND = "a bound, or a published size, of what is left out"
+BOUND = "this is a bound on a neglected effect, or its published size"
 
 
 @dataclass(frozen=True)
 class Neglected:
-    """Sizes of what is left out.
+    """Sizes of neglected effects.
 
     Attributes
     ----------
     sizes : mapping of str to float
-        By effect, SI.
+        Size of each effect, SI.
     unit : str
-        In which they are shown.
+        Unit of the sizes in results.
     what : str
-        What the sizes are of, in plain words; without sizes, what is left out.
+        Meaning of the sizes in plain words; without sizes, the neglected effect.
     source : str
-        Where they come from.
+        Source of the sizes.
     unknown : str
-        What is left out besides, whose size is not known.
+        Further neglected effects of unknown size.
     """
 
     sizes: Mapping[str, float] = field(default_factory=dict)
@@ -45,7 +45,7 @@ class Neglected:
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
-        """Sizes that each have a source, all of one unit."""
+        """Make from constants that have the same unit and their own sources."""
         (unit,) = {size.unit for size in sizes.values()}
         return cls(
             {name: size.value / from_si(unit) for name, size in sizes.items()},
@@ -56,7 +56,7 @@ class Neglected:
 
     @property
     def largest(self) -> str:
-        """Name of the largest effect with its size, for the answer's attributes."""
+        """Name and size of the largest effect, for the attributes of an answer."""
         unknown = f"of unknown size: {self.unknown}" if self.unknown else ""
         if not self.sizes:
             return unknown or self.what
@@ -66,19 +66,19 @@ class Neglected:
         return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
-        """Give `neglected_effect` along `effect`, the largest first.
+        """Return `neglected_effect` along `effect`, with the largest effect first.
 
         Parameters
         ----------
         effects : sequence of str
-            Labels that the answer has along `effect`; what is not left out then has size 0.
+            Labels that the answer has along `effect`; included effects have size 0.
         """
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
         notes = {"references": self.source, "of_unknown_size": self.unknown}
         attrs = {name: words for name, words in notes.items() if words}
 
         class Effects(Variables, along=("effect",), no_error=BOUND):
-            """Sizes by effect."""
+            """Variables of the section."""
 
             neglected_effect: Value = number(self.unit, self.what)
             effect: Labels = labels()

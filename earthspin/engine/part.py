@@ -1,8 +1,8 @@
-"""A part: a typed function that computes one thing.
+"""Parts: typed functions that each compute one result of a question.
 
-What it needs follows from its signature: each parameter is a key of the question or the result of
-another part, by name; one whose default is None is used if it is there. A part all of whose
-parameters may be None stands on one part or more of those.
+The inputs of a part follow from its signature: each parameter is a key of the question or the
+result of another part, by name. A parameter whose default is None is optional. A part with only
+optional parameters needs at least one of them.
 """
 
 from __future__ import annotations
@@ -18,43 +18,43 @@ from earthspin.engine.variables import Variable, Variables
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
 
-#: Says why a part is left out, from keys of the question; None keeps it.
+#: Returns why a part is left out, from keys of the question; None if the part runs.
 Reason = Callable[..., str | None]
 
-#: Says for people what a part does, from keys of the question.
-Teller = Callable[..., str]
+#: Returns one sentence on what a part does, from keys of the question.
+Describer = Callable[..., str]
 
-#: The parameter by which a part asks for one stretch of a long series.
+#: Name of the parameter of a part that computes one block of a long series.
 BLOCK = "block"
 
 
 @dataclass(frozen=True)
 class Block:
-    """A stretch of a long series, from the epoch numbered `first` up to `last`."""
+    """A block of a long series: the epochs with indices from `first` to `last` - 1."""
 
     first: int
     last: int
 
 
 class Part(Generic[P, R]):
-    """One thing to compute; call it as the function that it is.
+    """A typed function that computes one result; a part is called like its function.
 
     Attributes
     ----------
     name : str
-        Of the function, by which other parts ask for its result.
+        Name of the function; other parts take the result as a parameter of this name.
     does : str
-        What it does: the first line of the docstring.
+        Description of the part: the first line of the docstring.
     needs, uses : tuple of str
-        Keys and parts without which it does not run, and those that it takes if they are there.
+        Names of the required and of the optional parameters.
     gives : mapping of str to Variable
-        The variables that it adds to an answer or section; empty for an intermediate part.
+        The variables that the part adds to an answer or section; empty for an intermediate part.
     unless : tuple of callable
-        Each takes keys of the question by name and gives a reason for leaving the part out.
+        Each takes keys of the question by name and returns a reason for leaving the part out.
     chooses : bool
-        Whether it chooses settings for an accuracy that was asked for.
-    tells : callable or None
-        Takes keys of the question by name and says what the part does with them.
+        Whether the part chooses settings for a requested accuracy.
+    describe : callable or None
+        Takes keys of the question by name and returns a description of the part.
     """
 
     def __init__(
@@ -62,20 +62,25 @@ class Part(Generic[P, R]):
         function: Callable[P, R],
         unless: tuple[Reason, ...],
         chooses: bool,
-        tells: Teller | None = None,
+        describe: Describer | None = None,
     ) -> None:
-        self.function, self.unless, self.chooses, self.tells = function, unless, chooses, tells
+        self.function, self.unless, self.chooses, self.describe = (
+            function,
+            unless,
+            chooses,
+            describe,
+        )
         self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        """Compute."""
+        """Call the function of the part."""
         return self.function(*args, **kwargs)
 
     def __reduce__(self) -> str:
-        # A module holds the part under the name of its function: pickle and copy refer to it.
+        # A module holds the part under the name of its function, so pickle stores only the name.
         return self.name
 
     def __repr__(self) -> str:
@@ -83,30 +88,32 @@ class Part(Generic[P, R]):
 
     @property
     def title(self) -> str:
-        """Its name in plans."""
+        """Name of the part in plans."""
         return self.name.replace("_", "-")
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """Parameters without a default."""
+        """Names of the parameters without a default."""
         return _parameters(self.function, inspect.Parameter.empty)
 
     @cached_property
     def uses(self) -> tuple[str, ...]:
-        """Parameters that may be None."""
+        """Names of the parameters that may be None."""
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
-        """Why it is left out of the answer to a question with these keys; None if it is not."""
-        for says in self.unless:
-            why = says(**_wanted(says, keys))
+        """Return why the part is left out for these keys of the question; None if it runs."""
+        for condition in self.unless:
+            why = condition(**_arguments(condition, keys))
             if why is not None:
                 return why
         return None
 
-    def told(self, keys: dict[str, Any]) -> str:
-        """What it does for a question with these keys, as it stands in a plan."""
-        return self.does if self.tells is None else self.tells(**_wanted(self.tells, keys))
+    def description(self, keys: dict[str, Any]) -> str:
+        """Describe in a plan what the part does for these keys of the question."""
+        return (
+            self.does if self.describe is None else self.describe(**_arguments(self.describe, keys))
+        )
 
 
 @overload
@@ -116,7 +123,7 @@ def part(
     *,
     unless: Reason | tuple[Reason, ...] = ...,
     chooses: bool = ...,
-    tells: Teller | None = ...,
+    describe: Describer | None = ...,
 ) -> Callable[[Callable[P, R]], Part[P, R]]: ...
 def part(
     function: Callable[P, R] | None = None,
@@ -124,35 +131,36 @@ def part(
     *,
     unless: Reason | tuple[Reason, ...] = (),
     chooses: bool = False,
-    tells: Teller | None = None,
+    describe: Describer | None = None,
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
-    """Make a part of a typed function.
+    """Make a part from a typed function.
 
     Parameters
     ----------
     function : callable
-        Its parameters name keys of the question and other parts.
-    unless : callable or tuple of them
-        Reasons for leaving it out, by keys of the question.
+        Its parameters are names of keys of the question and of other parts.
+    unless : callable or tuple of callable
+        Functions of keys of the question that return a reason for leaving the part out, or None.
     chooses : bool
-        Whether it chooses settings for an accuracy.
-    tells : callable, optional
-        Says for a plan what it does, by keys of the question; its docstring by default.
+        Whether the part chooses settings for a requested accuracy.
+    describe : callable, optional
+        Function of keys of the question that describes the part in a plan; the first line of the
+        docstring by default.
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     if function is None:
-        return lambda function: Part(function, reasons, chooses, tells)
-    return Part(function, reasons, chooses, tells)
+        return lambda function: Part(function, reasons, chooses, describe)
+    return Part(function, reasons, chooses, describe)
 
 
-def _wanted(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
-    """The keys that a function takes."""
+def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
+    """Select the keys that are parameters of a function."""
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
 def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
-    """Variables of the class that a function returns by its annotation; none of another type."""
+    """Variables that a function returns; empty if its return type is not a `Variables` class."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
         returned = function.__globals__.get(returned)
@@ -168,6 +176,6 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 
 def _first_sentence(function: Callable[..., Any]) -> str:
-    """First line of a docstring, as it stands in a list."""
+    """First line of a docstring, lower case and without a full stop, for lists."""
     line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
     return line[:1].lower() + line[1:] if line[1:2].islower() else line

@@ -1,4 +1,4 @@
-"""From a question back to the parts that it needs, in order, and what is left out and why."""
+"""Plan of a run: parts that a question needs, in order, and parts left out, with reasons."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from earthspin.engine.question import NEGLECTED, Question
 from earthspin.errors import SceneError, nearest
 
 ALL = "all"
-#: Line of the run times for the time spent in importing modules, which no part is charged for.
+#: Row of the run times for importing modules; the run times of parts exclude it.
 IMPORTS = "imports"
-#: Attribute of an answer that holds its question, complete, as the text of a scene file.
+#: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 
 
 def scene_of(answer: Any) -> str:
-    """Text of the scene of an answer, empty if it carries none.
+    """Text of the scene of an answer; empty if there is none.
 
-    A netCDF file has it as a variable, so that ``ncdump -h`` stays readable.
+    A netCDF file holds the scene as a variable, so that ``ncdump -h`` stays readable.
     """
     text = answer.attrs.get(SCENE, "")
     if not text and SCENE in getattr(answer, "data_vars", ()):
@@ -31,7 +31,7 @@ def scene_of(answer: Any) -> str:
     return text if isinstance(text, str) else ""
 
 
-#: How many of the last runs are remembered with their run times.
+#: Number of recent runs whose run times are stored.
 REMEMBERED = 64
 
 _SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
@@ -39,7 +39,7 @@ _SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
 
 @dataclass(frozen=True)
 class Row:
-    """One part of a plan: its name, whether it runs, what it does or why it does not, seconds."""
+    """One row of a plan: part, status, description or reason for leaving it out, run time in s."""
 
     part: str
     status: str
@@ -48,25 +48,26 @@ class Row:
 
     @property
     def run_time(self) -> str:
-        """Its run time in words; empty before it has run."""
+        """Run time as text; empty before the run."""
         return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What will run for a question, and what will not.
+    """Plan of a run: parts that run, and parts that are left out, with reasons.
 
     Attributes
     ----------
     question : Question
     parts : tuple of Part
-        In the order in which they run.
+        Parts in the order in which they run.
     sections : tuple of str
-        Those that will be given beside the answer.
+        Sections that are computed besides the answer.
     left_out : dict of str to str
-        Reason by title, for the other parts of the question and its sections.
+        Reasons for leaving out the other parts, by title of the part.
     seconds : mapping of str to float
-        By name of the part, once it has run, without imports; these are under `IMPORTS`.
+        Run time of each part by name, without imports, and that of imports under `IMPORTS`; empty
+        before the run.
     """
 
     question: Question
@@ -77,19 +78,19 @@ class Plan:
 
     @property
     def rows(self) -> list[Row]:
-        """The plan as a table: what runs first, then what is left out."""
+        """Rows of the plan: first the parts that run, then the parts left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
         rows = [
-            Row(part.title, status, part.told(keys), self.seconds.get(part.name))
+            Row(part.title, status, part.description(keys), self.seconds.get(part.name))
             for part in self.parts
         ]
         if IMPORTS in self.seconds:
-            words = "modules loaded on first use, once in each process"
-            rows.append(Row(IMPORTS, status, words, self.seconds[IMPORTS]))
+            note = "modules loaded on first use, once in each process"
+            rows.append(Row(IMPORTS, status, note, self.seconds[IMPORTS]))
         return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
 
     def to_frame(self) -> Any:
-        """Give the table as a DataFrame of pandas."""
+        """Return the plan as a pandas DataFrame."""
         import pandas as pd
 
         return pd.DataFrame([vars(row) for row in self.rows])
@@ -117,22 +118,22 @@ class Plan:
         )
 
 
-NOT_ASKED = "its section is not asked for"
+NOT_REQUESTED = "its section was not requested"
 
 
 def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
-    """Work out which parts a question needs.
+    """Determine which parts a question needs, and in which order.
 
     Parameters
     ----------
     question : Question
     sections : str or iterable of str
-        Sections that are wanted beside the answer, by name; ``"all"`` takes all that apply.
+        Names of the requested sections; ``"all"`` requests all that apply.
 
     Raises
     ------
     SceneError
-        If the answer cannot be given or a section that is named does not apply, with the reason.
+        If the answer cannot be computed, or a named section does not apply.
     """
     graph, keys = question.graph, question.keys()
     _refuse_taken_dimensions(question)
@@ -140,7 +141,7 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     reasons: dict[str, str] = {}
 
     def choose(name: str) -> bool:
-        """Choose a part and all that it stands on, or note why it is left out."""
+        """Choose a part and its inputs, or store the reason for leaving it out."""
         if name in chosen or name in reasons:
             return name in chosen
         part, used = graph.parts[name], list[str]()
@@ -153,8 +154,8 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
         if why is None:
             used = [other for other in offered if choose(other)]
             if offered and not used and not part.needs:  # it needs one of several
-                lack = (f"no {graph.parts[other].title}: {reasons[other]}" for other in offered)
-                why = "; ".join(lack)
+                missing = (f"no {graph.parts[other].title}: {reasons[other]}" for other in offered)
+                why = "; ".join(missing)
         if why is None:
             chosen[name] = (*needed, *used)
         else:
@@ -177,7 +178,7 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
             raise SceneError("sections", section, f"it does not apply: {why}")
     order = tuple(graph.parts[name] for name in TopologicalSorter(chosen).static_order())
     left_out = {
-        part.title: reasons.get(name) or part.reason(keys) or NOT_ASKED
+        part.title: reasons.get(name) or part.reason(keys) or NOT_REQUESTED
         for name, part in graph.parts.items()
         if name not in chosen
     }
@@ -185,13 +186,13 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
 
 
 def _named_sections(question: Question, sections: str | Iterable[str]) -> list[str]:
-    """Names of sections, each once, in the order of the question."""
+    """Names of the requested sections without duplicates, in the order of the question."""
     known = question.graph.sections
     if isinstance(sections, str) and sections == ALL:
         return list(known)
     try:
         named = [sections] if isinstance(sections, str) else [*sections]
-    except Exception:  # whatever it is, it is no list
+    except Exception:  # not iterable
         raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
     for name in named:
         if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
@@ -200,7 +201,7 @@ def _named_sections(question: Question, sections: str | Iterable[str]) -> list[s
 
 
 def _refuse_taken_dimensions(question: Question) -> None:
-    """Refuse labelled arrays of a body along a dimension that results have already."""
+    """Refuse labelled arrays of a body along a dimension that results already have."""
     parts = question.graph.parts.values()
     taken = {dim for part in parts for declared in part.gives.values() for dim in declared.dims}
     taken |= {name for part in parts for name in part.gives}
@@ -211,12 +212,12 @@ def _refuse_taken_dimensions(question: Question) -> None:
                 raise question.error(
                     f"{name}.{inner}",
                     sorted(clash)[0],
-                    "results have this name already; give the array another",
+                    "results already have this name; rename the dimension of the array",
                 )
 
 
 def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
-    """Remember the seconds of each part of a scene that has run."""
+    """Store the run time of each part of a scene in this process, s."""
     _SECONDS[scene] = dict(seconds)
     _SECONDS.move_to_end(scene)
     if len(_SECONDS) > REMEMBERED:
@@ -224,5 +225,5 @@ def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
 
 
 def seconds_of(scene: str) -> Mapping[str, float]:
-    """Seconds of each part when this scene last ran in this process; empty if it did not."""
+    """Run time of each part in the last run of a scene in this process, s; empty without a run."""
     return _SECONDS.get(scene, {})

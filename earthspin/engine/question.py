@@ -1,7 +1,7 @@
-"""A question is a class: its fields are what can be asked, each with a type that reads itself.
+"""Questions: classes whose fields are the possible inputs, each with a type that reads its value.
 
-From the fields follow the keys of a scene file, what ``--set`` takes, the signature and docstring
-of the public call, completion in the shell, and the page of keys.
+The fields define the keys of a scene file, the names that ``--set`` takes, the signature and
+docstring of the public call, completion in the shell, and the page of keys.
 """
 
 from __future__ import annotations
@@ -18,25 +18,25 @@ from earthspin.engine.part import BLOCK, Part
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
 
-#: Name of the part of every question that says what its model leaves out.
+#: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
 
 
 def key(default: Any = MISSING, *, doc: str) -> Any:
-    """Declare what can be asked at the head of a scene.
+    """Declare a key at the top level of a scene.
 
     Parameters
     ----------
     default
-        As one would write it; without one the key must be given.
+        Default as a user would write it; a key without a default is required.
     doc : str
-        One sentence.
+        Meaning of the key, in one sentence.
     """
     return field(default=default, metadata={"doc": doc, "setting": False})
 
 
 def setting(default: Any = MISSING, *, doc: str) -> Any:
-    """Declare what can be asked in the question's own table of a scene."""
+    """Declare a key in the question's own table of a scene."""
     return field(default=default, metadata={"doc": doc, "setting": True})
 
 
@@ -50,9 +50,9 @@ class Key:
     kind : Kind
     doc : str
     shown : object
-        Its default as one would write it; MISSING if it must be given.
+        Default as a user would write it; MISSING if the key is required.
     setting : bool
-        Whether it stands in the question's own table.
+        Whether the key belongs in the question's own table.
     """
 
     name: str
@@ -63,24 +63,24 @@ class Key:
 
     @property
     def required(self) -> bool:
-        """Whether it must be given."""
+        """Return True if the key has no default."""
         return self.shown is MISSING
 
     @cached_property
     def default(self) -> Any:
-        """Its default, read."""
+        """Default value, as its type reads it."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
     def default_words(self) -> str:
-        """Its default for people; empty where there is none."""
+        """Default value as text; empty if there is none."""
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
 
 
 def _read(kind: Kind[Any], value: object, where: Where) -> Any:
-    """Read a value; whatever is given, what comes out is a value or one clear line.
+    """Read a value, and raise an `EarthspinError` for whatever cannot be read.
 
-    Anything at all may be given, and what a library or somebody's class says of it is no help.
+    The value may be any object. Errors from libraries or from its own class would not help a user.
     """
     try:
         return kind.read(value, where)
@@ -91,37 +91,37 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:
-    """A value as one would give it: bodies by their names."""
+    """Write a value as a user would, with bodies by their names."""
     bodies = value if isinstance(value, tuple) else (value,)
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
 def plain_words(value: Any) -> str:
-    """Write a value on one line: bodies by their names."""
+    """Write a value on one line, with bodies by their names."""
     if isinstance(value, (tuple, list)):
         return ", ".join(plain_words(item) for item in value)
     return str(getattr(value, "name", value))
 
 
 class Question:
-    """What can be asked.
+    """Base class of all questions; its fields are the keys that every question has.
 
     Attributes
     ----------
     word : str
-        What stands after ``compute =`` in a scene.
+        Name of the question after ``compute =`` in a scene.
     call : str
         Name of the public function.
     table : str
-        Name of its own table of settings in a scene; empty if it has none.
+        Name of the question's own table of settings in a scene; empty if it has none.
     views : str
-        Module of `views` that makes its tables and figures.
+        Module of `views` that makes the tables and figures.
     page : str
-        Page of the documentation that explains its method; empty if there is none.
+        Page of the documentation that explains the method; empty if there is none.
     positional : tuple of str
-        Arguments of the call that need no name.
+        Positional arguments of the call.
     exclusive : tuple of tuple of str
-        Groups of keys of which one group alone may be given, such as times against span and step.
+        Groups of keys that exclude one another, such as `times` and (`span`, `step`).
     """
 
     word: ClassVar[str]
@@ -134,27 +134,23 @@ class Question:
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
 
-    title: str = key("", doc="title for headings")
+    title: str = key("", doc="title of tables and figures")
     members: Members | None = key(
         None,
-        doc=(
-            "run an ensemble: how many members, or which inputs vary and how; a whole "
-            "number draws the numbers of the bodies from their published uncertainties"
-        ),
+        doc="run an ensemble: which inputs vary, and how; a whole number draws that many members "
+        "from the published uncertainties of the bodies",
     )
     uncertainty: Literal["linear", "sample"] | None = key(
         None,
-        doc=(
-            "how errors of the bodies' numbers are propagated: linearly, or also by a "
-            "sample of their published uncertainties"
-        ),
+        doc="how errors from the uncertainties of the inputs are computed: by linear propagation, "
+        "or also from a sample of the bodies' published uncertainties",
     )
-    n: int | None = key(None, doc="number of members of the sample; 1000 if not given")
+    n: int | None = key(None, doc="number of members of the sample, 1000 by default")
 
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
     ) -> None:
-        """Name a question; a class without a word holds keys that several questions share."""
+        """Set the names of a question; a class without `word` holds keys for several questions."""
         cls.word, cls.call, cls.table, cls.positional = word, call, table, positional
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
@@ -170,9 +166,9 @@ class Question:
         in_scene: bool = False,
         typed: Collection[str] = (),
     ) -> Self:
-        """Read each key once, refuse unknown ones, and check them together.
+        """Read each key once, refuse unknown keys, and check the keys together.
 
-        Values in `known` have been read before.
+        Values in `known` were read before and are not read again.
         """
         known = known or {}
         keys = keys_of(type(self))
@@ -190,7 +186,7 @@ class Question:
             elif name in known:
                 value = known[name]
             elif entry.required:
-                raise where.error(None, f"give it: {entry.doc} ({entry.kind.words})")
+                raise where.error(None, f"required: {entry.doc} ({entry.kind.words})")
             else:
                 value = entry.default
             object.__setattr__(self, name, value)
@@ -200,27 +196,27 @@ class Question:
         return self
 
     def _check_groups(self) -> None:
-        """Refuse keys that exclude one another."""
+        """Refuse combinations of keys that exclude one another."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
             raise self.error(groups[0][0], "...", f"give either {ways}")
         if self.uncertainty == "sample" and self.members is not None:
-            problem = "members tell it already; give one of the two"
+            problem = "an ensemble is a sample already; give either members or uncertainty"
             raise self.error("uncertainty", "sample", problem)
         if self.n is not None and self.uncertainty != "sample":
-            raise self.error("n", self.n, "it belongs to uncertainty = 'sample'")
+            raise self.error("n", self.n, "it is only used with uncertainty = 'sample'")
 
     def check(self) -> None:
-        """Check keys against each other; a question says how."""
+        """Check that the keys fit together; questions override this method."""
 
     def where(self, name: str) -> Where:
-        """Name a key for messages."""
+        """Return the key's name and the scene file, for messages."""
         return Where(name, self.read_from)
 
-    def error(self, name: str, given: object, problem: str) -> SceneError:
-        """Make the error that says what is wrong with a key."""
-        return self.where(name).error(given, problem)
+    def error(self, name: str, value: object, problem: str) -> SceneError:
+        """Make the error for a wrong value of a key."""
+        return self.where(name).error(value, problem)
 
     given: ClassVar[frozenset[str]]
     read_from: ClassVar[str]
@@ -235,14 +231,14 @@ class Question:
         title: str = "",
         typed: Collection[str] = (),
     ) -> Self:
-        """Read a question from the keys of a scene, `compute` aside.
+        """Read a question from the keys of a scene, without `compute`.
 
         Parameters
         ----------
         table : mapping
         source, title : str
         typed : collection of str
-            Keys whose numbers a person typed as text, and which need units.
+            Keys whose values were typed on the command line; their numbers need units.
 
         Raises
         ------
@@ -268,31 +264,31 @@ class Question:
         return cls.__new__(cls)._fill(values, source=source, in_scene=True, typed=typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
-        """Give the scene as a table: every key with every number, as TOML holds it.
+        """Return the scene as a table for TOML: every key with every number.
 
         Parameters
         ----------
         given : bool
-            Only the keys that were given, not the defaults.
+            Include only the keys that were given, without the defaults.
         """
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
-        idle = set(keys_of(type(self))) - self.given if given else self._idle()
+        omitted = set(keys_of(type(self))) - self.given if given else self._superseded_keys()
         for name, entry in keys_of(type(self)).items():
             value = getattr(self, name)
-            if value is not None and name not in idle:
+            if value is not None and name not in omitted:
                 (own if entry.setting else table)[name] = entry.kind.write(value)
         return table | ({self.table: own} if own else {})
 
-    def _idle(self) -> set[str]:
-        """Keys that another group of keys has taken the place of."""
+    def _superseded_keys(self) -> set[str]:
+        """Keys without effect, because another group of exclusive keys was given."""
         used = next((group for group in self.exclusive if self.given & set(group)), None)
         if used is None:
             return set()
         return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
-        """Value of every key by its name."""
+        """Values of all keys by name."""
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
@@ -308,12 +304,12 @@ class Question:
         return self._changed(changes, {})
 
     def holding(self, **arrays: Any) -> Self:
-        """Return the question with numbers of many members in some keys, checked one by one before.
+        """Return the question with arrays of all members' numbers in some keys, without checks.
 
         Parameters
         ----------
         **arrays
-            As the parts of a question take them that says so (`define_parts`, `together`).
+            Labelled arrays for keys in `together` of `define_parts`, whose numbers were checked.
         """
         return self._changed({}, arrays)
 
@@ -323,7 +319,7 @@ class Question:
         return question._fill(values, known=before | dict(arrays), source=self.read_from)
 
     def _repr_html_(self) -> str:
-        """Every key with its value, the given ones marked, and what it means."""
+        """Table of all keys with their values, origin (given or default) and meaning."""
         rows = []
         for name, entry in keys_of(type(self)).items():
             value = getattr(self, name)
@@ -345,7 +341,7 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 
 
 def keys_of(question: type[Question]) -> dict[str, Key]:
-    """Keys of a question by name: the title, its own in the order of its class, and shared ones."""
+    """Keys of a question by name: the title, the question's own keys, then the shared keys."""
     if "key_table" not in vars(question):
         hints = get_type_hints(question, include_extras=True)
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
@@ -364,7 +360,7 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 
 
 def unknown_key(question: type[Question], name: str) -> str:
-    """Say that a question does not have a key, and which it has."""
+    """Message for an unknown key, with the nearest known keys."""
     return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
 
 
@@ -378,18 +374,18 @@ class Graph:
     Attributes
     ----------
     parts : dict of str to Part
-        All of them by name.
+        All parts by name.
     answer : tuple of str
-        Those whose variables make up the answer.
+        Names of the parts whose variables make up the answer.
     sections : dict of str to tuple of str
-        Those whose variables make up each section.
+        Names of the parts whose variables make up each section.
     without : tuple of str
-        What parts would use and the question does not have.
+        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer, so that members of
-        an ensemble are computed side by side.
+        an ensemble are computed together.
     widest : int
-        How many of them at most.
+        Largest number of members that are computed together.
     """
 
     parts: dict[str, Part[..., Any]]
@@ -413,29 +409,29 @@ def define_parts(
     together: tuple[str, ...] = (),
     widest: int = 1,
 ) -> None:
-    """Say which parts answer a question, and check that they fit together.
+    """Define the parts that answer a question, and check that they fit together.
 
     Parameters
     ----------
     question : type
     answer : Part or tuple of Part
-        What a call gives; the first must run.
+        Parts whose variables a call returns; the first must run.
     sections : mapping of str to Part or tuple of Part
-        What else the question can tell, by name; among them `neglected`.
+        Parts of further results by name of the section; `neglected` is required.
     parts : iterable of Part
-        The others.
+        Intermediate parts.
     without : tuple of str
-        What its parts would use and the question does not have.
+        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer.
     widest : int
-        How many members of an ensemble are then computed side by side at most.
+        Largest number of members of an ensemble that are computed together.
 
     Raises
     ------
     TypeError
-        If a parameter of a part is neither a key nor a part, a name stands for both, nothing would
-        use what the question is without, or it does not say what it neglects.
+        If a parameter of a part is neither a key nor a part, a key and a part share a name, no part
+        uses a name in `without`, or the part `neglected` is missing.
     """
     groups = {
         name: group if isinstance(group, tuple) else (group,)
@@ -445,20 +441,20 @@ def define_parts(
     named = {part.name: part for part in all_parts}
     names, keys = set(named), set(keys_of(question))
     if len({id(part) for part in all_parts}) != len(named) or names & keys:
-        raise TypeError(f"{question.__name__}: a name stands for two things")
+        raise TypeError(f"{question.__name__}: two parts, or a part and a key, share a name")
     used = {use for part in all_parts for use in part.uses}
     for name in without:
         if name in names | keys or name not in used:
-            raise TypeError(f"{question.__name__}: it cannot be without '{name}'")
+            raise TypeError(f"{question.__name__}: no part uses '{name}', or the question has it")
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK, *without}:
                 raise TypeError(
-                    f"{question.__name__}: {part.name} asks for '{parameter}', which is neither a "
-                    "key nor a part; add it, or name it in without= if the part can do without it"
+                    f"{question.__name__}: {part.name} takes '{parameter}', which is neither a "
+                    "key nor a part; add it, or name it in without= if it is optional"
                 )
     if NEGLECTED not in names:
-        raise TypeError(f"{question.__name__} does not say what it neglects")
+        raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
     question.graph = Graph(named, ends.pop("answer"), ends, without, together, widest)
 
@@ -467,7 +463,7 @@ def define_parts(
 
 
 def describe_keys(question: type[Question]) -> str:
-    """List the keys of a question: what may be given, the default, and a sentence."""
+    """List the keys of a question: allowed values, meaning and default."""
     lines = []
     for in_table in (False, True):
         chosen = [entry for entry in keys_of(question).values() if entry.setting is in_table]

@@ -1,4 +1,4 @@
-"""Run the parts of a plan in order, each timed, and merge what they gave into an answer."""
+"""Run and time the parts of a plan in order, and merge their results into an answer."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Run:
-    """A plan that has run, with the results of its parts and the keys of its question by name."""
+    """A completed plan, with the results of its parts and the keys of its question by name."""
 
     plan: Plan
     results: dict[str, Any]
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Sources of its numbers: versions, and checksums of files."""
+        """Sources of the numbers: versions, and checksums of files."""
         return _sources(self.results.values())
 
     def provenance_of(self, parts: Iterable[str]) -> dict[str, str]:
@@ -85,7 +85,7 @@ def _sources(values: Iterable[Any]) -> dict[str, str]:
 
 
 def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
-    """Names of parts and of all that they are computed from."""
+    """Names of the parts and of all their direct and indirect inputs."""
     names = {*parts}
     for part in reversed(plan.parts):
         if part.name in names:
@@ -94,13 +94,13 @@ def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
 
 
 class Rerun:
-    """A question that is run repeatedly with something changed: the other parts run once.
+    """Run a question repeatedly with some keys changed; parts that do not depend on them run once.
 
     Parameters
     ----------
     question : Question
     changing : iterable of str
-        Names of the keys that change; ``"block"`` for stretches of a long series.
+        Names of the keys that change; ``"block"`` for blocks of a long series.
     """
 
     def __init__(self, question: Question, changing: Iterable[str]) -> None:
@@ -112,7 +112,7 @@ class Rerun:
         self.fixed = run_parts(replace(self.plan, parts=fixed))
 
     def __call__(self, question: Question | None = None, **values: object) -> Run:
-        """Run the rest, of the question as it is or with keys changed."""
+        """Run the parts that depend on the changing keys, of this question or of a changed one."""
         plan = self.plan if question is None else plan_parts(question)
         names = {part.name for part in plan.parts} - self.changing
         before = {name: value for name, value in self.fixed.results.items() if name in names}
@@ -120,7 +120,7 @@ class Rerun:
 
 
 def run_choosing(question: Question) -> list[Any]:
-    """Return what the parts that choose settings for an accuracy choose; no other part runs.
+    """Run only the parts that choose settings for an accuracy, and return the settings.
 
     Parameters
     ----------
@@ -155,17 +155,17 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
 
 @contextmanager
 def in_range(what: str) -> Iterator[None]:
-    """Make numbers that overflow an error, never infinity with a warning; also a decorator.
+    """Raise an error if numbers overflow; a context manager and decorator.
 
     Parameters
     ----------
     what : str
-        What is computed, for the message.
+        Name of the computed quantity or part, for the message.
 
     Raises
     ------
     UndefinedError
-        If they do.
+        If a number overflows or is undefined.
     """
     import numpy as np
 
@@ -174,7 +174,7 @@ def in_range(what: str) -> Iterator[None]:
             yield
     except ArithmeticError as error:
         raise UndefinedError(
-            f"numbers go beyond what can be computed ({what}: {error}); check their sizes"
+            f"numbers are too large or too small to compute with ({what}: {error}); check the input"
         ) from error
 
 
@@ -182,11 +182,11 @@ def in_range(what: str) -> Iterator[None]:
 
 
 def plan_data(plan: Plan) -> xr.Dataset:
-    """Return the plan as data, with the seconds."""
+    """Return the plan as a Dataset, with run times."""
     import xarray as xr
 
     rows = plan.rows
-    why = "what the part does, or why it was left out"
+    why = "description of the part, or reason for leaving it out"
     seconds = {"units": "s", "long_name": "run time of the part"}
     return xr.Dataset(
         {
@@ -199,7 +199,7 @@ def plan_data(plan: Plan) -> xr.Dataset:
 
 
 def _attributes(run: Run) -> dict[str, str]:
-    """Global attributes: text alone, the same from run to run."""
+    """Global attributes of an answer: text that is the same in every run."""
     question = run.plan.question
     attributes = {
         "Conventions": CONVENTIONS,
@@ -246,12 +246,12 @@ def scene_text(question: Question) -> str:
     return text
 
 
-#: Stands for an array's bytes while a scene is written, letter by letter, by the library.
+#: Placeholder for packed arrays while tomli_w writes a scene, since it writes long text slowly.
 _PACKED = "earthspin: packed array {}"
 
 
 def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """A table whose packed arrays are set aside: their letters need no escaping."""
+    """Move the packed arrays of a table to `packed`, and put placeholders in the table."""
     if isinstance(value, list):
         return [_without_bytes(item, packed) for item in value]
     if not isinstance(value, dict):

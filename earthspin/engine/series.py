@@ -1,4 +1,4 @@
-"""A long series as work in blocks: each block is a stretch of its times."""
+"""Compute a long series in blocks of consecutive times."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Series:
-    """A question over so many times that they are answered stretch by stretch.
+    """A question with so many times that it is answered in blocks.
 
     Attributes
     ----------
     question : Question
-        One with a part that takes ``block``.
+        Question with a part that takes ``block``.
     size, length : int
-        How many times there are, and how many make a block.
+        Number of times in total and in a block.
     """
 
     question: Question
@@ -35,12 +35,12 @@ class Series:
 
     @property
     def what(self) -> str:
-        """What is made, for people."""
+        """Name of the result, for the progress bar."""
         return f"{self.question.word} series"
 
     @property
     def layout(self) -> Layout:
-        """Cut along its times."""
+        """Division into blocks along `time`."""
         return Layout("time", self.size, self.length)
 
     @cached_property
@@ -51,21 +51,21 @@ class Series:
         return {name: value for name, value in vars(self).items() if name != "_rerun"}
 
     @cached_property
-    def asked(self) -> Mapping[str, str]:
-        """The question, the versions and the kernel."""
-        return asked_of(self.question, self._rerun.fixed.provenance)
+    def request(self) -> Mapping[str, str]:
+        """Record of the question, the versions and the kernel."""
+        return request_of(self.question, self._rerun.fixed.provenance)
 
     def first(self) -> xr.Dataset:
-        """Answer the first stretch; its attributes are those of the whole."""
+        """Answer the first block; its attributes are those of the whole series."""
         return self.make(0)
 
     def make(self, number: int) -> xr.Dataset:
-        """Answer one stretch."""
+        """Answer one block."""
         return self._rerun(block=Block(*self.layout.bounds(number))).answer()
 
 
-def asked_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
-    """What is asked and of which versions, by name, for a store that may be gone on with.
+def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
+    """Record of a question and of the versions, with which an unfinished store is compared.
 
     Parameters
     ----------

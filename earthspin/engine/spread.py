@@ -1,4 +1,4 @@
-"""Statistics of an ensemble: quantiles, and the share of each input in the variance."""
+"""Statistics of an ensemble: quantiles, and the contribution of each input to the variance."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine.given import MEMBER
+from earthspin.engine.member_values import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
 
 
 def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
-    """Whether an answer is one of many members that were drawn or given."""
+    """Return True if an answer is an ensemble."""
     return MEMBER in answer.dims and any("input" in c.attrs for c in answer.coords.values())
 
 
@@ -31,7 +31,7 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
     Raises
     ------
     SceneError
-        If it is no ensemble, or a share is not between 0 and 1.
+        If the answer is not an ensemble, or a share is not between 0 and 1.
     """
     try:
         wanted = np.atleast_1d(real_numbers(shares))
@@ -49,10 +49,10 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
 
 
 def sensitivity(answer: xr.Dataset) -> xr.Dataset:
-    """How much each input has to do with each number; ``ds.earthspin.sensitivity()``.
+    """Slope and share of variance by input of each number; ``ds.earthspin.sensitivity()``.
 
-    An input that is no number, such as the table of an orbit, has a share, that of the variance
-    between the means of its members, and no slope.
+    An input that is a name, such as an orbit table, has no slope; its share is that of the variance
+    between the means of the members with the same name (eta squared).
 
     Parameters
     ----------
@@ -61,39 +61,38 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
     Raises
     ------
     SceneError
-        If it is no ensemble, or has too few members: two more than there are inputs, an input in
-        words counting for as many as there are of these, less one.
+        If the answer is not an ensemble, or has fewer members than `members_needed`.
     """
     outputs = {
         n: array for n, array in _members(answer, "sensitivity").items() if "_error" not in n
     }
     columns, count, needed = inputs_of(answer), answer.sizes[MEMBER], members_needed(answer)
     if count < needed:
-        words = f"{len(columns)} inputs take at least {needed} members"
-        raise SceneError("sensitivity", f"{count} members", words)
+        problem = f"{len(columns)} inputs need at least {needed} members"
+        raise SceneError("sensitivity", f"{count} members", problem)
     classes = [array for array in columns.values() if array.dtype.kind == "U"]
     numbers = [array for array in columns.values() if array.dtype.kind != "U"]
     inputs = np.stack(numbers, axis=1) if numbers else np.empty((count, 0))
-    no_slope = {"no_slope": "of words there is none"} if classes else {}
+    no_slope = {"no_slope": "inputs that are names have no slope"} if classes else {}
     variables: dict[str, Any] = {}
     for name, array in outputs.items():
         shares = sampling.shares_of_variance(inputs, array.values.astype(float), classes)
         what, rest = array.attrs.get("long_name", name), array.dims[1:]
         slope_units = f"{array.attrs.get('units', '1')} per unit of the input"
-        for ending, values, dims, words, units in (
+        for ending, values, dims, meaning, units in (
             ("slope", shares.slope, ("input", *rest), "change per unit of the input", slope_units),
             ("share", shares.share, ("input", *rest), "share of the variance", "1"),
-            ("unexplained", shares.unexplained, rest, "share that straight lines leave", "1"),
+            ("unexplained", shares.unexplained, rest, "variance not explained by the fit", "1"),
         ):
-            attrs = {"long_name": f"{words}, of the {what}", "units": units}
+            attrs = {"long_name": f"{meaning}, of the {what}", "units": units}
             attrs |= no_slope if ending == "slope" else {}
             variables[f"{name}_{ending}"] = (dims, values, attrs)
-    labels = {"input": ("input", [*columns], {"long_name": "what differs"})}
+    labels = {"input": ("input", [*columns], {"long_name": "input of the members"})}
     return xr.Dataset(variables, labels | _other_labels(answer), dict(answer.attrs))
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
-    """What differs among members, by name: a column for each number, then words."""
+    """Input values of the members by name: one column for each number, then names."""
     inputs = [array for array in answer.coords.values() if "input" in array.attrs]
     numbers = {
         f"{array.attrs['input']}{'' if array.ndim == 1 else f'.{k}'}": column
@@ -101,12 +100,15 @@ def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
         if array.dtype.kind in "fiu"
         for k, column in enumerate(array.values.reshape(array.sizes[MEMBER], -1).T)
     }
-    words = {str(array.attrs["input"]): array for array in inputs if array.dtype.kind not in "fiu"}
-    return numbers | {name: array.values.astype(str) for name, array in words.items()}
+    texts = {str(array.attrs["input"]): array for array in inputs if array.dtype.kind not in "fiu"}
+    return numbers | {name: array.values.astype(str) for name, array in texts.items()}
 
 
 def members_needed(answer: xr.Dataset) -> int:
-    """Fewest members of an ensemble from which shares of its inputs follow."""
+    """Smallest number of members for `sensitivity`.
+
+    It is 2, plus 1 for each input that is a number, plus k - 1 for each input with k names.
+    """
     columns = inputs_of(answer).values()
     return 2 + sum(
         len(np.unique(column)) - 1 if column.dtype.kind == "U" else 1 for column in columns
@@ -114,10 +116,10 @@ def members_needed(answer: xr.Dataset) -> int:
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
-    """Numbers that differ among the members, `member` first."""
+    """Select the numbers that differ among the members, with `member` first."""
     if not is_ensemble(answer):
-        words = "it is no ensemble; earthspin.ensemble makes one"
-        raise SceneError(what, answer.attrs.get("title", "a Dataset"), words)
+        problem = "it is not an ensemble; earthspin.ensemble makes one"
+        raise SceneError(what, answer.attrs.get("title", "a Dataset"), problem)
     return {
         str(name): array.transpose(MEMBER, ...)
         for name, array in answer.data_vars.items()

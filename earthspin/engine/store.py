@@ -1,10 +1,10 @@
-"""Results on disk: netCDF, or Zarr by region, whole or not at all, and guarded.
+"""Write and read results as netCDF or Zarr, with atomic writes and checksums.
 
-A result is written beside its place and moved there when it is complete (`earthspin.engine.drafts`
-says what that promises). It carries checksums (`earthspin.engine.checksums`): the bytes of a netCDF
-file are held to its last line before it is opened, and what it says to an attribute if another
-program has taken that line away. The files of a Zarr store are held to its ledger as they are read,
-and all of them by `verify`.
+A result is written to a draft, which is moved to the target when it is complete
+(`earthspin.engine.drafts`). It contains checksums (`earthspin.engine.checksums`). The bytes of a
+netCDF file are compared with its last line before it is opened; if another program has removed that
+line, the content is compared with an attribute. The files of a Zarr store are compared with its
+ledger when they are read, and `verify` compares all of them.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_
 if TYPE_CHECKING:
     import xarray as xr
 
-#: One thread at a time in the netCDF library, which is not made for more.
+#: Lock of the netCDF library, which is not thread-safe.
 _NETCDF = threading.RLock()
 
-#: Bytes of a group of a netCDF file beside its numbers, at most about.
+#: Rough upper bound on the size of a group of a netCDF file without its numbers, bytes.
 _FRAME = 1 << 16
 
 #: Integer microseconds from a recent date hold every epoch of every kernel exactly.
@@ -40,19 +40,19 @@ TIME_ENCODING = {
     "units": "microseconds since 2000-01-01T12:00:00",
     "dtype": "int64",
     "calendar": "proleptic_gregorian",
-    "_FillValue": np.iinfo(np.int64).min,  # no date; zero would be the year 2000
+    "_FillValue": np.iinfo(np.int64).min,  # the default, zero, would be a date in 2000
 }
 
 
 def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
-    """Write an answer, alone or with its sections, to a file.
+    """Write an answer, alone or with its sections, to a netCDF file or Zarr store.
 
     Parameters
     ----------
     result : Dataset or DataTree
     path : str or Path
-        Ends in ``.nc`` or ``.zarr``. What stands there is replaced when all is written and on the
-        disk, a file in one step; until then, and if anything goes wrong, it is as it was.
+        Path that ends in ``.nc`` or ``.zarr``. An existing file is replaced when the new one is
+        complete and on the disk. It is not changed if an error occurs.
 
     Returns
     -------
@@ -61,11 +61,12 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     Raises
     ------
     OutputError
-        If the place cannot be written, its name has another ending, or `result` is no answer.
+        If the path cannot be written, its name has another ending, or `result` is not a Dataset or
+        DataTree.
     TypeError
-        If `path` is no path.
+        If `path` is not a path.
     MissingExtraError
-        If zarr is asked for and not installed.
+        If zarr is needed and not installed.
 
     Examples
     --------
@@ -77,11 +78,11 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     """
     place = as_path(path)
     if not hasattr(result, "data_vars"):
-        problem = f"{type(result).__name__} is no answer"
+        problem = f"{type(result).__name__} is not an answer"
         raise OutputError(place, problem, "give a Dataset or DataTree")
     _refuse_attributes(result, place)
     if place.suffix not in (".nc", ".zarr"):
-        raise OutputError(place, "it ends in neither .nc nor .zarr", "choose one of the two")
+        raise OutputError(place, "its name ends in neither .nc nor .zarr", "choose one of the two")
     if place.suffix == ".zarr":
         zarr_of()
     with replacing(place) as draft:
@@ -90,12 +91,12 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
 
 
 def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Write an answer straight to a netCDF file; `write` does so whole or not at all.
+    """Write an answer to a netCDF file without a draft; `write` is atomic.
 
     Raises
     ------
     OSError
-        If the file cannot be written, with the reason of the system.
+        If the file cannot be written; the message contains that of the operating system.
     """
     groups = _groups(result)
     if scene := groups["/"].attrs.pop(SCENE, ""):
@@ -107,8 +108,8 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
                 mode: Any = "w" if group == "/" else "a"
                 encoding = encoding_of(node, zarr=False)
                 node.to_netcdf(path, mode=mode, group=group, engine="netcdf4", encoding=encoding)
-        except (RuntimeError, OSError) as error:  # "HDF error", whatever the system said
-            _raise_reason_of_system(path, sum(node.nbytes + _FRAME for node in groups.values()))
+        except (RuntimeError, OSError) as error:  # "HDF error" for every reason
+            _raise_system_error(path, sum(node.nbytes + _FRAME for node in groups.values()))
             raise OSError(f"the netCDF library says: {one_line(error)}") from None
         checksums.append_line(path)
 
@@ -133,18 +134,18 @@ def _is_storable(value: object) -> bool:
         return True
     try:
         dtype = np.asarray(value).dtype
-    except Exception:  # uneven lists, and whatever somebody's class says
+    except Exception:  # uneven lists, or any error of a user's class
         return False
     return dtype.kind in "US" or dtype.str[1:] in _NUMBERS
 
 
-def _raise_reason_of_system(path: Path, size: int) -> None:
-    """Write so many bytes to a file of no more use, to learn what the system says of it.
+def _raise_system_error(path: Path, size: int) -> None:
+    """Repeat a failed write with zeros, to get the error message of the operating system.
 
     Raises
     ------
     OSError
-        If they do not fit.
+        If `size` bytes cannot be written to `path`.
     """
     try:
         with path.open("wb") as file:
@@ -152,16 +153,16 @@ def _raise_reason_of_system(path: Path, size: int) -> None:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        words = f"{one_line(error)}; it takes about {in_bytes(size)}"
+        problem = f"{one_line(error)}; it takes about {in_bytes(size)}"
         if error.errno == errno.ENOSPC:
             written = path.stat().st_size if path.exists() else 0
             room = shutil.disk_usage(path.parent).free + written
-            words += f", and {in_bytes(room)} of the disk are free"
-        raise OSError(error.errno, words) from None
+            problem += f", and {in_bytes(room)} of the disk are free"
+        raise OSError(error.errno, problem) from None
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
-    """The answer, with the date in its history, and its sections, by the path of each in a file."""
+    """Answer, with the date in its history, and sections, by their paths in a file."""
     import xarray as xr
 
     tree = xr.DataTree(result) if isinstance(result, xr.Dataset) else result
@@ -176,17 +177,17 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
     return groups
 
 
-#: Attributes of a variable in a file: the units, and how people read them.
+#: Attributes of a variable in a file: units in the spelling of files, and of earthspin.
 UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """A copy whose units are spelled for files, the word for people kept beside."""
+    """Return a copy with units in the spelling of files, and the original in `units_shown`."""
     node = node.copy()
     for name, variable in node.variables.items():
-        word = variable.attrs.get(UNITS)
-        if word in IN_FILES:
-            node[name].attrs = variable.attrs | {UNITS: IN_FILES[word], SHOWN: word}
+        unit = variable.attrs.get(UNITS)
+        if unit in IN_FILES:
+            node[name].attrs = variable.attrs | {UNITS: IN_FILES[unit], SHOWN: unit}
     return node
 
 
@@ -199,17 +200,18 @@ def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     checksums.write_ledger(path, checksums.of_files(path, checksums.files_in(path)))
 
 
-#: How our Zarr stores are made. Version 3 has no settled way to keep words. A chunk of nothing but
-#: fill values is written too: one that is missing is then always a loss.
+#: Options of Zarr stores. Zarr version 3 has no standard for arrays of text. Chunks with fill
+#: values only are written too, so that a missing chunk always means a loss of data.
 ZARR: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
 
 
 def zarr_of() -> Any:
-    """Zarr, if it is installed.
+    """Return the module `zarr`.
 
     Raises
     ------
     MissingExtraError
+        If zarr is not installed.
     """
     try:
         import zarr
@@ -219,13 +221,14 @@ def zarr_of() -> Any:
 
 
 def open(path: str | Path) -> xr.Dataset | xr.DataTree:
-    """Read what was written back as it was: an answer, or an answer with its sections.
+    """Read an answer, or an answer with its sections, exactly as it was written.
 
     Parameters
     ----------
     path : str or Path
-        NetCDF is read whole and held to its checksum. Zarr is read as it is used: each file of it
-        is held to the ledger as it is read; `verify` reads it all.
+        A netCDF file is read completely and compared with its checksum. A Zarr store is read when
+        values are used, and each of its files is compared with the ledger when it is read;
+        `verify` reads all of them.
 
     Returns
     -------
@@ -235,14 +238,14 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     Raises
     ------
     OutputError
-        If it is no result, was cut short, or is not what was written. A Zarr store may raise it
-        later, where a chunk is missing or the store was replaced since.
+        If the file is not a result, is truncated, or differs from what was written. A Zarr store
+        may raise it later, if a chunk is missing or the store was replaced.
     TypeError
-        If `path` is no path.
+        If `path` is not a path.
 
     Examples
     --------
-    ``read`` is the same call, for those who import names one by one.
+    ``read`` is the same function; ``from earthspin import read`` does not hide Python's ``open``.
 
     >>> import earthspin
     >>> _ = earthspin.write(earthspin.precession(), "precession.nc")
@@ -256,10 +259,10 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     nodes = _read(as_path(path))
     for node in nodes.values():
         for variable in node.variables.values():
-            if SHOWN in variable.attrs:  # a file of ours has both spellings
+            if SHOWN in variable.attrs:  # a file of earthspin has both spellings
                 variable.attrs[UNITS] = variable.attrs.pop(SHOWN)
     root = nodes["/"]
-    root.attrs = {name: value for name, value in root.attrs.items() if name not in _OWN}
+    root.attrs = {name: value for name, value in root.attrs.items() if name not in _FILE_ATTRIBUTES}
     if SCENE in root.data_vars:
         root.attrs[SCENE] = scene_of(root)
         nodes["/"] = root = root.drop_vars(SCENE)
@@ -269,24 +272,24 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
 
 
 def verify(path: str | Path) -> Path:
-    """Read all of a file of ours and hold it to the checksums that it carries.
+    """Read a complete file of earthspin and compare it with its checksums.
 
     Parameters
     ----------
     path : str or Path
-        NetCDF, or a Zarr store of any length.
+        A netCDF file, or a Zarr store of any length.
 
     Returns
     -------
     Path
-        The same; every label, number and attribute is then what was written.
+        The path, if every label, number and attribute is as it was written.
 
     Raises
     ------
     OutputError
-        If something in it is not what was written or cannot be read, or it carries no checksum.
+        If the file was changed, cannot be read, or has no checksum.
     TypeError
-        If `path` is no path.
+        If `path` is not a path.
 
     Examples
     --------
@@ -302,17 +305,18 @@ def verify(path: str | Path) -> Path:
     if place.suffix != ".zarr" and (checksums.CONTENT in attrs or checksums.line_holds(place)):
         return place
     if any(name in attrs for name in checksums.EARLIER):
-        what = "it carries checksums of an earlier version alone, which are not checked"
-        raise OutputError(place, what, "open it and write it again")
-    raise OutputError(place, "it carries no checksum", "earthspin.write gives it one")
+        problem = "it has only checksums of an earlier version, which cannot be checked"
+        raise OutputError(place, problem, "open it and write it again")
+    raise OutputError(place, "it has no checksum", "earthspin.write adds one")
 
 
 def _verify_files(store: Path) -> bool:
-    """Hold every file of a Zarr store to its ledger; False if it has none.
+    """Compare every file of a Zarr store with the ledger; return False if there is no ledger.
 
     Raises
     ------
     OutputError
+        If a file was changed or cannot be read.
     """
     put_back(store)
     opened = identity(store)
@@ -331,9 +335,9 @@ def _verify_files(store: Path) -> bool:
 
 
 def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Nodes of a file by their paths, units as the file has them.
+    """Read the nodes of a file by their paths, with units in the spelling of files.
 
-    NetCDF is held to its checksums, to that of its content only where no line guards its bytes.
+    A netCDF file is compared with the checksum of its bytes, or of its content if it has no other.
     """
     import xarray as xr
 
@@ -352,41 +356,41 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
                 raise OutputError(path, "it is a pipe", "give a file")
             line_holds = checksums.line_holds(path)
             if line_holds is False:
-                raise checksums.changed(path, "its bytes")
+                raise checksums.mismatch_error(path, "its bytes")
             nodes = xr.open_groups(path, decode_times=coder, engine="netcdf4")
             for node in nodes.values():
                 with node:
                     node.load()
         content = None if line_holds else nodes["/"].attrs.get(checksums.CONTENT)
         if content and content != checksums.of_content(nodes):
-            raise checksums.changed(path, "its names, numbers, words or attributes")
+            raise checksums.mismatch_error(path, "its names, numbers, words or attributes")
         return nodes
     except EarthspinError:
         raise
-    except Exception as error:  # whatever the libraries say of a file that is damaged
+    except Exception as error:  # the libraries raise many types for damaged files
         check_identity(path, opened)
         raise _unreadable(path, error) from None
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
-    """What to say of it: the words of our own if the libraries met them on their way."""
-    met: BaseException | None = error
-    while met is not None:
-        if isinstance(met, OutputError):
-            return met
-        met = met.__cause__ or met.__context__  # xarray 2025 stumbles when it passes them on
-    words = one_line(error) or type(error).__name__
-    return OutputError(path, f"it cannot be read: {words}")
+    """Make the error for a file that cannot be read; an `OutputError` among the causes is kept."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, OutputError):
+            return cause
+        cause = cause.__cause__ or cause.__context__  # xarray 2025 replaces errors of the store
+    reason = one_line(error) or type(error).__name__
+    return OutputError(path, f"it cannot be read: {reason}")
 
 
-#: Attribute of a store that was made in blocks: one word for what was asked, and of which versions.
+#: Attribute of a store that was made in blocks: SHA-256 of the request.
 MADE_OF = "made_of_sha256"
-#: Attributes that belong to the file, not to the answer.
-_OWN = (checksums.CONTENT, *checksums.EARLIER, MADE_OF)
-#: Date that a file's history begins with.
+#: Attributes of the file that are not part of the answer.
+_FILE_ATTRIBUTES = (checksums.CONTENT, *checksums.EARLIER, MADE_OF)
+#: Pattern of the date at the start of a file's history.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 
-#: The same by its older name.
+#: The same function by its older name.
 read = open
 
 
@@ -395,18 +399,18 @@ def encoding_of(
 ) -> dict[str, dict[str, Any]]:
     """Return the encoding of each variable.
 
-    A coordinate variable of netCDF is a number to the CF conventions; words along a dimension are
-    rows of characters, which xarray reads as the labels that they were. The scene is characters
-    too: netCDF ends the process where a file with a text of any length is opened a second time. A
-    chunk that is missing from Zarr reads as no number.
+    The CF conventions require that coordinate variables are numeric, so text labels are stored as
+    arrays of characters, which xarray reads back as text. The scene is stored as characters too,
+    because the netCDF library crashes if a file with variable-length text is opened twice. Missing
+    chunks of a Zarr store are read as NaN.
 
     Parameters
     ----------
     node : Dataset
     zarr : bool
-        Whether it is for Zarr, or for netCDF.
+        Return the encoding for Zarr rather than for netCDF.
     chunked : str
-        A dimension along which the node is one chunk of a longer one.
+        Dimension along which the node is one chunk of a store.
     """
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in node.variables.items():
@@ -415,7 +419,7 @@ def encoding_of(
         if zarr and kind == "f":
             entry["_FillValue"] = np.nan
         elif not zarr and (kind == "f" or coordinate):
-            entry["_FillValue"] = None  # nothing is ever missing; CF forbids it of a coordinate
+            entry["_FillValue"] = None  # no value is missing, and CF forbids it for coordinates
         if not zarr and kind in "UO" and (coordinate or name == SCENE):
             entry["dtype"] = "S1"
         if chunked in variable.dims:

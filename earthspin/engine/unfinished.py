@@ -1,16 +1,16 @@
-"""A store in the making: block by block, in any order, gone on with after any end.
+"""Unfinished Zarr stores: written in blocks, in any order, and resumed after any interruption.
 
-Beside the place of the store, ``X.zarr``, stands the folder ``X.zarr.partial`` as long as it is not
-complete. In it are the store, whose arrays have their full length from the beginning; what it is
-the answer to (`ASKED`); and two ledgers as ``sha256sum`` writes them: of the files that no block
-writes (`FRAME`), and of those of each block that is written and on the disk (`LEDGER`). Whoever
-asks the same again goes on with the blocks that are not in the ledger; whoever asks something else
-is refused, and nothing is touched. Before anything is added, and before the store takes its place,
-all of it is compared with the ledgers: a block whose bytes do not match is made again. The complete
-store holds both as its ledger.
+While a store ``X.zarr`` is not complete, a folder ``X.zarr.partial`` next to it holds the store,
+whose arrays have their full length from the beginning; the request that it answers (`REQUEST`); and
+two ledgers in the format of ``sha256sum``: one of the files that no block writes (`FRAME`), one of
+the files of all blocks that are written and on the disk (`LEDGER`). A run of the same request
+continues with the blocks that are not in the ledger. A run of another request is refused, and
+nothing is changed. Before blocks are added, and before the store is moved to ``X.zarr``, all files
+are compared with the ledgers, and blocks whose bytes do not match are made again. The complete
+store holds both ledgers as one.
 
-A block is a chunk of every variable along one dimension, so that no two writers share a chunk, and
-a block that is made again is the same bytes again. The store holds no date, no seconds and no path.
+A block is a chunk of every variable along one dimension, so no two writers share a chunk, and a
+block that is made again has the same bytes. The store holds no date, no run time and no path.
 """
 
 from __future__ import annotations
@@ -35,25 +35,25 @@ from earthspin.errors import OutputError, one_line
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Ending of the folder of a store that is not complete.
+#: Suffix of the folder of an unfinished store.
 PARTIAL = ".partial"
-#: What it holds: the store, what it answers, the lock of its owner, and the ledgers of the blocks
-#: that are done and of the files that no block writes.
-STORE, ASKED, OWNER, LEDGER, FRAME = "store", "asked.json", "owner", "ledger", "frame"
+#: Names in the folder: the store, the request, the lock of the running process, the ledger of the
+#: finished blocks, and the ledger of the files that no block writes.
+STORE, REQUEST, OWNER, LEDGER, FRAME = "store", "asked.json", "owner", "ledger", "frame"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """How a store is cut.
+    """Division of a store into blocks.
 
     Attributes
     ----------
     along : str
-        The dimension that grows, the first of every variable that has it.
+        The dimension that is divided, the first of every variable that has it.
     size : int
-        Its length.
+        Length of this dimension.
     block : int
-        Length of a block; the last one may be shorter.
+        Length of a block; the last block may be shorter.
     """
 
     along: str
@@ -62,7 +62,7 @@ class Layout:
 
     @property
     def count(self) -> int:
-        """How many blocks there are."""
+        """Number of blocks."""
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
@@ -76,18 +76,18 @@ class Layout:
 
 
 class Unfinished:
-    """A store in the making, held by one writer.
+    """An unfinished store that one process has locked.
 
     Parameters
     ----------
     folder : Path
-        That ends in `PARTIAL`.
+        Folder whose name ends in `PARTIAL`.
     layout : Layout
 
     Attributes
     ----------
     done : dict of int to dict of str to str
-        SHA-256 of the files of each block that is written, by its number and their paths.
+        SHA-256 of the files of each finished block, by number of the block and path of the file.
 
     Raises
     ------
@@ -98,7 +98,10 @@ class Unfinished:
     def __init__(self, folder: Path, layout: Layout) -> None:
         self.folder, self.layout, self.store = folder, layout, folder / STORE
         self.check_frame()
-        grown, written = _grown(self.store, layout.along), _read_ledger(folder / LEDGER)
+        grown, written = (
+            _variables_in_blocks(self.store, layout.along),
+            _read_ledger(folder / LEDGER),
+        )
         blocks = {number: _files(grown, number) for number in range(layout.count)}
         self.done = {
             number: {name: written[name] for name in files}
@@ -108,29 +111,29 @@ class Unfinished:
 
     @property
     def missing(self) -> list[int]:
-        """Numbers of the blocks that are still to be made."""
+        """Numbers of the blocks that are not finished."""
         return [n for n in range(self.layout.count) if n not in self.done]
 
     @property
     def length(self) -> int:
-        """Length of the blocks that are written."""
+        """Total length of the finished blocks."""
         return sum(map(self.layout.length, self.done))
 
     def note(self, number: int, sums: Mapping[str, str]) -> None:
-        """Put a block that is written and on the disk into the ledger."""
+        """Add a block that is on the disk to the ledger."""
         if number not in self.done:
             self.done[number] = dict(sums)
-            _append(self.folder / LEDGER, sums)
+            _append_to_ledger(self.folder / LEDGER, sums)
 
     def check_frame(self) -> None:
-        """Refuse a store in which a file that no block writes is not what `begin` wrote.
+        """Refuse a store if a file that no block writes differs from what `begin` wrote.
 
         Raises
         ------
         OutputError
         """
         try:
-            frame = entries(_frame(self.store, self.layout.along))
+            frame = entries(_frame_checksums(self.store, self.layout.along))
             intact = (self.folder / FRAME).read_bytes() == frame
         except (OSError, ValueError, AttributeError, TypeError):
             intact = False
@@ -143,7 +146,7 @@ class Unfinished:
         Raises
         ------
         OutputError
-            If more than blocks is damaged.
+            If a file that no block writes is damaged.
         """
         self.check_frame()
         damaged = [
@@ -157,10 +160,10 @@ class Unfinished:
         return damaged
 
     def finish(self, place: Path) -> None:
-        """Give the store its ledger and put it in its place."""
+        """Write the ledger of the complete store, move the store to `place`, remove the folder."""
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
-        sums = _frame(self.store, self.layout.along)
+        sums = _frame_checksums(self.store, self.layout.along)
         for block in self.done.values():
             sums |= block
         write_ledger(self.store, sums)
@@ -170,12 +173,12 @@ class Unfinished:
 
 
 def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> dict[str, str]:
-    """Write one block into a store in the making, and see it to the disk.
+    """Write one block into an unfinished store, and wait until it is on the disk.
 
     Parameters
     ----------
     folder : Path
-        That ends in `PARTIAL`.
+        Folder whose name ends in `PARTIAL`.
     layout : Layout
     number : int
     block : Dataset
@@ -188,27 +191,28 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     Raises
     ------
     OutputError
-        If the folder is gone, or the block does not fit into the store.
+        If the folder does not exist, or the block does not fit into the store.
     """
     zarr, store = zarr_of(), folder / STORE
     if not store.is_dir():
-        raise OutputError(folder, "it was taken away while it was written", "run it again")
-    apart = [n for n, variable in block.variables.items() if layout.along not in variable.dims]
-    grown = block.drop_vars(apart).drop_indexes(layout.along, errors="ignore")  # else left out
+        raise OutputError(folder, "it was removed while it was written", "run it again")
+    constant = [n for n, variable in block.variables.items() if layout.along not in variable.dims]
+    # With an index, to_zarr would not write the coordinate along the region.
+    grown = block.drop_vars(constant).drop_indexes(layout.along, errors="ignore")
     region = {layout.along: slice(*layout.bounds(number))}
     try:
         with zarr.config.set({"threading.max_workers": 1}):
             grown.to_zarr(store, mode="r+", region=region, **ZARR)
     except ValueError as error:
         raise OutputError(folder, f"block {number} does not fit: {one_line(error)}") from None
-    files = _files(_grown(store, layout.along), number)
+    files = _files(_variables_in_blocks(store, layout.along), number)
     for name in files:
         drafts.sync_one(store / name)
     return of_files(store, files)
 
 
-def _grown(store: Path, along: str) -> dict[str, int]:
-    """Number of dimensions of each variable that blocks write, by its name."""
+def _variables_in_blocks(store: Path, along: str) -> dict[str, int]:
+    """Number of dimensions of each variable that blocks write, by name."""
     dims = {
         path.parent.name: json.loads(path.read_bytes()).get("_ARRAY_DIMENSIONS", ())
         for path in sorted(store.glob("*/.zattrs"))
@@ -221,16 +225,16 @@ def _files(grown: Mapping[str, int], number: int) -> list[str]:
     return [f"{name}/{number}{'.0' * (dims - 1)}" for name, dims in grown.items()]
 
 
-def _frame(store: Path, along: str) -> dict[str, str]:
+def _frame_checksums(store: Path, along: str) -> dict[str, str]:
     """SHA-256 of the files of a store that no block writes."""
-    grown = _grown(store, along)
+    grown = _variables_in_blocks(store, along)
     paths = map(PurePosixPath, files_in(store))
     frame = [p for p in paths if p.name.startswith(".") or p.parent.name not in grown]
     return of_files(store, map(str, frame))
 
 
 @contextmanager
-def held(place: Path, asked: Mapping[str, str]) -> Iterator[Path | None]:
+def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | None]:
     """Hold the folder of the store in the making that belongs to a place, if there is one.
 
     Parameters
@@ -258,35 +262,36 @@ def held(place: Path, asked: Mapping[str, str]) -> Iterator[Path | None]:
     try:
         lock.acquire()
     except Timeout:
-        raise OutputError(place, "another run is writing it", "let it end, or stop it") from None
+        remedy = "wait for that run, or stop it"
+        raise OutputError(place, "another run is writing it", remedy) from None
     try:
-        _refuse_another(folder, dict(asked))
+        _refuse_another(folder, dict(request))
         yield folder
     finally:
         lock.release()
 
 
-def _refuse_another(folder: Path, asked: dict[str, str]) -> None:
-    """Refuse to go on with a store of another question, another version or another layout."""
+def _refuse_another(folder: Path, request: dict[str, str]) -> None:
+    """Refuse to continue a store of another question, another version or another layout."""
     try:
-        begun = json.loads((folder / ASKED).read_text(encoding="utf-8"))
+        begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
         begun = None
     if not isinstance(begun, dict):
-        raise _damaged(folder, f"its {ASKED} is")
-    differ = [name for name in asked | begun if asked.get(name) != begun.get(name)]
+        raise _damaged(folder, f"its {REQUEST} is")
+    differ = [name for name in request | begun if request.get(name) != begun.get(name)]
     if differ:
         what = " and ".join(name.replace("_", " ") for name in differ)
-        words = f"it was begun with another {what}"
-        raise OutputError(folder, words, "finish that, or move it away")
+        problem = f"it was begun with another {what}"
+        raise OutputError(folder, problem, "finish that run, or move the folder away")
 
 
 def _damaged(folder: Path, what: str) -> OutputError:
-    return OutputError(folder, f"{what} not what was written", "take it away and run it again")
+    return OutputError(folder, f"{what} not what was written", "remove it and run it again")
 
 
-def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
-    """Lay out a store in the making around its first block.
+def begin(place: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
+    """Create an unfinished store with its first block.
 
     Parameters
     ----------
@@ -294,17 +299,17 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
     asked : mapping of str to str
     layout : Layout
     first : Dataset
-        Block 0, with the attributes of the whole.
+        Block 0, with the attributes of the whole result.
 
     Raises
     ------
     OutputError
-        If the disk has no room for it.
+        If the complete store does not fit on the disk.
     """
     whole = first.nbytes / layout.length(0) * layout.size
     drafts.refuse_what_does_not_fit(place, whole, f"{layout.size} {layout.along}s")
     zarr = zarr_of()
-    node = spelled(first).assign_attrs({MADE_OF: digest(asked)})
+    node = spelled(first).assign_attrs({MADE_OF: digest(request)})
     with drafts.box_of(place) as box:
         folder = box / "begun"
         folder.mkdir()
@@ -312,26 +317,29 @@ def begin(place: Path, asked: Mapping[str, str], layout: Layout, first: xr.Datas
         with zarr.config.set({"threading.max_workers": 1}):
             encoding = encoding_of(node, chunked=layout.along)
             node.to_zarr(store, mode="w", encoding=encoding, **ZARR)
-            group, grown = zarr.open_group(store, mode="r+"), _grown(store, layout.along)
+            group, grown = (
+                zarr.open_group(store, mode="r+"),
+                _variables_in_blocks(store, layout.along),
+            )
             for name in grown:
                 group[name].resize((layout.size, *group[name].shape[1:]))
-        (folder / ASKED).write_text(json.dumps(dict(asked), indent=1), encoding="utf-8")
-        (folder / FRAME).write_bytes(entries(_frame(store, layout.along)))
-        _append(folder / LEDGER, of_files(store, _files(grown, 0)))
+        (folder / REQUEST).write_text(json.dumps(dict(request), indent=1), encoding="utf-8")
+        (folder / FRAME).write_bytes(entries(_frame_checksums(store, layout.along)))
+        _append_to_ledger(folder / LEDGER, of_files(store, _files(grown, 0)))
         drafts.sync(folder)
         partial = place.with_name(place.name + PARTIAL)
-        if not partial.exists():  # another run may have been faster
+        if not partial.exists():  # another run may have created it since
             os.rename(folder, partial)
             drafts.sync_one(place.parent)
 
 
-def digest(asked: Mapping[str, str]) -> str:
-    """One word for what is asked, which a complete store carries."""
-    return hashlib.sha256(json.dumps(dict(asked), sort_keys=True).encode()).hexdigest()
+def digest(request: Mapping[str, str]) -> str:
+    """SHA-256 of a request, which a complete store holds as an attribute."""
+    return hashlib.sha256(json.dumps(dict(request), sort_keys=True).encode()).hexdigest()
 
 
-def _append(ledger: Path, sums: Mapping[str, str]) -> None:
-    """Add the lines of a block, and see them to the disk."""
+def _append_to_ledger(ledger: Path, sums: Mapping[str, str]) -> None:
+    """Add the lines of a block to a ledger, and wait until they are on the disk."""
     with ledger.open("ab") as file:
         file.write(entries(sums))
         file.flush()
@@ -339,10 +347,10 @@ def _append(ledger: Path, sums: Mapping[str, str]) -> None:
 
 
 def _read_ledger(ledger: Path) -> dict[str, str]:
-    """SHA-256 of the files that the ledger has, by their paths.
+    """SHA-256 of the files in a ledger, by path.
 
-    A last line that was cut short by the end of its writer is taken away. A line that is damaged
-    counts for nothing, so that its block is made again.
+    A last line that is incomplete because its writer was ended is removed. Damaged lines are
+    ignored, so their blocks are made again.
     """
     ledger.touch()
     os.truncate(ledger, ledger.read_bytes().rfind(b"\n") + 1)

@@ -1,8 +1,8 @@
-"""Answers as classes: each variable is declared once, with its unit, meaning, dimensions and error.
+"""Classes of variables: each is declared once, with its unit, meaning, dimensions and error.
 
-A part returns an instance, whose values are in SI; `dataset` labels them, in the units of the class
-and with the attributes that the CF conventions ask for. Plain floats only: a Quantity would lose
-its unit on disk.
+A part returns an instance with values in SI units. `dataset` converts them to the units of the
+class and adds the attributes of the CF conventions. Values are plain floats, because a Quantity
+would lose its unit in a file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from earthspin.numerics.estimate import Estimate
 if TYPE_CHECKING:
     import xarray as xr
 
-#: A number, an array laid along the declared dimensions, or a labelled array; or words.
+#: A number, an array along the declared dimensions, a labelled array, or text.
 Value = Any
 #: Labels along a dimension: an array, a list, or a labelled array of another answer.
 Labels = Any
@@ -29,35 +29,35 @@ Labels = Any
 #: A number with its half-width.
 Pair = Estimate | tuple[Any, Any]
 
-#: Ends of the names and of the meanings of what a field holds, in the order of its values.
+#: Suffixes of the names of a field's variables, with patterns of their long names, in order.
 _ALONE = {"": "{}"}
 _WITH_ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
 _WITH_SHARES = {
     **_WITH_ERROR,
     "_error_method": "95 % half-width of the {} from averaging and sampling",
-    "_error_input": "95 % half-width of the {} from given numbers",
+    "_error_input": "95 % half-width of the {} from the uncertainties of the inputs",
 }
 _PHASES = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
 
 
 @dataclass(frozen=True)
 class Variable:
-    """What a variable of a result is.
+    """Declaration of one variable of a result.
 
     Attributes
     ----------
     dims : tuple of str
-        Its dimensions; a body with labelled arrays adds theirs.
+        Dimensions; the labelled arrays of a body add further ones.
     units : str
-        As astropy.units parses it; "1" for pure numbers, "" for words and dates.
+        Unit as astropy.units parses it; "1" for pure numbers, "" for text and dates.
     long_name : str
-        In plain words.
+        Meaning in plain words.
     attrs : tuple of pairs
         Further attributes, such as cell_methods or references.
     error : str
-        Names of the variables that hold its error, where they are not called after it.
+        Names of the variables that hold the error, if not ``<name>_error``.
     no_error : str
-        Why it carries no error.
+        Why there is no error.
     short : str
         Label of tables and axes.
     """
@@ -71,7 +71,7 @@ class Variable:
     short: str = ""
 
     def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
-        """Attributes of the variable of this name in a dataset with these others."""
+        """Attributes of the variable `name` in a dataset that also has the variables `others`."""
         attributes = {"long_name": self.long_name}
         if self.units:
             attributes["units"] = self.units
@@ -84,7 +84,7 @@ class Variable:
 
 
 class SchemaError(Exception):
-    """A part gave something else than it declares: a defect of the program, not of the input."""
+    """Raised if a part returns variables that it does not declare: a defect of the program."""
 
 
 @dataclass(frozen=True)
@@ -94,13 +94,14 @@ class Field:
     Attributes
     ----------
     variable : Variable
-        What it holds.
+        Declaration of the field's main variable.
     along : tuple of str or None
-        Its dimensions; those of the class if None.
+        Dimensions; those of the class if None.
     endings : mapping of str to str
-        Ends of the names of its variables, with their meanings; empty for labels.
+        Suffixes of the names of the field's variables, with patterns of their long names; empty
+        for labels.
     default : object
-        Used where no value is given; a field whose value is None is left out of the answer.
+        Default value; a field whose value is None is omitted from the answer.
     """
 
     variable: Variable
@@ -131,19 +132,19 @@ def number(units: str, long_name: str, **options: Any) -> Any:
     Parameters
     ----------
     units : str
-        In which it is shown; "1" for pure numbers. Values are given in SI.
+        Unit of the result; "1" for pure numbers. Parts return values in SI units.
     long_name : str
-        In plain words.
+        Meaning in plain words.
     along : tuple of str, optional
-        Its dimensions; those of the class if not given.
+        Dimensions; those of the class by default.
     error : str
-        Names of the variables that hold its error, where they are not called after it.
+        Names of the variables that hold the error, if not ``<name>_error``.
     no_error : str
-        Why it carries no error.
+        Why there is no error.
     short : str
         Label of tables and axes.
     default : object
-        ``None`` if it may be left out of an answer.
+        ``None`` if an answer may omit the number.
     **options
         Further attributes, such as cell_methods.
     """
@@ -153,38 +154,38 @@ def number(units: str, long_name: str, **options: Any) -> Any:
 def measured(units: str, long_name: str, *, split: bool = False, **options: Any) -> Any:
     """Declare a number together with its 95 % half-width, ``<name>_error``.
 
-    Its value is a pair, or an estimate that knows its shares.
+    The value is a pair of number and half-width, or an `Estimate`.
 
     Parameters
     ----------
     units, long_name, **options
-        As of `number`.
+        See `number`.
     split : bool
-        Also declare the shares of the method and of the inputs.
+        Also declare the contributions of the method and of the inputs to the half-width.
     """
     return _field(_WITH_SHARES if split else _WITH_ERROR, units, long_name, **options)
 
 
 def amplitude(units: str, long_name: str, **options: Any) -> Any:
-    """Declare an amplitude as the IERS tabulates it: in phase and out of phase, given as a pair."""
+    """Declare a pair of amplitudes, in phase and out of phase, as the IERS tabulates them."""
     return _field(_PHASES, units, long_name, **options)
 
 
 def words(long_name: str, **options: Any) -> Any:
-    """Declare words or dates, which have no unit."""
+    """Declare text or dates, which have no unit."""
     return _field(_ALONE, "", long_name, **options)
 
 
 def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
-    """Declare the labels of the dimension that the field is called after.
+    """Declare the labels of the dimension that has the name of the field.
 
     Parameters
     ----------
     long_name : str
     units : str
-        Of the labels, which are given in these.
+        Unit of the labels; they are not converted.
     default : object
-        The labels, where they are always the same.
+        The labels, if they are always the same.
     **options
         Further attributes.
     """
@@ -195,16 +196,16 @@ def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
     kw_only_default=True, field_specifiers=(number, measured, amplitude, words, labels)
 )
 class Variables:
-    """Variables of an answer or of a section, as one part gives them.
+    """Variables that one part adds to an answer or section.
 
-    A class of them may say what holds for all of its fields: `along`, their dimensions; `error`,
-    the variable that holds the error of all numbers that have none of their own; or `no_error`, why
-    these have none. An instance takes the values by name, in SI units.
+    Options of a subclass apply to all of its fields: `along`, the dimensions; `error`, the variable
+    that holds the error of every number without its own; or `no_error`, why these have no error.
+    An instance takes the values by name, in SI units.
     """
 
-    #: Dimensions of the fields that do not say theirs.
+    #: Default dimensions of the fields.
     dims: ClassVar[tuple[str, ...]] = ()
-    #: The fields by name, those of the bases first.
+    #: The fields by name, with inherited fields first.
     fields: ClassVar[Mapping[str, Field]] = {}
     #: The variables by name, in the order of an answer.
     schema: ClassVar[Mapping[str, Variable]] = {}
@@ -212,7 +213,7 @@ class Variables:
     def __init_subclass__(
         cls, along: tuple[str, ...] | None = None, error: str = "", no_error: str = ""
     ) -> None:
-        """Collect what the class declares."""
+        """Collect the fields that the class declares."""
         cls.dims = cls.dims if along is None else along
         own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
         cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
@@ -222,8 +223,8 @@ class Variables:
             half_width = Variable(dims, variable.units, "")
             for ending, meaning in field.endings.items():
                 declared = half_width if ending.startswith("_error") else variable
-                words = meaning.format(variable.long_name)
-                schema[name + ending] = replace(declared, long_name=words)
+                long_name = meaning.format(variable.long_name)
+                schema[name + ending] = replace(declared, long_name=long_name)
         for name, variable in schema.items():
             has_error = variable.error or variable.no_error or f"{name}_error" in schema
             if variable.units and not has_error and "_error" not in name and name != error:
@@ -234,19 +235,19 @@ class Variables:
         unknown = values.keys() - self.fields.keys()
         missing = {n for n, field in self.fields.items() if field.default is MISSING} - {*values}
         if unknown or missing:
-            words = f"{type(self).__name__}: unknown {sorted(unknown)}, missing {sorted(missing)}"
-            raise SchemaError(words)
+            problem = f"{type(self).__name__}: unknown {sorted(unknown)}, missing {sorted(missing)}"
+            raise SchemaError(problem)
         self._values = {n: values.get(n, field.default) for n, field in self.fields.items()}
         self._attributes: dict[str, Mapping[str, object]] = {}
         self._no_error = ""
 
     def with_attributes(self, *, no_error: str = "", **attributes: Mapping[str, object]) -> Self:
-        """Add what is known only when the numbers are.
+        """Add attributes that depend on the values.
 
         Parameters
         ----------
         no_error : str
-            Why errors are not given where they are NaN; empty if all are given.
+            Why some errors are NaN; empty if none is.
         **attributes
             Further attributes by the name of the variable.
         """
@@ -255,7 +256,7 @@ class Variables:
         return self
 
     def dataset(self) -> xr.Dataset:
-        """Lay the values out, in the units of the class and with its attributes.
+        """Convert the values to a Dataset, in the units and with the attributes of the class.
 
         Raises
         ------
@@ -274,7 +275,7 @@ class Variables:
                 for dim, own in value.coords.items():
                     known = coords.setdefault(dim, own.variable)
                     if hasattr(known, "equals") and not known.equals(own.variable):
-                        problem = f"labels along '{dim}' differ from one variable to the next"
+                        problem = f"labels along '{dim}' differ between variables"
                         raise SchemaError(problem)
                 value = value.variable
             else:
@@ -287,7 +288,7 @@ class Variables:
             attributes = declared.attributes(name, values)
             if data.dtype.kind == "f" and np.isnan(data).any():
                 if not (self._no_error and "_error" in name):
-                    problem = f"{declared.long_name} has no value here; check the body's numbers"
+                    problem = f"{declared.long_name} is undefined; check the numbers of the body"
                     raise UndefinedError(problem)
                 attributes["no_error"] = self._no_error
             arrays[name] = xr.Variable(laid.dims, data, attributes)
@@ -297,7 +298,7 @@ class Variables:
         return result
 
     def _by_variable(self) -> tuple[dict[str, Any], dict[Any, Any]]:
-        """Values that are given by the names of their variables, and labels by dimension."""
+        """Values by name of the variable, and labels by dimension."""
         values: dict[str, Any] = {}
         coords: dict[Any, Any] = {}
         for name, field in self.fields.items():

@@ -1,7 +1,7 @@
-"""A Zarr store in a folder, each file of which is held to the ledger when it is read.
+"""Zarr store in a folder that compares each file with the ledger when it is read.
 
-Zarr reads a chunk that is not there as its fill value, and a folder that is replaced while it is
-read as half of the one and half of the other.
+Zarr itself reads a missing chunk as the fill value, and mixes two stores without notice if a folder
+is replaced while it is read.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from earthspin.engine.drafts import check_identity, identity
 
 
 class ZarrFolder(LocalStore):
-    """A folder that is read, and only read.
+    """A folder that is opened for reading only.
 
     Parameters
     ----------
     root : Path
     read_only : bool
-        True; Zarr passes it when it makes a store again.
+        Always True; Zarr passes it when it copies a store.
     """
 
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
@@ -36,7 +36,7 @@ class ZarrFolder(LocalStore):
         Raises
         ------
         OutputError
-            If it is not what was written, or the store has been replaced.
+            If the file differs from what was written, or the store was replaced.
         """
         content = await super().get(key, prototype, byte_range)
         check_identity(self.root, self._opened)

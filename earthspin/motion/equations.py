@@ -33,7 +33,7 @@ FloatArray = NDArray[np.float64]
 
 #: Torque along the body's axes over C, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
-OwnTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
+CustomTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 #: What an effect adds to l' in the sky's axes, s-1, from figure axis and angular momentum, each of
 #: shape (3, lanes, nodes).
 SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
@@ -75,7 +75,7 @@ class Rigid:
     radius: float = 0.0
     trend: float = 0.0
     epoch: float = 0.0
-    own: OwnTorque | None = None
+    own: CustomTorque | None = None
 
     @property
     def moments(self) -> FloatArray:

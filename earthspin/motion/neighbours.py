@@ -18,7 +18,7 @@ from earthspin.motion.equations import (
     PULL,
     ROUNDING,
     TRIAXIALITY,
-    OwnTorque,
+    CustomTorque,
     Rigid,
     SkyLaw,
 )
@@ -35,7 +35,7 @@ def rigid_bodies(
     unit: float,
     doubts: Mapping[str, float],
     epoch: float = 0.0,
-    own: OwnTorque | None = None,
+    own: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
     """A body and its neighbours.
 

@@ -1,5 +1,5 @@
-"""Parts that questions share: the sky, times, poles, and what an accuracy asks for.
+"""Parts and keys that questions share: the sky, times, poles, and settings for an accuracy.
 
-Parts carry data across the border between labelled data and physics. What they call is imported
-when they run, so that a question loads only what it needs.
+Parts convert between labelled data and the arrays of the physics packages. They import modules when
+they run, so that a question loads only the modules that it needs.
 """

@@ -1,4 +1,4 @@
-"""Torques averaged over orbits, and the rates of precession that follow from them."""
+"""Torques averaged over orbits, and the resulting precession rates."""
 
 from __future__ import annotations
 
@@ -31,36 +31,35 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: A day apart is dense enough: torques have no strong period under four days (two days give
-#: the same rate to 1e-12, four days are off by 3e-6).
+#: Time between samples. One day is enough, since torques have no strong period below four days:
+#: with two days the rate is the same to 1e-12, with four days it differs by 3e-6.
 SAMPLING = DAY  # s
 
 
 @dataclass(frozen=True)
 class Samples:
-    """Torques per unit of C - A, evenly sampled about the reference epoch.
+    """Torques per unit of C - A at equally spaced times about the reference epoch.
 
     Attributes
     ----------
     times : ndarray, shape (n,)
-        s from J2000.0 TDB.
+        Times, s from J2000.0 TDB.
     precessing : ndarray, shape (n, perturber)
-        Share of the torque per C - A that makes the axis precess, s-2.
+        Precessing component of the torque per C - A, s-2.
     torque : ndarray, shape (n, perturber, 3)
-        Torque per C - A, along equator and equinox of date, s-2.
+        Torque per C - A in axes of equator and equinox of date, s-2.
     window : Window
-        The window that converges fastest on this span; its centre is the epoch.
+        The window that converges fastest on this span, centred on the epoch.
     obliquity : float
-        Of the axis to the orbit at the epoch, rad.
+        Obliquity of the axis to the orbit at the epoch, rad.
     nearness : ndarray, shape (perturber,)
-        Mean of 1/r3 of each, m-3.
+        Mean of 1/r3 of each perturber, m-3.
     unmeasured : tuple of str
-        Perturbers of whose positions no error was ever measured.
+        Perturbers whose positions have no measured error.
     no_error : str
-        That, in words; empty if there are none.
+        Reason why errors are missing; empty if none is.
     strength : DataArray or None
-        Masses (GM) of the perturbers where one stands for many, along `perturber` first; the
-        torques are then those of masses of 1.
+        GM along `perturber` if any is an array, else None; the torques are then for GM = 1.
     """
 
     times: FloatArray
@@ -82,7 +81,7 @@ def torque_samples(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
-    """Torque of each perturber, from its declination, through the window that converges fastest."""
+    """Torque of each perturber from its declination, over the fastest converging window."""
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
@@ -95,13 +94,13 @@ def torque_samples(
     normal = pole.orbit_normal(orbit)
     axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :].reshape(3)
     _refuse_locked(sky, body, window.centre, axis_at_epoch)
-    seen = sky.radec(body, days)
-    strength = _strengths(perturbers)
+    coordinates = sky.radec(body, days)
+    strength = _varying_masses(perturbers)
     torques = [
-        torque_from_declination(p.gm if strength is None else 1.0, 1.0, *seen[p.name])
+        torque_from_declination(p.gm if strength is None else 1.0, 1.0, *coordinates[p.name])
         for p in perturbers
     ]
-    # In the axes of the equator of date the figure axis is z, and the orbit's normal moves.
+    # In axes of the equator of date, the figure axis is z and the orbit normal moves.
     axis = np.array([0.0, 0.0, 1.0])
     normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
     return Samples(
@@ -110,7 +109,7 @@ def torque_samples(
         torque=np.stack(torques, axis=1),
         window=window,
         obliquity=angle(axis_at_epoch, normal),
-        nearness=np.array([np.mean(seen[p.name][2] ** -3.0) for p in perturbers]),
+        nearness=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
@@ -122,8 +121,8 @@ def _labels(perturbers: tuple[Body, ...]) -> list[str]:
     return [*(p.name for p in perturbers), "total"]
 
 
-def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
-    """Masses of perturbers that stand for many, along `perturber`; None if each stands for one."""
+def _varying_masses(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
+    """GM along `perturber` if any is an array, else None."""
     if not any(hasattr(p.gm, "dims") for p in perturbers):
         return None
     import xarray as xr
@@ -132,64 +131,64 @@ def _strengths(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
-    """Refuse a spin that is locked to the orbit about a perturber: its average is another."""
+    """Refuse a spin that is locked to an orbit, because averages over orbits do not apply."""
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
         if abs(spin_period) < locking.SLOW:
             continue
-        # so many orbits of the slowest lock, as far as the kernel covers them
+        # Enough time for the slowest resonance, as far as the kernel covers it.
         half = locking.ORBITS * locking.MOST_HALF_TURNS / 4 * abs(spin_period)
         times = np.linspace(max(epoch - half, first), min(epoch + half, last), 4001)
         spin_axis, spin_rate = np.sign(spin_period) * axis, 2 * np.pi / abs(spin_period)
         for name, position in sky.positions(times / DAY).items():
             turns = locking.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
-                raise _locked(body, name, turns)
+                raise _locked_error(body, name, turns)
 
 
-def _locked(body: Body, perturber: str, turns: float) -> UndefinedError:
-    """What is said of a spin that is locked."""
+def _locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
+    """Make the error for a spin that is locked to an orbit."""
     return UndefinedError(
-        f"{in_a_sentence(body.name)} turns {turns:g} times in each orbit with "
-        f"'{perturber}': an average over orbits does not hold for a spin that is locked; ask "
-        "cassini_states where its axis stands"
+        f"{in_a_sentence(body.name)} is locked to its orbit with '{perturber}' ({turns:g} "
+        f"rotation{'' if turns == 1 else 's'} per orbit), so averages over orbits do not apply; "
+        "use cassini_states for the position of its axis"
     )
 
 
 def slowest_cycle(perturber: Body) -> float:
-    """The slowest cycle of a pull that averages must span, s."""
-    turning = perturber.orbit is not None and perturber.orbit.node_period
-    return max(perturber.cycle, abs(turning or 0.0))
+    """Longest period in the torque of a perturber, which averages must cover, s."""
+    node_period = perturber.orbit is not None and perturber.orbit.node_period
+    return max(perturber.cycle, abs(node_period or 0.0))
 
 
 @dataclass(frozen=True)
 class MeanTorques:
-    """Means over orbits of the torque per unit of C - A; the last label is their sum.
+    """Torques per unit of C - A averaged over orbits, by perturber and in total.
 
     Attributes
     ----------
     labels : list of str
+        Names of the perturbers, and "total" if there are several.
     precessing, precessing_error : ndarray, shape (label,) or (label, m)
-        Share that makes the axis precess, and its half-width, s-2; of m cases where masses of the
-        perturbers stand for many.
+        Precessing component and its half-width, s-2, for m cases if masses are arrays.
     torque, torque_error : ndarray, shape (label, 3) or (label, 3, m)
-        Along equator and equinox of date, s-2.
+        Torque and its half-width in axes of equator and equinox of date, s-2.
     epoch : float
-        That they refer to, s from J2000.0 TDB.
+        Reference epoch, s from J2000.0 TDB.
     obliquity : float
-        Of the axis to the orbit at the epoch, rad.
+        Obliquity of the axis to the orbit at the epoch, rad.
     nearness : ndarray, shape (perturber,)
-        Mean of 1/r3 of each, m-3.
+        Mean of 1/r3 of each perturber, m-3.
     over, method : str
-        What was averaged over, and with how many samples, in words.
+        Descriptions of the window, and of the window with the step.
     evaluations : int
-        Epochs at which the sky was evaluated.
+        Number of epochs at which positions were evaluated.
     no_error : str
-        Why errors are not given; empty if they are.
+        Reason why errors are missing; empty if none is.
     provenance : mapping of str to str
-        What the answer says of where they come from, beside the sky.
+        Attributes of the answer on the sources of the means, besides those of the sky.
     cases : mapping of str to int
-        Dimensions and lengths of the m cases, in order; empty for one.
+        Dimensions of the m cases with their lengths; empty without arrays.
     """
 
     labels: list[str]
@@ -214,24 +213,24 @@ def window_means(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> MeanTorques:
-    """Weighted means over the window, with what its neighbours say of them."""
+    """Weighted means over the window, with errors estimated from neighbouring windows."""
     samples = torque_samples
     window, times = samples.window, samples.times
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
-    of_precessing, of_torque = _measured_errors(perturbers, chosen_average)
+    precessing_measured, torque_measured = _measured_errors(perturbers, chosen_average)
     strength = samples.strength
     many = None if strength is None else strength.values.reshape(len(perturbers), -1)
     precessing, precessing_error = window_mean_and_error(
-        window, times, samples.precessing, swing, of_precessing, many
+        window, times, samples.precessing, swing, precessing_measured, many
     )
-    if of_precessing is not None and times[1] - times[0] == SAMPLING:
-        # daily samples: what the neighbours say counts as well, where it is less
+    if precessing_measured is not None and times[1] - times[0] == SAMPLING:
+        # With daily samples, the estimate from neighbouring windows is valid too: take the smaller.
         _, by_neighbours = window_mean_and_error(
             window, times, samples.precessing, swing, strength=many
         )
         precessing_error = np.minimum(precessing_error, by_neighbours)
     vector, vector_error = window_mean_and_error(
-        window, times, samples.torque, swing, of_torque, many
+        window, times, samples.torque, swing, torque_measured, many
     )
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
@@ -243,8 +242,8 @@ def window_means(
         epoch=window.centre,
         obliquity=samples.obliquity,
         nearness=samples.nearness,
-        over=taken(window),
-        method=f"{taken(window)}, a sample each {spacing:g} d",
+        over=window_words(window),
+        method=f"{window_words(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
         no_error=samples.no_error,
         cases={}
@@ -255,7 +254,7 @@ def window_means(
 
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
-    """Exact means over each ellipse, and over its node if that turns, with the axis of J2000.0."""
+    """Exact means over each ellipse, and over its node if it precesses, with the J2000.0 axis."""
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -267,7 +266,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         for spin_rate in np.ravel(body.spin_rate):
             turns = locking.locked_turns(float(spin_rate), forward)
             if turns is not None:
-                raise _locked(body, p.name, turns)
+                raise _locked_error(body, p.name, turns)
         square = (
             mean_orbit.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate
@@ -289,7 +288,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         epoch=0.0,
         obliquity=obliquity,
         nearness=np.array(nearness),
-        over="all turns of each orbit by its elements",
+        over="all revolutions of each orbit by its elements",
         method="exact means of orbits by their elements",
         evaluations=len(perturbers),
         provenance=Elements().provenance | {"pyerfa_version": version("pyerfa")},
@@ -300,32 +299,32 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
-    """Means of the torque per unit of C - A: exact ones if there are, else over windows."""
+    """Means of the torque per unit of C - A: exact means if available, else windowed means."""
     means = orbit_means if window_means is None else window_means
-    assert means is not None  # a plan that has neither leaves this part out
+    assert means is not None  # a plan without both leaves this part out
     return means
 
 
 @dataclass(frozen=True)
 class MeanRates:
-    """Averages over orbits, by perturber; the last one is of all.
+    """Precession rates and mean torques by perturber and in total.
 
-    Where a body or a pull stands for many they are labelled arrays, else plain ones: labels cost
-    more than the sums.
+    The numbers are labelled arrays if a body or mass is an array, else plain arrays, which are
+    faster.
 
     Attributes
     ----------
     means : MeanTorques
-        That they follow from, with the labels of the perturbers.
+        Mean torques, with the labels of the perturbers.
     rate : Estimate
-        Of precession, rad/s.
+        Precession rate, rad/s.
     torque : Estimate
         Magnitude of the mean torque, N m.
     ratio : ndarray or DataArray
-        Rate over that of the first perturber.
+        Rate relative to that of the first perturber.
     second_order : float
-        Bound on what a first-order average leaves out of the rate of all, rad/s; the largest of
-        many.
+        Bound on the second-order part of the total rate, which the average neglects, rad/s; the
+        largest of an array.
     """
 
     means: MeanTorques
@@ -335,29 +334,29 @@ class MeanRates:
     second_order: float
 
     def total(self) -> tuple[Numeric, Numeric]:
-        """Rate by all perturbers and its error, rad/s."""
-        return of_all(self.rate.value), of_all(self.rate.error)
+        """Total rate of all perturbers and its error, rad/s."""
+        return total_of(self.rate.value), total_of(self.rate.error)
 
 
-def of_all(by_perturber: Numeric) -> Numeric:
-    """What all perturbers do together: the last of what each does."""
-    return of_one(by_perturber, -1)
+def total_of(by_perturber: Numeric) -> Numeric:
+    """Total of all perturbers: the last value along `perturber`."""
+    return item_of(by_perturber, -1)
 
 
-def of_one(by_perturber: Numeric, place: int) -> Numeric:
-    """What one of the perturbers does."""
+def item_of(by_perturber: Numeric, index: int) -> Numeric:
+    """Value of one perturber by its index."""
     if hasattr(by_perturber, "dims"):
-        return by_perturber.isel(perturber=place, drop=True)
-    return by_perturber[place]
+        return by_perturber.isel(perturber=index, drop=True)
+    return by_perturber[index]
 
 
 @part
 def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
-    """Averages over orbits: rate, period, mean torque, with errors."""
+    """Precession rate and mean torque from averages over orbits, with errors."""
     means = mean_torques
-    along = _labelled(means) if body.labelled or means.cases else np.asarray
-    u_each = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = along(rates.total_uncertainty(means.precessing, u_each))
+    along = _labeller(means) if body.labelled or means.cases else np.asarray
+    uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
+    u_gm = along(rates.total_uncertainty(means.precessing, uncertainties))
     rate = rates.precession_estimate(
         along(means.precessing),
         along(means.precessing_error),
@@ -366,7 +365,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         body.relative_uncertainty.get("dynamical_flattening", 0.0),
         u_gm,
     )
-    by_orbit, by_spin = _shares(rate.value, means, body, perturbers)
+    by_orbit, by_spin = _rates_over_motions(rate.value, means, body, perturbers)
     refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
@@ -380,23 +379,23 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
-        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(of_all(rate.value))),
+        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(total_of(rate.value))),
     )
 
 
-def _shares(
+def _rates_over_motions(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[Numeric, Numeric]:
-    """Rate of precession over the mean motions of what pulls, and over the spin."""
+    """Precession rate relative to the mean motions of the perturbers, and to the spin rate."""
     by_orbit = sum(
-        abs(of_one(rate, place)) / ((body.gm + p.gm) * near) ** 0.5
-        for place, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+        abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
+        for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
-    return by_orbit, abs(of_all(rate) / body.spin_rate)
+    return by_orbit, abs(total_of(rate) / body.spin_rate)
 
 
-def _labelled(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
-    """What lays an array along perturbers and cases."""
+def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
+    """Return a function that labels an array along perturbers and cases."""
     import xarray as xr
 
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
@@ -404,19 +403,19 @@ def _labelled(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
     return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)
 
 
-#: What stands between the sky and `mean_rates`, for the questions that use it.
+#: Parts that compute `mean_rates` from the sky, for questions that use them.
 MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
 
 
-def taken(window: Window) -> str:
-    """A window in words."""
+def window_words(window: Window) -> str:
+    """Describe a window."""
     return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
 
 
 def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
 ) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
-    """Errors of the precessing torque and of all torque, as measured for a choice, s-2."""
+    """Measured errors of the precessing torque and of the torque for a choice of settings, s-2."""
     if choice is None:
         return None, None
     precessing, torque = choice.settings.precessing_errors, choice.settings.torque_errors

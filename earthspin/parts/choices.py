@@ -1,4 +1,4 @@
-"""Settings for the accuracy that was asked for: the cheapest that keep it."""
+"""Choose the cheapest settings whose error is within the requested accuracy."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.rates import left_for_method
 
 
-def windows_on_offer(
+def available_windows(
     body: Body,
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     pulls: Pulls,
     epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the pole; none where sky or effects were not measured."""
+    """Windows of the axis solver with measured errors; empty for another sky or other effects."""
     measured = set(effects) <= set(MEASURED_WITH)
     if not measured or not all(member.naif for member in (body, *perturbers)):
         return []
@@ -58,13 +58,13 @@ def chosen_windows(
     epochs: Epochs,
     accuracy: float | None,
 ) -> list[Choice[PoleWindows]]:
-    """The cheapest windows of the pole that meet the accuracy asked for, then the most accurate.
+    """Choose the cheapest windows within the requested accuracy, then the most accurate ones.
 
-    Empty where the sky was not measured.
+    The list is empty if no errors were measured for this sky.
     """
-    menu = windows_on_offer(body, perturbers, effects, pulls, epochs)
+    menu = available_windows(body, perturbers, effects, pulls, epochs)
     exact = body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
-    # what H takes of the request is known when the path is; half and half until then
+    # The error from H is known only after the integration; until then, assume equal shares.
     share = MARGIN if exact else MARGIN / math.sqrt(2)
     best = [min(menu, key=lambda choice: choice.error)] if menu else []
     choice = cheapest(menu, (accuracy or math.inf) * share)
@@ -75,37 +75,37 @@ def chosen_windows(
 def chosen_average(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
 ) -> Choice[Averaging] | None:
-    """The cheapest window and step of the averages that meet the accuracy asked for.
+    """Choose the cheapest window and step of the averages within the requested accuracy.
 
-    None where the sky was not measured.
+    The result is None if no errors were measured for this sky.
     """
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    # the strongest pull may be all of the rate: its GM stands for all
+    # A single perturber may cause the whole rate, so use the largest uncertainty of any GM.
     u_gm = max(p.relative_uncertainty.get("gm", 0.0) for p in perturbers)
     allowed = MARGIN * left_for_method(accuracy or math.inf, u_h, u_gm)
     menu = average_choices(body, perturbers, stretch.first, stretch.last)
     widest = max((choice.settings.cycles for choice in menu), default=0)
-    # where none will do, the widest window at the closest step
+    # If no setting is accurate enough, take the longest window with the smallest step.
     finest = next((choice for choice in menu if choice.settings.cycles == widest), None)
     return cheapest(menu, allowed) or finest
 
 
 def on_mean_equator(equator: str) -> str | None:
-    """Leave nutation out at the mean equator."""
+    """Leave nutation out if the mean equator is requested."""
     return "the equator is the mean one" if equator == "mean" else None
 
 
-def equator_comes_along(source: SourceName) -> str | None:
-    """Leave nutation out where the source of positions has a true equator of its own."""
+def source_has_equator(source: SourceName) -> str | None:
+    """Leave nutation out if the source of positions has its own true equator."""
     return f"{source} has the equator of date" if source in OF_DATE else None
 
 
-@part(unless=(no_accuracy, on_mean_equator, no_iau_model, equator_comes_along), chooses=True)
+@part(unless=(no_accuracy, on_mean_equator, no_iau_model, source_has_equator), chooses=True)
 def chosen_nutation(
     sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """The cheapest nutation that meets the accuracy asked for, with what the kernel is off by."""
+    """Choose the cheapest nutation within the requested accuracy less the error of the kernel."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
-    left = (accuracy or math.inf) - kernel
+    allowed = (accuracy or math.inf) - kernel
     first, last = epochs.span()
-    return cheapest(nutation_choices(first, last, epochs.size), MARGIN * left)
+    return cheapest(nutation_choices(first, last, epochs.size), MARGIN * allowed)

@@ -1,4 +1,4 @@
-"""Bodies that are placed by the elements of their orbits: which ellipses lead to each."""
+"""Bodies with orbital elements: the chain of ellipses that leads to each body."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from earthspin.bodies.limits import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 
-#: How far half the long axis and the period of one orbit may be from Kepler's third law, relative:
-#: the Sun makes the Moon's month 0.3 per cent longer than its mean distance says.
+#: Largest relative deviation of semi-major axis and period from Kepler's third law. The Sun makes
+#: the Moon's month 0.3 per cent longer than the law with its mean distance.
 THIRD_LAW = 0.01
 
 
@@ -22,9 +22,10 @@ class EllipseChain(NamedTuple):
     Attributes
     ----------
     start : Body
-        Where the first ellipse begins.
+        Body at the start of the first ellipse.
     ellipses : tuple of (Ellipse, int)
-        One after the other; the number is -1 where an ellipse is followed backward.
+        Ellipses in sequence, with -1 if the ellipse is taken from the moving body to its centre,
+        else 1.
     """
 
     start: Body
@@ -32,18 +33,17 @@ class EllipseChain(NamedTuple):
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Ellipses to each perturber that elements place, by its name.
+    """Chain of ellipses to each perturber whose position follows from elements, by name.
 
-    They start from the spinning body, or, if its own orbit and theirs do not meet, from a body
-    without elements.
+    A chain starts from the spinning body if possible, else from a body without elements.
 
     Raises
     ------
     SceneError
-        If an orbit is about nothing that is there or about itself, contradicts Kepler's third law,
-        or goes through the body that it is about.
+        If the centre of an orbit is unknown or the body itself, or if an orbit contradicts Kepler's
+        third law or passes through its central body.
     UndefinedError
-        If the body has no such plane as the elements are counted from.
+        If the body has no reference plane of the kind that the elements use.
     """
     known = {member.name: member for member in (body, *perturbers)}
     centres = {
@@ -59,25 +59,25 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
     reached: dict[str, EllipseChain] = {}
     for start in (body, *(member for member in perturbers if member.orbit is None)):
         if start.name not in reached:
-            _follow(EllipseChain(start), start.name, links, reached)
+            _add_chain(EllipseChain(start), start.name, links, reached)
     return {name: chain for name, chain in reached.items() if chain.ellipses}
 
 
-def _follow(
+def _add_chain(
     chain: EllipseChain,
     end: str,
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Note the chain to a body, and go on to its neighbours."""
+    """Add the chain to a body, and those to bodies that are linked to it."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
-            _follow(EllipseChain(chain.start, (*chain.ellipses, link)), name, links, reached)
+            _add_chain(EllipseChain(chain.start, (*chain.ellipses, link)), name, links, reached)
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of what a body goes round; empty if its orbit places nothing that pulls."""
+    """Name of the body that another orbits; empty if the orbit does not lead to a perturber."""
     assert member.orbit is not None
     about = member.orbit.about
     if about:
@@ -89,27 +89,27 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
         return body.name
     left = [name for name, other in known.items() if other.orbit is None and other is not body]
     if len(left) > 1:
-        raise SceneError(f"{member.name}.orbit.about", "", f"say which it is: {', '.join(left)}")
+        raise SceneError(f"{member.name}.orbit.about", "", f"give one of {', '.join(left)}")
     return left[0] if left else ""
 
 
 def _refuse_circles(centres: Mapping[str, str]) -> None:
-    """Refuse bodies each of which goes round the other."""
+    """Refuse orbits of bodies about one another."""
     for name in centres:
-        at, seen = name, [name]
-        while at in centres:
-            at = centres[at]
-            if at in seen:
+        current, visited = name, [name]
+        while current in centres:
+            current = centres[current]
+            if current in visited:
                 raise SceneError(
                     f"{name}.orbit.about",
                     centres[name],
-                    f"these go round one another: {', '.join(seen)}; leave out the orbit of one",
+                    f"these bodies orbit one another: {', '.join(visited)}; remove one orbit",
                 )
-            seen.append(at)
+            visited.append(current)
 
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
-    """Elements in SI, with the plane that they are counted from."""
+    """Ellipse with elements in SI units and their reference plane."""
     orbit = member.orbit
     assert orbit is not None
     a, motion = size_and_motion(member, centre)
@@ -132,11 +132,12 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
 
 
 def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
-    """Refuse an orbit of half the long axis `a` (m) whose pericentre lies inside a body.
+    """Refuse an orbit with semi-major axis `a` (m) at whose pericentre the bodies overlap.
 
     Raises
     ------
     SceneError
+        If they do.
     """
     assert member.orbit is not None
     reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
@@ -146,12 +147,13 @@ def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> No
 
 
 def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
-    """Half the long axis (m) and the sidereal mean motion (rad/s), by Kepler's third law.
+    """Semi-major axis (m) and sidereal mean motion (rad/s), by Kepler's third law.
 
     Raises
     ------
     SceneError
-        If size and period contradict each other, or the masses do not give the missing one.
+        If semi-major axis and period contradict each other, or one of them is missing and does not
+        follow from the masses.
     """
     orbit = member.orbit
     assert orbit is not None
@@ -160,8 +162,8 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     many = hasattr(gm, "dims")
     if many or not gm > 0:
         if a is None or period is None:
-            array = "masses are an array here: give both a and period"
-            problem = array if many else "nothing here has a mass"
+            array = "the masses are an array: give both a and period"
+            problem = array if many else "both masses are zero; give both a and period"
             raise SceneError(f"{member.name}.orbit", str(orbit), problem)
     elif a is None:
         assert period is not None
@@ -173,14 +175,14 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
             raise SceneError(
                 f"{member.name}.orbit",
                 f"a = {a:.6g} m, period = {period:.6g} s",
-                f"they contradict each other: about {float(gm):.6g} m3 s-2 this a has a period of "
-                f"{by_law:.6g} s; give one of the two",
+                f"they contradict each other: with GM = {float(gm):.6g} m3 s-2 the period for this "
+                f"a is {by_law:.6g} s; give either a or period",
             )
     return a, 2 * math.pi / period
 
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
-    """Whether elements alone place everything that pulls, as seen from the body."""
+    """Return True if the positions of all perturbers from the body follow from elements."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
     by_name = ellipse_chains(body, perturbers)
@@ -188,7 +190,7 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave windows out where each pull is an ellipse about the body, whose mean is known."""
+    """Leave windows out if each perturber moves on an ellipse about the body."""
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
     if len(by_name) < len(perturbers) or not single:
@@ -197,7 +199,7 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave exact means out where a pull is anything but one ellipse about the body."""
+    """Leave exact means out unless each perturber moves on an ellipse about the body."""
     if exact_means(body, perturbers) is None:
-        return "not every pull is one ellipse about the body, so windows are averaged over"
+        return "not all perturbers move on ellipses about the body, so windowed averages are used"
     return None

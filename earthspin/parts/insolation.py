@@ -1,4 +1,4 @@
-"""Daily insolation from an answer of `long_term`, labelled."""
+"""Daily insolation with its error from an answer of `long_term`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from earthspin.units import quantity
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
 _TURN = 2 * np.pi
 _TURNING = "longitude_of_perihelion"
-#: Half-width of the longitude of perihelion, rad, from which on its share is a quantile over draws.
+#: Half-width of the longitude of perihelion, rad, above which its contribution is sampled.
 SAMPLED_FROM = 0.1
 _CALL = "daily_insolation"
 
@@ -34,42 +34,42 @@ def daily_insolation(
     days: Any = None,
     solar_constant: Any = None,
 ) -> xr.DataArray:
-    """Sunlight at the top of the atmosphere, averaged over a day (Berger 1978).
+    """Insolation at the top of the atmosphere, averaged over a day (Berger 1978).
 
     Longitudes are those of the Sun as seen from the body, along the orbit from the moving equinox:
     0 is the March equinox, 90 degrees the June solstice. (The `longitude_of_perihelion` of an
-    answer is that of the body, 180 degrees from where the Sun then stands.)
+    answer is that of the body, which differs from that of the Sun by 180 degrees.)
 
     Parameters
     ----------
     result : Dataset
         An answer of `long_term`.
     latitude : str, Quantity, DataArray or list of them
-        Like ``"65 deg"``; plain numbers are radians.
+        Latitude, like ``"65 deg"``; plain numbers are radians.
     solar_longitude : str, Quantity, DataArray or list of them
-        Like ``"90 deg"``.
+        Longitude of the Sun, like ``"90 deg"``.
     true_longitude : bool
-        Whether longitudes are true ones. Mean ones grow evenly with time from the March equinox
-        on, so that 90 degrees lie a quarter of a year after it.
+        True for true longitudes, False for mean longitudes. Mean longitudes grow linearly with time
+        from the March equinox, so that 90 degrees are a quarter of a year after the equinox.
     days : str, Quantity or float, optional
-        Length of a window of time, like ``"30 d"``, about the instant of that longitude, over which
-        to average; without it, one day with the Sun at that longitude.
+        Length of a time window for the average, like ``"30 d"``, centred on the instant of the
+        longitude; by default, one day with the Sun at the longitude.
     solar_constant : str, Quantity or float, optional
-        W/m2 at the mean distance of the body; if not given, 1361 W/m2 at an astronomical unit (IAU
-        2015 Resolution B3). Many published tables stand on 1365 or more.
+        Solar constant in W/m2 at the mean distance of the body; by default 1361 W/m2 at one
+        astronomical unit (IAU 2015 Resolution B3). Many published tables use 1365 or more.
 
     Returns
     -------
     DataArray
-        W/m2 over `epoch`, and over `latitude` and `solar_longitude` where several are given, with
-        the 95 % half-width as the coordinate `daily_insolation_error`: from those of obliquity,
-        eccentricity and perihelion, taken as independent.
+        Insolation in W/m2 along `epoch`, and along `latitude` and `solar_longitude` if several are
+        given. The coordinate `daily_insolation_error` is the 95 % half-width from those of
+        obliquity, eccentricity and perihelion, which are treated as independent.
 
     Raises
     ------
     SceneError, UnitsError, UndefinedError
-        In one line: another sort of result, a latitude beyond a pole, a body without a solar
-        constant.
+        If the result is of another question, a latitude is beyond a pole, or the solar constant of
+        the body is not known.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def daily_insolation(
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % quantile of how far draws of a longitude, which may go round, move a value."""
+    """95 % quantile of the change of a value over draws of a longitude."""
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})
@@ -140,7 +140,7 @@ def _insolation(
     true: bool,
     share: float | None,
 ) -> xr.DataArray:
-    """As a share of the solar constant; plain arithmetic on labelled arrays."""
+    """Insolation relative to the solar constant."""
     arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
     eps, e, w, phi, sun = (array.values for array in arrays)
     season = Season(eps, e, w)
@@ -150,24 +150,22 @@ def _insolation(
 
 
 def _angle(value: Any, name: str, most: float) -> xr.DataArray:
-    """An angle, rad, labelled in degrees along a dimension of its name if there are several."""
+    """Read an angle in rad; several angles are labelled in degrees along the dimension `name`."""
     where = Where(name, _CALL)
     angle = quantity(value, "rad", where, "65 deg")
     if np.max(np.abs(np.asarray(angle))) > most * (1 + 1e-12):
-        raise where.error(
-            value, f"it lies within {np.degrees(most):g} degrees; give it as '65 deg'"
-        )
+        raise where.error(value, f"give at most {np.degrees(most):g} degrees, like '65 deg'")
     if isinstance(angle, xr.DataArray):
         return angle
     if np.ndim(angle) > 1:
-        raise where.error(value, "give one, or one list")
+        raise where.error(value, "give one angle, or one list of angles")
     dims = (name,) if np.ndim(angle) else ()
     label = (dims, np.degrees(angle), {"units": "degree"})
     return xr.DataArray(angle, dims=dims, coords={name: label})
 
 
 def _share(days: Any, body: str) -> float | None:
-    """A window of days as a share of the year."""
+    """Convert a window of days to a fraction of the year."""
     if days is None:
         return None
     where = Where("days", _CALL)
@@ -182,8 +180,8 @@ def _year(body: str) -> float:
     year = BODIES[body].orbital_period if body in BODIES else None
     if year is None:
         raise UndefinedError(
-            f"{_CALL}: the year of {body or 'this body'} is not known; give solar_constant, and no "
-            "days"
+            f"{_CALL}: the year of {body or 'this body'} is not known; give solar_constant, and "
+            "remove days"
         )
     return year
 

@@ -1,4 +1,4 @@
-"""What lies inside the body of a question: as the question has it, or the body itself."""
+"""Interior of the body of a question: layers from the question or from the body."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from earthspin.errors import nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.named import INTERIORS, Interior, with_layers
 
-#: Layers stand for bodies whose mass and mean radius are within this of their own.
+#: Largest relative difference of mass and mean radius between layers and the body they describe.
 FIT = 0.01
 
-#: Why numbers that follow from layers carry no error.
-FROM_LAYERS = "they follow from the layers, whose own errors are not known"
+#: Reason why numbers from layers have no error.
+FROM_LAYERS = "they follow from the layers, whose errors are not known"
 
-#: A layered body, however given.
+#: A layered body in any form that `Layers` reads.
 LayeredInterior = Annotated[LayeredBody, Layers()]
 
 
 def interior_of(body: Body) -> Interior | None:
-    """What lies inside a body; None if it is rigid.
+    """Interior of a body; None if it is rigid.
 
-    Layers of its own keep what is known of the body beside its layers, as long as it is that body.
+    If an unmodified body has custom layers, the other known numbers of its interior still apply.
     """
     own = body.interior
     if isinstance(own, LayeredBody):
@@ -35,25 +35,25 @@ def interior_of(body: Body) -> Interior | None:
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
-    """Leave out what layers tell where mass or mean radius are not those of the body."""
+    """Leave out results from layers whose mass or mean radius differs from that of the body."""
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
-    for what, own, models in (
+    for what, own, model in (
         ("mass", body.mass, layers.mass),
         ("radius", mean_radius, layers.radius),
     ):
-        if not all_of(abs(own / models - 1) < FIT):
-            return f"interior '{layers.name}' is of another {what}, {models:.4g} in SI"
+        if not all_of(abs(own / model - 1) < FIT):
+            return f"interior '{layers.name}' has another {what}, {model:.4g} in SI units"
     return None
 
 
 def refuse_unknown(question: Question, body: Body) -> None:
-    """Refuse the name of an interior that nobody knows.
+    """Refuse an unknown name of an interior.
 
     Raises
     ------
     SceneError
-        It names the nearest one.
+        If the name is unknown; the message suggests the nearest one.
     """
     name = body.interior
     if isinstance(name, str) and name not in ("none", *INTERIORS):
@@ -61,13 +61,13 @@ def refuse_unknown(question: Question, body: Body) -> None:
 
 
 def no_interior(body: Body) -> str | None:
-    """Leave out what an interior does where none is known."""
+    """Leave out results that need an interior if none is known."""
     none = interior_of(body) is None
-    return f"no interior of {in_a_sentence(body.name)} is kept" if none else None
+    return f"no interior of {in_a_sentence(body.name)} is known" if none else None
 
 
 def not_layered(body: Body) -> str | None:
-    """Leave out what layers tell where none are known."""
+    """Leave out results that need layers if none are known."""
     interior = interior_of(body)
     if interior is None or interior.layers is not None:
         return no_interior(body)
@@ -75,12 +75,12 @@ def not_layered(body: Body) -> str | None:
 
 
 def require_layers(question: Question, interior: LayeredBody | None, body: Body) -> None:
-    """Refuse a question about layers that neither it nor its body has.
+    """Require a layered interior in the question or its body.
 
     Raises
     ------
     SceneError
-        It says which.
+        If neither has layers.
     """
     refuse_unknown(question, body)
     if interior is None and (why := not_layered(body)):
@@ -97,11 +97,11 @@ def layers_of(body: Body) -> LayeredBody:
 
 @part
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
-    """Layers that the question gives, or else those of the body."""
+    """Layers from the question, or else those of the body."""
     return layers_of(body) if interior is None else interior
 
 
 def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """Leave published numbers out for other layers than they are of."""
+    """Leave published numbers out for layers other than PREM."""
     name = (interior or layers_of(body)).name
-    return None if name == "prem" else f"none are kept of '{name}'"
+    return None if name == "prem" else f"no published numbers of '{name}' are known"

@@ -1,4 +1,4 @@
-"""Observed celestial pole beside models of it, with and without the free core nutation."""
+"""Compare models with the observed celestial pole, with and without the free core nutation."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from earthspin.parts.times import days_of
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import FloatArray
 
-#: Offsets are compared from 1990 on, days from J2000.0: their stated errors before are 0.4 to
-#: 0.6 mas a day, larger than what IAU 2006/2000A lacks.
+#: First day of comparisons, 1990, in days from J2000.0. The stated errors of earlier offsets are
+#: 0.4 to 0.6 mas a day, larger than the error of IAU 2006/2000A.
 FIRST_DAY = 47892.0 - MJD
-#: Fewest dates that are compared.
+#: Smallest number of dates that are compared.
 FEWEST = 10
 #: Name of IAU 2006/2000A among the models.
 IAU = "iau"
@@ -34,7 +34,7 @@ def observed_series() -> PoleSeries:
 
 
 def not_observed_then(span: Span, step: float) -> str | None:
-    """Leave out series of which too few dates have an observed pole."""
+    """Leave out the comparison if too few dates have an observed pole."""
     first, last = span.days
     first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
     if (last - first) * DAY >= FEWEST * step:
@@ -44,19 +44,19 @@ def not_observed_then(span: Span, step: float) -> str | None:
 
 @dataclass(frozen=True)
 class ObservedSky:
-    """Celestial pole offsets at the dates of a series that were observed.
+    """Observed celestial pole offsets at the dates of a series.
 
     Attributes
     ----------
     rows : ndarray, shape (t,), bool
-        The dates of the series that are compared.
+        True for the dates of the series that are compared.
     days : ndarray, shape (n,)
-        These dates, from J2000.0.
+        The compared dates, days from J2000.0.
     offsets : ndarray, shape (n, 2)
         DX and dY, rad: the observed pole minus that of IAU 2006/2000A. To first order in the
-        offsets and in the precession since J2000.0 they are dpsi sin(eps0) and deps.
+        offsets and in the precession since J2000.0 they equal dpsi sin(eps0) and deps.
     core : ndarray, shape (n, 2)
-        The free core nutation in them, from sliding windows of three years.
+        Free core nutation in the offsets, from sliding windows of three years, rad.
     provenance : dict of str to str
         Checksum of the table.
     """
@@ -102,7 +102,7 @@ class ObservedSky:
 
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
-    """Observed celestial pole offsets at the dates of the series, and the core nutation in them."""
+    """Observed celestial pole offsets at the dates of the series, with their core nutation."""
     from earthspin.nutation import core_nutation
 
     table = observed_series()
@@ -127,7 +127,7 @@ _AS_RETURNED = "nothing removed"
 
 
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
-    """Sizes of the differences from the observed celestial pole, model by model."""
+    """Root mean square differences of models from the observed celestial pole."""
 
     observed_rms: Value = number("mas", f"{_RMS}, {_LINE}", short="rms")
     observed_rms_without_core: Value = number(

@@ -1,4 +1,4 @@
-"""The observed period of the free wobble, a cited figure."""
+"""Published observed period of the free wobble."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from earthspin.engine.variables import Pair, Variables, measured
 
 
 class ObservedWobble(Variables):
-    """The observed period of the free wobble."""
+    """Variables of the observed period of the free wobble."""
 
     observed_period: Pair = measured("d", "observed period of the free wobble")
 
 
-def not_kept(body: Body) -> str | None:
-    """Leave it out for a body that nobody has observed."""
+def not_observed(body: Body) -> str | None:
+    """Leave the observed period out for a body without an observed wobble."""
     if body.observed_wobble:
         return None
-    return f"no observed wobble of this {proper(body.name)} is kept"
+    return f"no observed wobble of this {proper(body.name)} is known"
 
 
-@part(unless=not_kept)
+@part(unless=not_observed)
 def observed_wobble(body: Body) -> ObservedWobble:
-    """The observed period of the free wobble, a cited figure."""
+    """Observed period of the free wobble from the literature."""
     observed = body.observed_wobble
     assert observed is not None
     period = observed.value * DAY

@@ -1,4 +1,4 @@
-"""The table of an orbit over millions of years, for the questions that need one."""
+"""Table of an orbit over millions of years, for the questions that need one."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.units import FileName, Plain, pack, unpack
 
-#: Word for the table that is shipped with a body.
+#: Name of the table that is shipped for the body.
 OWN = "own"
 
 
-#: Numbers of a table, as a scene holds them.
+#: Names of the arrays of a table in a scene.
 _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
 class OrbitChoice(FileName):
-    """Kind of an orbit's table: that of the body, a file, or a table that was read."""
+    """Kind of an orbit table: that of the body, a file, or an `OrbitTable`."""
 
-    words = '"own", the path of a table, or what read_orbit gives'
+    words = '"own", the path of a table, or the result of read_orbit'
     hint = "str | PathLike[str] | OrbitTable"
     known = (OWN,)
     content = "the table of an orbit"
 
     def read(self, value: object, where: Where) -> Any:
-        """Take the word, a path, a table, or a table as `write` gives it."""
+        """Read "own", a path, a table, or the result of `write`."""
         if isinstance(value, OrbitTable):
             return value
         if isinstance(value, Mapping):
@@ -38,27 +38,27 @@ class OrbitChoice(FileName):
         return super().read(value, where)
 
     def write(self, value: str | OrbitTable) -> Plain:
-        """Give the word or the path; of a table every number."""
+        """Return "own" or the path, or all numbers of a table."""
         if isinstance(value, str):
             return value
         numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
         return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
 
     def begins(self, head: bytes) -> bool:
-        """Whether it begins as an archive of arrays or a table does."""
+        """Return True if a file starts like an archive of arrays or a table."""
         return head[:2] == b"PK" or is_table(head)
 
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
-    """The table that a scene holds."""
+    """Make a table from its representation in a scene."""
     wanted = {"name", "source", "sha256", *_ARRAYS}
     if set(table) != wanted:
-        raise where.error(sorted(table), f"the table of an orbit holds {', '.join(sorted(wanted))}")
+        raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
     edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
     windows = len(edges) - 1
     shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
     if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
-        raise where.error("a table", "its arrays do not fit together")
+        raise where.error("a table", "the shapes of its arrays do not fit together")
     return OrbitTable(
         name=str(table["name"]),
         edges=edges,
@@ -80,6 +80,6 @@ def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
     table = shipped(body.name)
     if table is None:
         raise UndefinedError(
-            f"no orbit over millions of years is shipped for {body.name}; give one: orbit = a file"
+            f"no orbit over millions of years is shipped for {body.name}; give a file as orbit"
         )
     return table

@@ -1,4 +1,4 @@
-"""The three axes of a body followed in time, and what separates ours from the IAU's."""
+"""Paths of the three axes of a body, their errors, and the comparison with IAU models."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ if TYPE_CHECKING:
 
 ComplexArray = NDArray[np.complex128]
 
-#: Half of the stretch about J2000.0 that is analysed, as far as the kernel has it: four turns of
-#: the node each way, in which slow changes are a short polynomial.
+#: Half of the span about J2000.0 that is analysed, as far as the kernel covers it: four periods of
+#: the node in each direction, over which slow changes are a short polynomial.
 HALF_SPAN = 27200.0  # d
-#: Shortest stretch that is analysed. Paths with the fitted response depart from IAU 2006/2000A by
-#: 0.7 mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
+#: Shortest span that is analysed. Paths with the fitted response differ from IAU 2006/2000A by 0.7
+#: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 
-#: Times at which errors are looked at at once.
-_AT_ONCE = 1 << 16
+#: Number of times for which errors are computed in one call.
+_CHUNK = 1 << 16
 
 
 @part
@@ -61,20 +61,20 @@ def axis_path(
     chosen_windows: list[Choice[PoleWindows]] | None = None,
     interior_shift: Shift | None = None,
 ) -> AxisPath:
-    """The axes from J2000.0 to the times wanted: Picard iteration on Gauss windows.
+    """Integrate the axes from J2000.0 to all dates by Picard iteration on Gauss windows.
 
-    The windows that were chosen are taken if they will do, the finest otherwise. With the response
-    of the interior the rigid axes start where their mean pole meets that of the IAU.
+    The chosen windows are used if they are accurate enough, else the finest. With the response of
+    the interior, the rigid axes start such that their mean pole agrees with that of the IAU.
     """
     start = None if interior_shift is None else interior_shift.start
     tried: list[AxisPath] = []
     for choice in (*(chosen_windows or ()), None):
         try:
-            path = _follow(body, pulls, effects, epochs, choice, start)
+            path = _integrate(body, pulls, effects, epochs, choice, start)
         except UndefinedError:
             if choice is None and not tried:
                 raise
-            continue  # windows that are too wide for the slow manifold of this spin
+            continue  # these windows are too long for the slow manifold of this spin
         tried.append(path)
         if choice and PathErrors(path, epochs, body, pulls).total <= (accuracy or 0.0):
             break
@@ -85,13 +85,13 @@ def axis_path(
 
 @dataclass(frozen=True)
 class Errors:
-    """95 % half-widths of directions by what they come from, rad.
+    """95 % half-widths of directions by cause, rad.
 
     Attributes
     ----------
     method, given, kernel, response : ndarray, shape (t,)
-        From the integration, from the uncertainty of H, from the positions of the bodies, from the
-        response of the interior (0 for a rigid body).
+        Errors from the integration, from the uncertainty of H, from the positions of the bodies,
+        and from the response of the interior (0 for a rigid body).
     """
 
     method: FloatArray
@@ -101,7 +101,7 @@ class Errors:
 
     @property
     def total(self) -> FloatArray:
-        """Root sum of squares of all shares."""
+        """Root sum of squares of all errors."""
         return np.asarray(
             np.sqrt(self.method**2 + self.given**2 + self.kernel**2 + self.response**2)
         )
@@ -115,11 +115,11 @@ class PathErrors:
     ----------
     path : AxisPath
     epochs : TimeGrid or TimeList
-        All times of the series: how well the sky is known depends on the farthest.
+        All times of the series; the error of the positions depends on the most distant ones.
     body : Body
     pulls : Pulls
     shift : Shift or None
-        Response of the interior, if it is switched on.
+        Response of the interior; None for a rigid body.
     """
 
     path: AxisPath
@@ -129,7 +129,7 @@ class PathErrors:
     shift: Shift | None = None
 
     def at(self, days: FloatArray, figure: FloatArray) -> Errors:
-        """Errors on some days from J2000.0, shape (t,), with the figure axis there, (t, 3)."""
+        """Errors at days from J2000.0, shape (t,), from the figure axes, shape (t, 3)."""
         u_h = self.body.relative_uncertainty.get("dynamical_flattening", 0.0)
         method = np.nan if self.pulls.sky.unmeasured else self.path.error
         return Errors(
@@ -140,7 +140,7 @@ class PathErrors:
         )
 
     def _of_sky(self, figure: FloatArray) -> FloatArray:
-        """95 % half-width of a direction from errors of the positions, rad, shape (t,)."""
+        """95 % half-width of directions due to errors of the positions, rad, shape (t,)."""
         sky, body = self.pulls.sky, self.body
         _, epoch = start_of(body, self.pulls)
         positions = sky.positions(np.array([epoch / DAY]))
@@ -155,13 +155,10 @@ class PathErrors:
         return grown * axes.error_of_sky(self.path, figure, drift, speed, DRIFT_FROM)
 
     def largest(self) -> dict[str, float]:
-        """Largest error at the times wanted, total and by share, rad.
-
-        Windows decide on all shares but that of the response, which is left out without a shift.
-        """
+        """Largest error over the series, in total and by cause, rad."""
         largest: dict[str, float] = {}
-        for first in range(0, self.epochs.size, _AT_ONCE):
-            days = self.epochs.days(first, min(first + _AT_ONCE, self.epochs.size))
+        for first in range(0, self.epochs.size, _CHUNK):
+            days = self.epochs.days(first, min(first + _CHUNK, self.epochs.size))
             errors = self.at(days, self.path.at(days * DAY)["figure"])
             for name, share in {"total": errors.total, **vars(errors)}.items():
                 largest[name] = float(np.maximum(largest.get(name, 0.0), share.max()))
@@ -169,7 +166,7 @@ class PathErrors:
 
     @property
     def total(self) -> float:
-        """Largest error at the times wanted, rad."""
+        """Largest total error over the series, rad."""
         return self.largest()["total"]
 
 
@@ -180,9 +177,9 @@ class LargestError:
     Attributes
     ----------
     error : float
-        rad.
+        Largest error, rad.
     remedy : str
-        What would make its largest share smaller.
+        Advice to reduce the largest contribution.
     """
 
     error: float
@@ -197,47 +194,47 @@ def largest_error(
     pulls: Pulls,
     interior_shift: Shift | None = None,
 ) -> LargestError:
-    """The largest error of the whole series, before the first of its stretches is written."""
+    """Largest error of the whole series, which is computed before its first block is written."""
     remedies = {
-        "kernel": "the sky is no better known that far from J2000.0",
-        "given": "stay nearer to J2000.0 or give the body a better known H",
-        "response": "the response of the interior is known no better; leave nonrigid out",
-        "method": "the integration takes the finest windows",
+        "kernel": "the positions are not known better so far from J2000.0",
+        "given": "choose dates nearer to J2000.0, or give a more accurate H",
+        "response": "the response of the interior is not known better; remove nonrigid",
+        "method": "the integration already uses the finest windows",
     }
     shares = PathErrors(axis_path, epochs, body, pulls, interior_shift).largest()
     return LargestError(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
 
 
 @dataclass(frozen=True)
-class Turns:
-    """How often a path has gone round the orbit's normal, so that longitudes do not jump.
+class LongitudeCycles:
+    """Continuous longitude of a path, from which whole revolutions are added to longitudes.
 
     Attributes
     ----------
     times : ndarray, shape (w,)
-        Where windows begin, s.
+        Start times of the windows, s.
     psi : ndarray, shape (w,)
-        Longitude there, without jumps, rad.
+        Continuous longitude at these times, rad.
     """
 
     times: FloatArray
     psi: FloatArray
 
     def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
-        """Longitudes at given times, shapes (t, k) and (t,), with their whole turns."""
+        """Add whole revolutions to longitudes, shape (t, k), at times in s, shape (t,)."""
         return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
 
 
-def turns_of(path: AxisPath, first: float, ecliptic: FloatArray) -> Turns:
-    """Follow the longitude through all windows; it is a principal value at the first time, s."""
+def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
+    """Compute the continuous longitude, which is a principal value at the time `first`, s."""
     psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
-    there = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
-    off = np.interp(first, times, psi) - there
-    return Turns(times, psi - 2 * np.pi * np.rint(off / (2 * np.pi)))
+    principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
+    difference = np.interp(first, times, psi) - principal
+    return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
 
 
-def _follow(
+def _integrate(
     body: Body,
     pulls: Pulls,
     effects: Sequence[str],
@@ -245,7 +242,7 @@ def _follow(
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
-    """Integrate on chosen windows, or on the finest, from the body's own pole or another start."""
+    """Integrate on chosen or the finest windows, from the body's pole or another initial axis."""
     pulls.sky.check_times(epochs.span(), pulls.targets)
     own, epoch = start_of(body, pulls)
     axis = own if start is None else start
@@ -263,15 +260,15 @@ def _follow(
             advance=advance,
             **settings,
         )
-    # What was measured of the settings is a bound; the path itself only sees its last terms.
+    # The measured error of the settings is a bound; the path estimates its error from last terms.
     return path if choice is None else replace(path, interpolation_error=choice.error)
 
 
-# --- beside the IAU's ----------------------------------------------------------------------------
+# --- comparison with the IAU ---------------------------------------------------------------------
 
 
 class Comparison(AxisMotion):
-    """Keys of every question that compares the pole with the IAU's in time."""
+    """Keys of every question that compares the pole in time with that of the IAU."""
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -282,22 +279,25 @@ class Comparison(AxisMotion):
 
 @dataclass(frozen=True)
 class PoleComparison:
-    """Our pole and the IAU's, analysed alike.
+    """Identical analyses of the computed pole and of the pole of IAU 2006/2000A.
 
     Attributes
     ----------
     days : ndarray, shape (t,)
+        Days from J2000.0.
     start : ndarray, shape (3,)
-        Axis to start with so that our mean pole meets the IAU's at the epoch.
+        Initial axis, for which the computed mean pole agrees with that of the IAU at the epoch.
     epoch : float
-        J2000.0, or as near to it as the positions reach, s from J2000.0 TDB.
+        J2000.0, or the nearest time with positions, s from J2000.0 TDB.
     path : AxisPath
-        With all effects that are switched on.
+        Rigid path with all effects that are switched on.
     analysis : PoleAnalysis
     ours, theirs : Secular
+        Secular motion of the computed pole, and of that of the IAU.
     our_circles, their_circles : Circles
+        Circular nutations of the computed pole, and of that of the IAU.
     difference : ndarray, shape (t,), complex
-        Our rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
+        The computed rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
     """
 
     days: FloatArray
@@ -324,7 +324,7 @@ def path_over(
     start: FloatArray,
     days: FloatArray,
 ) -> AxisPath:
-    """Axes of the rigid body over some days, the sky kept for the next run over the same."""
+    """Axes of the rigid body over some days; the positions are stored for the next run."""
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
     span = days[0] * DAY, days[-1] * DAY
@@ -337,11 +337,11 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     Returns
     -------
     days : ndarray, shape (t,)
-        From J2000.0.
+        Days from J2000.0.
     ends : ndarray, shape (2,)
-        Days that bound the series and J2000.0.
+        First and last day of an interval that includes the series and J2000.0.
     eta : ndarray, shape (t,), complex
-        dpsi sin(eps0) + i deps, rad.
+        Nutation dpsi sin(eps0) + i deps, rad.
 
     Raises
     ------
@@ -362,7 +362,7 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
 def residual_error(
     analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
 ) -> float:
-    """95 % half-width of either angle of a residual: integration, H in nutation, interpolation."""
+    """95 % half-width of a residual in either angle, from integration, H and interpolation."""
     from earthspin.sky.iau import node_error
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -372,13 +372,13 @@ def residual_error(
 
 
 def rigid(effects: Sequence[str]) -> list[str]:
-    """Effects that move a rigid body."""
+    """Select the effects that apply to a rigid body."""
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
-    """Our pole and the IAU's over 150 years, started where the mean poles meet, analysed alike."""
+    """Analyse the computed pole and that of the IAU over 150 years, with equal mean poles."""
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
@@ -389,11 +389,11 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
         raise UndefinedError(
             f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
-            "ephemeris, or leave the effect nonrigid out"
+            "ephemeris, or remove the effect nonrigid"
         )
     start, epoch = start_of(body, pulls)
 
-    def follow(start: FloatArray) -> tuple[AxisPath, FloatArray]:
+    def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
         path = path_over(body, pulls, effects, start, days)
         return path, steady_figure(path, days)
 
@@ -405,11 +405,11 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
         true_pole = iau.true_pole(days)
         theirs = analysis.secular(true_pole)
         advance(1)
-        _, pole = follow(start)
+        _, pole = integrate(start)
         start = shifted_start(
             start, analysis.secular(pole), theirs, analysis.ecliptic, epoch / CENTURY
         )
-        path, pole = follow(start)
+        path, pole = integrate(start)
         advance(1)
         their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
         advance(1)
@@ -430,16 +430,18 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
 
 @part
 def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
-    """Resonance form fitted to IAU 2000A over our rigid amplitudes."""
+    """Fit the resonance formula to the ratios of IAU 2000A to computed rigid amplitudes."""
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    return _fitted(ours, ours.amplitude, theirs.amplitude, body)
+    return _response_between(ours, ours.amplitude, theirs.amplitude, body)
 
 
-def _fitted(circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body) -> Response:
-    """Response by which circles of one amplitude follow from those of a rigid body."""
+def _response_between(
+    circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
+) -> Response:
+    """Fit the response that converts rigid amplitudes of circles to other amplitudes."""
     from earthspin.nutation.response import fit_response
 
-    used = _used(circles)
+    used = _circles_for_fit(circles)
     return fit_response(
         circles.frequency[used],
         rigid[used],
@@ -449,8 +451,8 @@ def _fitted(circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Bo
     )
 
 
-def _used(circles: Circles) -> NDArray[np.bool_]:
-    """Circles that a response is fitted to: all but the prograde year."""
+def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
+    """Circles for the fit of a response: all except the prograde annual term."""
     from earthspin.nutation.response import SUN_SYNCHRONOUS
 
     return np.asarray(np.any(circles.multiples != SUN_SYNCHRONOUS, axis=1))
@@ -458,21 +460,21 @@ def _used(circles: Circles) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class ResponseFit:
-    """A response that is not allowed to absorb what no response makes.
+    """Response that is fitted without terms that are no response of the interior.
 
     Attributes
     ----------
     response : Response
-        Fitted to IAU 2000A less `added` and geodesic nutation.
+        Response fitted to IAU 2000A without `added` and geodesic nutation.
     used : ndarray, shape (k,), bool
-        The circles that it is fitted to: all but the prograde year, to which IAU 2000A adds not
-        quite what was published.
+        Circles in the fit: all except the prograde annual term, whose published addition in IAU
+        2000A is not exact.
     rigid : ndarray, shape (k,), complex
-        What torques make of each circle, without geodesic nutation, rad.
+        Rigid amplitude of each circle from torques, without geodesic nutation, rad.
     left : ndarray, shape (k,), complex
-        What the response leaves of each circle of IAU 2000A, geodesic nutation apart, rad.
+        Residual of each circle of IAU 2000A, without geodesic nutation, rad.
     added : ndarray, shape (k,), complex
-        What its authors say is added to each, rad; 0 to most.
+        Published additive term of each circle, rad; 0 for most circles.
     """
 
     response: Response
@@ -486,46 +488,46 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Resonance form fitted with geodesic nutation and additive terms taken away."""
+    """Fit the resonance formula without geodesic nutation and additive terms."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
-    done = pole_analysis
-    ours, theirs = done.our_circles, done.their_circles.amplitude
+    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
     torques = ours.amplitude
     if GEODESIC.name in effects:
-        # A turn of the frame is no torque: the body does not answer to it.
+        # The interior does not respond to a rotation of the frame, which is no torque.
         rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(body, pulls, rest, done.start, done.days)
-        pole = steady_figure(path, done.days)
-        eta = complex_nutation(iau.nutation_of(pole, done.days))
-        torques = done.analysis.circles(eta).amplitude
+        path = path_over(body, pulls, rest, pole_analysis.start, pole_analysis.days)
+        pole = steady_figure(path, pole_analysis.days)
+        eta = complex_nutation(iau.nutation_of(pole, pole_analysis.days))
+        torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
-    response = _fitted(ours, torques, theirs - added, body)
+    response = _response_between(ours, torques, theirs - added, body)
     left = theirs - response.transfer(ours.frequency) * torques
-    return ResponseFit(response, _used(ours), torques, left, added)
+    return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
 
 
 @dataclass(frozen=True)
 class Shift:
-    """What the non-rigid response adds to the axes of a rigid body.
+    """Shift of the axes of a rigid body due to the non-rigid response.
 
     Attributes
     ----------
     start : ndarray, shape (3,)
-        Axis with which the rigid path starts: its mean pole then meets that of the IAU.
+        Initial axis of the rigid path, for which its mean pole agrees with that of the IAU.
     epoch : float
-        Time of the start, s from J2000.0 TDB.
+        Epoch of the initial axis, s from J2000.0 TDB.
     circles : Circles
-        Non-rigid less rigid nutation, as a sum of circles.
+        Non-rigid minus rigid nutation, as a sum of circles.
     rate : float
-        Published contribution to the rate of precession, times sin(eps0), rad/s.
+        Published contribution to the precession rate, times sin(eps0), rad/s.
     closure : float
-        Rate at which the path departs from IAU 2006/2000A, rad/s.
+        Rate of the difference between the path and IAU 2006/2000A, rad/s.
     residual : float
-        Half-width that, with the departure, contains 95 % of the distances from it, rad.
+        Half-width that, combined with the closure, contains 95 % of the differences from IAU
+        2006/2000A, rad.
     """
 
     start: FloatArray
@@ -536,33 +538,33 @@ class Shift:
     residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
-        """Move the axes in place: all of them precess, those of the mantle also nutate."""
+        """Shift the axes in place: precession for all axes, nutation for those of the mantle."""
         from earthspin.sky import iau
 
         precession = self.rate * (days * DAY - self.epoch)
         nutation = self.circles.at(iau.delaunay_arguments(days))
         for name, axis in directions.items():
-            of_mantle = 0.0 if name == "angular_momentum" else 1.0
-            shift = precession + of_mantle * nutation
+            nutates = 0.0 if name == "angular_momentum" else 1.0
+            shift = precession + nutates * nutation
             directions[name] = iau.moved_by_nutation(axis, shift, days)
 
     def half_width(self, days: FloatArray) -> FloatArray:
-        """95 % half-width of the direction, from the response and the closure of the rates, rad."""
+        """95 % half-width of directions due to the response and the closure of the rates, rad."""
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
 def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
-    """Shift by circles of given amplitudes, and what it leaves of the distance from the IAU."""
+    """Make a shift from amplitudes of circles, with its residuals from IAU 2006/2000A."""
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)
     published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
-    # The published rate of the response is applied; those of effects that are switched off are
-    # neglected with their sizes, and are no error.
-    off = sum(rate for name, rate in published.items() if name not in rigid(effects))
+    # The published rate of the response is applied. The rates of effects that are switched off are
+    # listed as neglected, and are not part of the error.
+    missing = sum(rate for name, rate in published.items() if name not in rigid(effects))
     since = analysed.days * DAY - analysed.epoch
     difference = analysed.difference + circles.at(iau.delaunay_arguments(analysed.days))
-    difference += off * sine * since
+    difference += missing * sine * since
     pair = np.stack([difference.real, difference.imag], axis=1)
     closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
     remainder = np.abs(difference) ** 2 - (closure * since) ** 2
@@ -580,7 +582,7 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
 def nonrigid_shift(
     pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
 ) -> Shift:
-    """What core, mantle, oceans and atmosphere add to rigid nutation, fitted to IAU 2000A."""
+    """Non-rigid nutation of core, mantle, oceans and atmosphere, fitted to IAU 2000A."""
     factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
     amplitude = response_apart.rigid * factor + response_apart.added
     return _shift(pole_analysis, amplitude, effects)
@@ -590,11 +592,11 @@ def nonrigid_shift(
 def predicted_shift(
     pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
 ) -> Shift:
-    """What the interior adds to the rigid nutations, predicted from its layers."""
+    """Non-rigid nutation, predicted from the layers of the interior."""
     circles = pole_analysis.our_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
     return _shift(pole_analysis, circles.amplitude * factor, effects)
 
 
-#: What stands between the pulls and the response of the interior, for the questions that use it.
+#: Parts that compute the shift due to the interior, for questions that use them.
 INTERIOR = (pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)

@@ -24,18 +24,18 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     result : Dataset
         An answer of `long_term` for the Earth.
     count : int
-        How many stars, the nearest first.
+        Number of stars at each epoch, the nearest first.
 
     Returns
     -------
     Dataset
-        Over `epoch` and `nearest`: `star`, `separation` (deg) with its 95 % half-width, and the
-        visual `magnitude`. Parallax, radial velocity and changes of magnitude are left out.
+        Along `epoch` and `nearest`: `star`, `separation` (deg) with its 95 % half-width, and the
+        visual `magnitude`. Parallax, radial velocity and changes of magnitude are neglected.
 
     Raises
     ------
     SceneError
-        If the result is not such an answer, or so many stars are not listed.
+        If `result` is not such an answer, or `count` exceeds the number of listed stars.
 
     Examples
     --------
@@ -62,8 +62,8 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     error = np.hypot(motion, si(result["pole_error"]).values)
     dims = ("nearest", "epoch")
 
-    def column(values: Any, words: str, units: str) -> xr.Variable:
-        return xr.Variable(dims, values, {"long_name": words, "units": units})
+    def column(values: Any, long_name: str, units: str) -> xr.Variable:
+        return xr.Variable(dims, values, {"long_name": long_name, "units": units})
 
     return xr.Dataset(
         {

@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 ComplexArray = NDArray[np.complex128]
 
-#: Day of the modified Julian date 0 from J2000.0.
+#: Modified Julian date of J2000.0.
 MJD = 51544.5
-#: The pole moves farther than this from the conventional pole, mas.
+#: Smallest plausible value of the largest distance from the conventional pole, mas.
 SMALLEST = 0.1
-#: Word for the daily table C04 of the IERS, which astropy includes.
+#: Name of the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
 
 
 class TableFile(FileName):
-    """Kind of a table of the observed pole: one that astropy carries, or a local file."""
+    """Kind of a table of the observed pole: one that astropy includes, or a local file."""
 
     words = '"c04", "finals" or the path of a file'
     known = tuple(CARRIED)
     content = "a table of polar motion"
 
     def begins(self, head: bytes) -> bool:
-        """Whether it begins as a table does."""
+        """Return True if a file starts like a table."""
         return is_table(head)
 
 
@@ -50,17 +50,17 @@ class Daily(Variables, along=("time",)):
 
 
 def not_observed(body: Body) -> str | None:
-    """Leave out a body whose pole no table holds."""
-    return f"no polar motion of {in_a_sentence(body.name)} is kept" if no_iau_model(body) else None
+    """Leave out polar motion for a body without an observed pole."""
+    return f"no polar motion of {in_a_sentence(body.name)} is known" if no_iau_model(body) else None
 
 
 def within(series: PoleSeries, span: Span | None) -> PoleSeries:
-    """Rows of a table that lie in a span, all without one.
+    """Rows of a table within a span, or all rows without a span.
 
     Raises
     ------
     SeriesError
-        If less than two rows do.
+        If fewer than two rows lie within the span.
     """
     if span is None:
         return series
@@ -69,12 +69,12 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
-    """Days from J2000.0 and x - i y in mas of labelled polar motion, whole and in order.
+    """Days from J2000.0 and x - i y in mas from labelled polar motion.
 
     Raises
     ------
     SceneError
-        If it has no x and y with units along time, or its days repeat or go back.
+        If there are no x and y with units along time, or the days are not ascending.
     """
     from earthspin.wobble.resonance import pole_of
 
@@ -85,14 +85,14 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
             raise SceneError(
                 f"largest {name}",
                 f"{largest / ARCSEC:.3g} arcsec",
-                "polar motion stays below one; is the unit right?",
+                "polar motion is below 1 arcsec; check the unit",
             )
     p = pole_of(x, y) / MAS
     if 0 < np.max(abs(p)) < SMALLEST:
         raise SceneError(
             "largest distance of the pole",
             f"{np.max(abs(p)):.3g} mas",
-            f"it goes farther than {SMALLEST:g} mas; is the unit right?",
+            f"polar motion is larger than {SMALLEST:g} mas; check the unit",
         )
     return time, p
 
@@ -100,12 +100,13 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
 def labelled_series(
     series: Any, names: tuple[str, str], units: tuple[str, ...]
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Days from J2000.0 of a Dataset, and two series in SI that say their units.
+    """Days from J2000.0 of a Dataset, and two of its variables in SI units.
 
     Raises
     ------
     SceneError
-        If it is no such Dataset, has fewer than two days, or its days repeat or go back.
+        If a variable or its unit is missing, there are fewer than two days, or the days are not
+        ascending.
     """
     if not hasattr(series, "data_vars"):
         problem = f"give a Dataset with {' and '.join(names)}"
@@ -119,7 +120,7 @@ def labelled_series(
             raise SceneError(name, str(kind), "give numbers along dates without a zone")
         if unit not in units:
             allowed = " or ".join(f"'{u}'" for u in units)
-            raise SceneError(f"units of {name}", unit, f"say in attrs whether it is in {allowed}")
+            raise SceneError(f"units of {name}", unit, f"set attrs['units'] to {allowed}")
     if series.time.size < 2:
         raise SceneError("time", f"{series.time.size} days", "give two or more")
     time = days(series.time, Where("time"))
@@ -128,8 +129,8 @@ def labelled_series(
         raise SceneError(
             "time",
             str(series.time.values[1:][backward][0]),
-            "days repeat or go back; sort them with ds.sortby('time') and drop "
-            "copies with ds.drop_duplicates('time')",
+            "times are not ascending; sort them with ds.sortby('time') and remove "
+            "duplicates with ds.drop_duplicates('time')",
         )
     first, second = (si(series[name]).values for name in names)
     return time, first, second

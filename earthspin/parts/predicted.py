@@ -1,4 +1,4 @@
-"""The response of the inside of a body to nutation, predicted from its layers."""
+"""Response of a body's interior to nutation, predicted from its layers."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
 from earthspin.wobble.ladder import Spin
 
-#: The rung that stands for the prediction where one response is asked for.
+#: The rung that is used if a question needs a single predicted response.
 CHOSEN = "core-ellipticity"
-#: Sources of the numbers that a prediction takes beside the layers.
+#: Sources of the numbers that a prediction uses besides the layers.
 SOURCES = "; ".join(
     (CORE_NUTATION.source, K_CMB[0].source, FES2004_SOURCE, ANELASTIC_EXPONENT.source)
 )
@@ -28,18 +28,18 @@ SOURCES = "; ".join(
 
 @dataclass(frozen=True)
 class Prediction:
-    """Models of the inside of a body, rung by rung.
+    """Sequence of interior models of increasing detail (rungs of a ladder).
 
     Attributes
     ----------
     rungs : dict of str to Rung
-        Those of the ladder and those beside it.
+        Rungs of the ladder, and additional models.
     e : float
         Observed (C - A)/A.
     spin_rate : float
-        rad/s.
+        Spin rate, rad/s.
     uncertainty : mapping of str to float
-        One standard deviation over value, of the interior's numbers.
+        Relative standard uncertainties of the numbers of the interior.
     """
 
     rungs: dict[str, ladder.Rung]
@@ -49,21 +49,21 @@ class Prediction:
 
     @property
     def ladder(self) -> list[str]:
-        """Names of the rungs, those beside the ladder left out."""
+        """Names of the rungs without the additional models."""
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """T of a rung at frequencies in space, rad/s."""
+        """Transfer function of a rung at frequencies in space in rad/s."""
         return self.rungs[name].transfer(frequency / self.spin_rate - 1, self.e)
 
     def half_width(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
-        """95 % half-width of T, from the uncertainty of the interior's numbers."""
+        """95 % half-width of the transfer function from uncertainties of the interior."""
         sigma = frequency / self.spin_rate - 1
         return self.rungs[name].transfer_half_width(sigma, self.e, self.uncertainty)
 
 
 def layered(body: Body) -> Interior | None:
-    """Interior of a body, if it has one with layers, a core and an inner core."""
+    """Interior of a body if it has layers with a core and an inner core, else None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -71,18 +71,18 @@ def layered(body: Body) -> Interior | None:
 
 
 def no_layers(body: Body) -> str | None:
-    """Leave a prediction out where the layers of the body are not known."""
+    """Leave a prediction out if the layers of the body are not known."""
     if no_iau_model(body):
         return no_iau_model(body)
     interior = layered(body)
     if interior is None:
-        return f"no layers with an inner core are known of {in_a_sentence(body.name)}"
+        return f"no layers with an inner core are known for {in_a_sentence(body.name)}"
     assert interior.layers is not None
     return of_another_body(interior.layers, body)
 
 
 def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction:
-    """Climb the ladder of a body with layers."""
+    """Compute all rungs for a body with layers."""
     interior = layered(body)
     assert interior is not None
     assert interior.layers is not None
@@ -99,5 +99,5 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
 
 @part(unless=no_layers)
 def prediction(body: Body) -> Prediction:
-    """Predict the response of the inside from its layers."""
+    """Predict the response of the interior from its layers."""
     return predict(body, False, ANELASTIC_EXPONENT.value)

@@ -1,4 +1,4 @@
-"""Everything that turns the axis of a body, made ready for the solver."""
+"""Perturbers and effects that move the axes of a body, prepared for the solvers."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class AxisMotion(Series):
     )
 
     def check(self) -> None:
-        """Where elements place everything there is no kernel that could place the planets."""
+        """Refuse the effect of the planets if all positions follow from elements."""
         super().check()
         if PLANETS.name not in self.effects or not all_by_elements(self.body, self.perturbers):
             return
@@ -38,8 +38,8 @@ class AxisMotion(Series):
             raise self.error(
                 "effects",
                 PLANETS.name,
-                "all is placed by elements, without a kernel; leave it out, and give the orbits of "
-                "planets among the perturbers",
+                "all orbits are given by elements, and this effect needs a kernel: remove it, or "
+                "list the planets as perturbers",
             )
         left = tuple(effect for effect in self.effects if effect != PLANETS.name)
         object.__setattr__(self, "effects", left)
@@ -47,33 +47,33 @@ class AxisMotion(Series):
 
 @dataclass(frozen=True)
 class Pulls:
-    """Masses and places of all that may pull, and the limits of the source.
+    """Masses and positions of all perturbers, and the time limits of the source.
 
     Attributes
     ----------
     sky : Sky
     gm : dict of str to float
-        m3 s-2; the question's perturbers first, planets behind them.
+        GM, m3 s-2, of the question's perturbers, followed by the planets.
     targets : dict of str to Place
-        Where the source finds them.
+        Place of each perturber in the source.
     limits : tuple of float
-        s from J2000.0 TDB between which all of them can be placed.
+        First and last time for which all positions are available, s from J2000.0 TDB.
     """
 
     sky: Sky
     gm: dict[str, float]
     targets: dict[str, Place]
     limits: tuple[float, float]
-    _seen: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
+    _stored: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
         default_factory=dict, repr=False
     )
 
     def positions(
         self, names: Sequence[str], times: FloatArray, keep: bool
     ) -> dict[str, FloatArray]:
-        """Places of some of them at times in s; kept for runs that ask for the same again."""
+        """Positions of some perturbers at times in s, m; stored for later calls if `keep`."""
         at = (float(times[0]), float(times[-1]), times.size)
-        known = self._seen.setdefault(at, {}) if keep else {}
+        known = self._stored.setdefault(at, {}) if keep else {}
         missing = {name: self.targets[name] for name in names if name not in known}
         if missing:
             known |= self.sky.positions(times / DAY, missing)
@@ -82,7 +82,7 @@ class Pulls:
 
 @part
 def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
-    """Masses and places of the perturbers, and of the planets if switched on."""
+    """Masses and positions of the perturbers, and of the planets if they are switched on."""
     masses = {p.name: p.number("gm") for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
@@ -95,7 +95,7 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
-    """Forces with some effects switched on and no other evaluated."""
+    """Forces on the axes, with the given effects only."""
     near = tuple(pulls.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
@@ -111,7 +111,7 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
-    """The numbers of a body that its motion depends on, effects aside."""
+    """Numbers of a body on which its motion without effects depends."""
     h = body.number("dynamical_flattening")
     return Figure(
         h=h,
@@ -123,7 +123,7 @@ def figure_of(body: Body, spin_rate: float) -> Figure:
 
 
 def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
-    """Forces with some effects."""
+    """Switch effects on, and return the new forces."""
     for name, effect in EFFECTS.items():
         if name in effects:
             forces = effect.switch_on(forces, body)
@@ -131,30 +131,30 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
-    """Figure axis to start with, and when (s): J2000.0, or as near as the kernel reaches."""
+    """Initial figure axis and its epoch, s: J2000.0, or the nearest time that the kernel covers."""
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
     return body.needed("pole").true(epoch / DAY), epoch
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Attribute of an error that does not hold the uncertainty of the pole at the start.
+    """Attribute of an error that does not include the uncertainty of the initial pole.
 
-    Empty for the pole of the IAU's models.
+    Empty if the pole follows the models of the IAU.
     """
     if body.needed("pole").of_the_iau:
         return {}
     half = start_error(body)
-    known = "is not known" if half is None else f"is {half / ARCSEC:.2g} arcsec (95 % half-width)"
+    size = "is not known" if half is None else f"is {half / ARCSEC:.2g} arcsec (95 % half-width)"
     name = bodies.in_a_sentence(body.name)
-    return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {known}"}
+    return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {size}"}
 
 
 def start_error(body: Body) -> float | None:
-    """Half-width of 95 % of the direction of the pole at J2000.0, rad; None if it is not known."""
+    """95 % half-width of the pole's direction at J2000.0, rad; None if it is not known."""
     if body.pole_uncertainty is None:
         return None
     return NORMAL_95 * body.number("pole_uncertainty")
 
 
-#: What stands between a scene and all that turns the axis, for the questions that use it.
+#: Parts that compute `pulls` and `epochs`, for questions that use them.
 PULLS = (places, sky, pulls, epochs)

@@ -1,4 +1,4 @@
-"""Reasons for leaving a part out that several questions share, and published sizes."""
+"""Conditions for leaving parts out that several questions share, and published sizes."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from earthspin.nutation.budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:
-    """Leave out what stands on the IAU's models, for a body that has none."""
+    """Leave out parts that need IAU models, for a body without such models."""
     described = body.pole is not None and body.pole.of_the_iau
     return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out what compares the pull of Sun and Moon, no less and no more, with the IAU's."""
+    """Leave out comparisons with the IAU unless Sun and Moon are the only perturbers."""
     if no_iau_model(body):
         return no_iau_model(body)
     names = {p.name for p in perturbers}
@@ -28,40 +28,38 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave the IAU's numbers out for an Earth whose figure or spin has been changed."""
+    """Leave out numbers of the IAU for a modified Earth."""
     if not_sun_and_moon(body, perturbers):
         return not_sun_and_moon(body, perturbers)
     if body.is_as_named:
         return None
-    return f"the IAU's numbers are those of another {proper(body.name)}: {body.changes}"
+    return f"the IAU's numbers do not apply to a modified {proper(body.name)}: {body.changes}"
 
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out what follows the Moon above the Earth's equator."""
+    """Leave out parts that use the Moon's declination, unless the Moon perturbs the Earth."""
     if no_iau_model(body):
         return no_iau_model(body)
-    there = "moon" in {p.name for p in perturbers}
-    return None if there else "the moon is not among the perturbers"
+    has_moon = "moon" in {p.name for p in perturbers}
+    return None if has_moon else "the moon is not among the perturbers"
 
 
 def no_accuracy(accuracy: float | None) -> str | None:
-    """Leave out what chooses settings where no accuracy is asked for."""
-    return (
-        "no accuracy is asked for, so the finest settings are taken" if accuracy is None else None
-    )
+    """Leave out the choice of settings if no accuracy is requested."""
+    return "no accuracy is requested, so the finest settings are used" if accuracy is None else None
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out what is drawn of one sky where a mass stands for many."""
-    many = [p.name for p in perturbers if hasattr(p.gm, "dims")]
-    return f"the mass of '{many[0]}' stands for many" if many else None
+    """Leave out parts that need one mass for each perturber, if a mass is an array."""
+    arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
+    return f"the mass of '{arrays[0]}' is an array" if arrays else None
 
 
 def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
-    """Published contributions to the rate of psi_A, those of some effects excluded."""
+    """Published contributions to the rate of psi_A of the effects that are not modelled."""
     return Neglected(
         {name: size for name, size in published_effects().items() if name not in modelled},
         "arcsec/yr",
-        "published contribution to the rate that the model leaves out",
+        "published contribution to the rate of an effect that is not modelled",
         next(iter(PUBLISHED_EFFECTS.values())).source,
     )

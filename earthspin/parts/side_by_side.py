@@ -1,4 +1,4 @@
-"""Numbers of many, laid against one another so that physics takes them as arrays."""
+"""Broadcast numbers and labelled arrays against one another, for functions of plain arrays."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SideBySide:
-    """Numbers by name, of which some may stand for many.
+    """Numbers by name, broadcast to common dimensions.
 
     Attributes
     ----------
     numbers : mapping of str to float or ndarray
-        All of the shape that `dims` has.
+        Numbers, all with the dimensions `dims`.
     dims : tuple of str
-        Along which they stand; empty for one of each.
+        Common dimensions; empty if all are plain numbers.
     labels : mapping
-        Coordinates of these.
+        Coordinates along the dimensions.
     """
 
     numbers: Mapping[str, Any]
@@ -33,27 +33,27 @@ class SideBySide:
 
     @classmethod
     def of(cls, **values: Any) -> Self:
-        """Lay numbers and labelled arrays against one another."""
+        """Broadcast numbers and labelled arrays against one another."""
         arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
         if not arrays:
             return cls(values)
         import xarray as xr
 
-        laid = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
-        first = next(iter(laid.values()))
+        joint = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
+        first = next(iter(joint.values()))
         numbers = {
-            name: np.broadcast_to(laid[name].values if name in laid else value, first.shape)
+            name: np.broadcast_to(joint[name].values if name in joint else value, first.shape)
             for name, value in values.items()
         }
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
-        """Some of the numbers, those of many with an axis of length 1 behind their own."""
-        behind = (..., np.newaxis) if self.dims else ...
-        return tuple(np.asarray(self.numbers[name])[behind] for name in names)
+        """Some of the numbers; arrays get an additional last axis of length 1."""
+        index = (..., np.newaxis) if self.dims else ...
+        return tuple(np.asarray(self.numbers[name])[index] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Label what came out, the dimensions of many in front; what is common is repeated."""
+        """Label a result along the common dimensions and `dims`; a constant is repeated."""
         import xarray as xr
 
         if values.ndim < len(self.dims) + len(dims):

@@ -1,4 +1,4 @@
-"""The sky of a question: what spins, what pulls on it, and where they are."""
+"""The sky of a question: the body, its perturbers, and the source of their positions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class KernelName(FileName):
-    """Kind of an ephemeris: the name of a kernel, the path of a file, or a kernel of Skyfield's."""
+    """Kind of an ephemeris: the name of a kernel, the path of a file, or a Skyfield kernel."""
 
     words = '"de421", "de440", or the path of a .bsp file'
     hint = "str | PathLike[str] | SpiceKernel"
@@ -48,23 +48,23 @@ class KernelName(FileName):
     content = "an SPK kernel"
 
     def read(self, value: object, where: Where) -> Any:
-        """Take a name or a path; of a kernel of Skyfield's, its file."""
+        """Read a name or a path; a Skyfield kernel is replaced by the path of its file."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if is_vector_function(value):
             raise where.error(
                 value,
-                "it places one body; give it to a perturber, like SUN.replace(position=...), and "
-                "a kernel here",
+                "it is the position of one body; give it to a perturber, like "
+                "SUN.replace(position=...), and give a kernel here",
             )
         return super().read(value, where)
 
     def is_path(self, value: object) -> bool:
-        """Whether a value names a file; names of kernels are read in any case."""
+        """Return True if a value is a path, not the name of a kernel in upper or lower case."""
         return isinstance(value, str) and value.lower() not in NAMED_KERNELS
 
     def begins(self, head: bytes) -> bool:
-        """Whether it begins as an SPK kernel does."""
+        """Return True if a file starts like an SPK kernel."""
         return head.startswith((b"DAF/SPK", b"NAIF/DAF"))
 
 
@@ -74,19 +74,20 @@ SOURCE_DOC = (
 
 
 class PerturbedBody(Question):
-    """Keys of every question about a body that others pull on."""
+    """Keys of every question about a rotating body and its perturbers."""
 
-    body: Body = key(EARTH, doc="body that spins; its numbers may be labelled arrays")
+    body: Body = key(EARTH, doc="rotating body; its numbers may be labelled arrays")
     perturbers: tuple[Body, ...] = key(
         (SUN, MOON),
-        doc=("bodies that exert the torque; for planets other than the Earth the Sun alone"),
+        doc="bodies that exert torques on the body; for planets other than the Earth, the default "
+        "is the Sun",
     )
     ephemeris: Annotated[str, KernelName()] = key(
         "de421", doc="kernel with the positions of the bodies"
     )
     source: SourceName = key("jplephem", doc=SOURCE_DOC)
 
-    #: What the question needs to know of the body, beside its mass.
+    #: Fields of the body that the question needs, besides its mass.
     needs: ClassVar[tuple[str, ...]] = (
         "radius",
         "j2",
@@ -94,76 +95,76 @@ class PerturbedBody(Question):
         "spin_period",
         "pole",
     )
-    #: Whether a body may be left to itself.
+    #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
-    #: Whether masses of what pulls may be labelled arrays.
+    #: Whether masses of perturbers may be labelled arrays.
     many_pulls: ClassVar[bool] = False
 
     def check(self) -> None:
-        """A body with a mass, and others that pull on it, each once."""
+        """Check that the body has a mass, and that its perturbers are valid and distinct."""
         if "perturbers" not in self.given:
             object.__setattr__(self, "perturbers", pulled_by(self.body))
             object.__setattr__(self, "body", on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
-            raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
+            raise self.error("body", self.body.name, "the mass of the body must not be zero")
         self.body.require(self.needed())
         self.check_spin()
         names = [p.name for p in self.perturbers]
         if not names and not self.may_be_alone:
-            raise self.error("perturbers", names, "name one body or more, like ['sun', 'moon']")
+            raise self.error("perturbers", names, "give at least one, like ['sun', 'moon']")
         for p in self.perturbers:
             if p.labelled_field is not None and not (self.many_pulls and p.labelled_field == "gm"):
                 raise self.error(
                     f"perturbers.{p.name}.{p.labelled_field}",
                     "an array",
-                    "what pulls is one body: one number each; ask again for every other",
+                    "a perturber takes single numbers; run the question for each value",
                 )
             if names.count(p.name) > 1:
                 raise self.error("perturbers", names, f"'{p.name}' is named twice")
         if "total" in names:
-            raise self.error("perturbers", names, "'total' stands for the sum of all")
+            raise self.error("perturbers", names, "'total' is the label of the sum; rename it")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
-        # refuses elements that do not fit together
+        # This call also refuses inconsistent elements.
         mixed = not all_by_elements(self.body, self.perturbers)
         accuracy = getattr(self, "accuracy", None)
         for member in (self.body, *self.perturbers) if accuracy is not None else ():
             if unmeasured(member) or (mixed and member.orbit is not None):
                 problem = (
-                    f"how far off the positions of '{member.name}' are was never measured, so none "
-                    "can be promised; leave accuracy out"
+                    f"the error of the positions of '{member.name}' was not measured, so no "
+                    "accuracy can be guaranteed; remove accuracy"
                 )
                 raise self.error("accuracy", accuracy, problem)
 
     def needed(self) -> tuple[str, ...]:
-        """What has to be known of the body, for the keys that are given."""
+        """Names of the fields of the body that the question needs."""
         return self.needs
 
     def check_spin(self) -> None:
-        """Refuse a spin above break-up, where the spin matters."""
+        """Refuse a spin above break-up, if the question needs the spin."""
         if "spin_period" in self.needed():
             refuse_break_up(self.body)
 
 
 def unmeasured(body: Body) -> bool:
-    """Whether a body has a place of its own whose error was never measured."""
+    """Return True if a body has its own position, whose error was not measured."""
     return body.position is not None and not is_measured(body.position)
 
 
 @dataclass(frozen=True)
 class Places:
-    """What places the bodies of a question.
+    """Origin of the positions of all bodies of a question.
 
     Attributes
     ----------
     body : Body
-        That spins.
+        The rotating body.
     targets : dict of str to EllipseChain
-        Ellipses that lead to each perturber; a chain without ellipses starts from itself.
+        Chain of ellipses to each perturber; without ellipses, the perturber itself.
     reach : dict of str to float
-        How near each perturber may come, m: the radii of both bodies, the largest of arrays.
+        Smallest allowed distance of each perturber, m: the sum of the largest radii.
     by_elements : bool
-        Whether ellipses lead from the body to all of them: no kernel is needed.
+        True if all positions follow from elements, so that no kernel is needed.
     """
 
     body: Body
@@ -174,17 +175,17 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """An open source of positions, and where it finds the bodies of a question.
+    """An open source of positions, with the places of the bodies of a question in it.
 
     Attributes
     ----------
     source : Source
     centre : Place
-        Of the body that spins: a NAIF code, or a trajectory of its own.
+        Place of the rotating body: a NAIF code, or its own trajectory.
     targets : dict of str to Place
-        The same of each perturber.
+        Place of each perturber.
     reach : dict of str to float
-        How near each perturber may come to the body, m.
+        Smallest allowed distance of each perturber, m.
     """
 
     source: Source
@@ -206,43 +207,43 @@ class Sky:
         return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
-        """How far a body may be from where it is seen, at the worst of some days: rad and m."""
+        """Largest error of the position of a body on some days, as an angle (rad) and in m."""
         angles, distances = zip(
             *(self.source.error(target, self.centre, day) for day in days), strict=True
         )
         return max(angles), max(distances)
 
     def drift(self, name: str, distance: float) -> float:
-        """By what the pull of a perturber may turn an axis aside, over what the axis sweeps."""
+        """Relative error of the motion of an axis due to errors of a perturber's positions."""
         return self.source.drift(self.targets[name], self.centre, distance)
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """Perturbers of whose positions no error was ever measured."""
+        """Perturbers whose positions have no measured error."""
         return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
 
     @property
     def no_error(self) -> str:
-        """Why some errors are not given; empty if all are."""
+        """Reason why some errors are missing; empty if none is."""
         if not self.unmeasured:
             return ""
         return (
-            f"NaN, not given, for {', '.join(self.unmeasured)} and what depends on it: how far off "
-            "the positions are was never measured"
+            f"NaN for {', '.join(self.unmeasured)} and dependent numbers: the errors of these "
+            "positions were not measured"
         )
 
     def place(self, body: Body) -> Place:
-        """Where the source finds another body."""
+        """Place of another body in the source."""
         return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
-        """First and last day on which the bodies can be placed; the perturbers by default."""
+        """First and last day with positions of the targets, by default the perturbers."""
         return self.source.coverage(self._all(targets))
 
     def check_times(
         self, days: Iterable[float], targets: Mapping[str, Place] | None = None
     ) -> None:
-        """Refuse days on which not all of the bodies can be placed; the perturbers by default."""
+        """Refuse days without positions of all targets, by default the perturbers."""
         self.source.check_times(np.array(list(days)), self._all(targets))
 
     def _all(self, targets: Mapping[str, Place] | None) -> set[Place]:
@@ -251,7 +252,7 @@ class Sky:
     def positions(
         self, days: FloatArray, targets: Mapping[str, Place] | None = None
     ) -> dict[str, FloatArray]:
-        """Positions seen from the body, m, shape (n, 3) each, at days from J2000.0 TDB.
+        """Positions relative to the body, m, shape (n, 3) each, at days from J2000.0 TDB.
 
         Parameters
         ----------
@@ -262,7 +263,7 @@ class Sky:
         Raises
         ------
         UndefinedError
-            If a perturber overlaps the body: torques on the bulge hold outside alone.
+            If a perturber overlaps the body; the formula of the torque is valid only outside.
         """
         targets = self.targets if targets is None else targets
         positions = self.source.positions(targets, self.centre, days)
@@ -273,7 +274,7 @@ class Sky:
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
         """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
 
-        The Earth's is the source's own, if it has one.
+        For the Earth, they are those of the source if it has its own equator.
         """
         pole: Pole = body.needed("pole")
         if isinstance(self.source, OfDate) and pole.of_the_iau:
@@ -294,15 +295,15 @@ class Sky:
         Parameters
         ----------
         body : Body
-            Whose equator it is.
+            Body that defines the equator.
         days : ndarray, shape (n,)
-            From J2000.0 TDB.
+            Days from J2000.0 TDB.
         targets : mapping of str to Place, optional
             The perturbers by default.
         true : bool
-            At the true equator; the mean one by default.
+            Use the true equator instead of the mean equator.
         nutation : Nutation, optional
-            Interpolated nutation, for the fast reader.
+            Interpolated nutation, for the source jplephem.
         """
         pole: Pole = body.needed("pole")
 
@@ -313,33 +314,33 @@ class Sky:
             from earthspin.sky.iau import true_equator
 
             targets = self.targets if targets is None else targets
-            earths = true_equator if true else None
-            frame = earths if pole.of_the_iau else equator
-            seen = self.source.radec(targets, self.centre, days, frame)
-            for name, (_, _, distance) in seen.items():
+            earth_equator = true_equator if true else None
+            frame = earth_equator if pole.of_the_iau else equator
+            coordinates = self.source.radec(targets, self.centre, days, frame)
+            for name, (_, _, distance) in coordinates.items():
                 self._refuse_inside(name, distance * distance)
-            return seen
+            return coordinates
         axes = equator(days)
         positions = self.positions(days, targets)
         return {name: spherical(rotate(axes, position)) for name, position in positions.items()}
 
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
-        # the planets, which are no perturbers by name, are far away
+        # Planets from the effect of that name have no reach, since they are far away.
         if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
-            raise UndefinedError(f"{inside}; a torque on the bulge holds outside it alone")
+            raise UndefinedError(f"{inside}; the formula of the torque is valid only outside")
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """First and last day that may be used, from J2000.0 TDB."""
+    """First and last day of an average, days from J2000.0 TDB."""
 
     first: float
     last: float
 
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
-    """Where a source finds a body: by itself, or at the end of its ellipses."""
+    """Place of a body in a source, or at the end of its chain of ellipses."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
     return place_of(source, name, chain.start.naif, chain.start.position)
@@ -347,7 +348,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
-    """Names, codes, own places and elements of the bodies."""
+    """Origin of the positions of the bodies: codes, own positions and elements."""
     targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
@@ -363,9 +364,9 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
 
 
 def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
-    """Say which source the positions come from."""
+    """Describe the source of the positions."""
     if all_by_elements(body, perturbers):
-        return "positions by the elements of orbits; no kernel is opened"
+        return "positions from orbital elements; no kernel is opened"
     phrases = [f"positions {describe_source(source, ephemeris)}"]
     phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
     phrases += [
@@ -376,9 +377,9 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     return "; ".join(phrases)
 
 
-@part(tells=from_where)
+@part(describe=from_where)
 def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
-    """Open the source of positions and find the bodies in it."""
+    """Open the source of positions, and look up the bodies in it."""
     if places.by_elements:
         ellipses: dict[str, Place] = {
             name: ByElements(chain.ellipses, CENTRE) for name, chain in places.targets.items()
@@ -395,7 +396,7 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
-    """The span asked for, if the source covers it, or all that the source covers."""
+    """Requested span, or by default the span that the source covers."""
     if span is not None:
         sky.check_times(span.days)
         return Stretch(*span.days)
@@ -403,5 +404,5 @@ def stretch(sky: Sky, span: Span | None) -> Stretch:
         return Stretch(-USUAL_REACH, USUAL_REACH)
     first, last = sky.coverage()
     if not math.isfinite(last - first):
-        raise SceneError("span", None, "nothing limits these positions in time; give a span")
+        raise SceneError("span", None, "these positions have no time limits; give a span")
     return Stretch(first, last)

@@ -1,4 +1,4 @@
-"""Times at which something is wanted: dates of a series, or seconds from a start."""
+"""Times of a series: dates, or seconds from the start of a motion."""
 
 from __future__ import annotations
 
@@ -21,10 +21,8 @@ from earthspin.units import FloatArray, Numbers
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
-#: Sentences on keys that several questions declare with defaults of their own.
-DIRECTION_DOC = (
-    "largest allowed error of a direction; the cheapest settings that reach it are chosen"
-)
+#: Descriptions of keys that several questions declare with different defaults.
+DIRECTION_DOC = "largest allowed error of a direction, for which the fastest settings are chosen"
 SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
@@ -53,22 +51,22 @@ class FromStart(Variables, along=("time",)):
 
 @part
 def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
-    """The dates of the series."""
+    """Dates of the series."""
     return TimeGrid.over(span, step) if times is None else times
 
 
 @part
 def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
-    """The times of the motion, s from its start."""
+    """Times of the motion, s from its start."""
     return np.linspace(0.0, duration, points) if times is None else times
 
 
-#: What a series takes for each of its times, about.
+#: Approximate memory of a series for each of its times, bytes.
 BYTES_PER_TIME = 128
 
 
 def by_region(store: str) -> str:
-    """What to do with a series that is too long for memory and can be written block by block."""
+    """Advice for a series that is too long for memory but can be written block by block."""
     return f"write them by region with write_series(scene, '{store}') or run --out"
 
 
@@ -85,14 +83,14 @@ def days_of(
     epochs : TimeGrid or TimeList
     block : Block, optional
     remedy : str
-        What to do if all times do not fit into memory.
+        Advice if the times do not fit into memory.
     bodies : iterable of Body
-        Those whose labelled arrays multiply the series.
+        Bodies whose labelled arrays multiply the size of the series.
 
     Raises
     ------
     SceneError
-        If there is no block, and the series is too long for memory.
+        If no block is given, and the series is too long for memory.
     """
     if block is not None:
         return epochs.days(block.first, block.last)

@@ -16,7 +16,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import Where
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, of_one
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, item_of
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
 from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
@@ -188,7 +188,7 @@ def numbers(
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
         **{
-            name: of_one(mean_rates.rate.value, place)
+            name: item_of(mean_rates.rate.value, place)
             for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),

@@ -22,12 +22,12 @@ from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     INTERIOR,
     LargestError,
+    LongitudeCycles,
     PathErrors,
     Shift,
-    Turns,
     axis_path,
     largest_error,
-    turns_of,
+    longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
 from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
@@ -241,16 +241,16 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> Turns:
-    """Whole rotations of the longitude psi, counted from the first time of the series."""
+def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
+    """Whole turns of the longitude psi, counted from the first time of the series."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
-    return turns_of(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+    return longitude_cycles(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
 
 @part(unless=no_longitude)
 def pole_angles(
     axes: xr.Dataset,
-    turns: Turns,
+    turns: LongitudeCycles,
     epochs: Epochs,
     body: Body,
     block: Block | None = None,

@@ -29,7 +29,7 @@ from earthspin.mass import inertia
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, of_all
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, total_of
 from earthspin.parts.choices import chosen_average
 from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
@@ -174,11 +174,11 @@ class RateAccuracy(Report, units="1", error_of="relative, of the rate by all per
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
     """Accuracy of the rate: asked, estimated, and the method chosen."""
     rate = mean_rates.rate
-    size = abs(of_all(rate.value))
+    size = abs(total_of(rate.value))
     if not all_of(size != 0):
         raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
     method, by_input, best = (
-        float((of_all(share) / size).max()) for share in (rate.method, rate.given, rate.error)
+        float((total_of(share) / size).max()) for share in (rate.method, rate.given, rate.error)
     )
     remedy = (
         f"the given numbers are known to {by_input:.2g}: give the body a better known H"

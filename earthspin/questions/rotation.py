@@ -34,8 +34,8 @@ from earthspin.motion.solution import (
     start_of,
     tolerance_for,
 )
+from earthspin.parts.custom_torque import CustomTorque
 from earthspin.parts.elements import all_by_elements
-from earthspin.parts.own_torque import OwnTorque
 from earthspin.parts.pulls import (
     PULLS,
     AxisMotion,
@@ -103,7 +103,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     start_omega: Annotated[FloatArray, Numbers("rad/s", "1e-4 rad/s", (3,))] | None = key(
         None, doc="angular velocity along the principal axes, C last, at the first date"
     )
-    torque: OwnTorque | None = key(
+    torque: CustomTorque | None = key(
         None, doc="custom torque: a Python function, along the principal axes, in N m"
     )
     accuracy: AngleError | None = key(
@@ -281,7 +281,7 @@ def rotor(
     effects: tuple[str, ...],
     start_attitude: FloatArray | None,
     start_omega: FloatArray | None,
-    torque: OwnTorque | None,
+    torque: CustomTorque | None,
     pulling: Pulling | None = None,
 ) -> Rotor:
     """Build the body at the start, its perturbers, and copies with changed uncertain numbers."""

@@ -19,7 +19,7 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
-from earthspin.parts.choices import chosen_nutation, equator_comes_along, on_mean_equator
+from earthspin.parts.choices import chosen_nutation, on_mean_equator, source_has_equator
 from earthspin.parts.reasons import no_accuracy, no_iau_model
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, Series, by_region, days_of, epochs
@@ -75,7 +75,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
             raise self.error("equator", "true", why)
 
 
-@part(unless=(on_mean_equator, equator_comes_along))
+@part(unless=(on_mean_equator, source_has_equator))
 def nutation(
     epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import xarray as xr
 
-from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.spread import is_ensemble
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
@@ -196,7 +196,7 @@ def what_ran(*trees: Result) -> list[Table]:
         reason = row.reason.item()
         if row.status.item() == "ran":
             rows.append((part, reason, f"{float(row.run_time) * 1e3:.1f}"))
-        elif len(trees) == 1 and reason != NOT_ASKED:
+        elif len(trees) == 1 and reason != NOT_REQUESTED:
             rows.append((part, f"left out: {reason}", ""))
     title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
     headers = "part", "what it computes", "ms"
@@ -222,7 +222,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
     shown = "" if unit == "1" else f", {unit}"
     columns = (
         Column("method_chosen", head="method chosen"),
-        Column("error_asked", ".3g", f"error asked for{shown}"),
+        Column("error_asked", ".3g", f"requested error{shown}"),
         Column("error_estimated", ".3g", f"error claimed{shown}"),
         Column("evaluations", ",.0f", "evaluations"),
     )

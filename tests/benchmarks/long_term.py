@@ -27,10 +27,10 @@ from earthspin.checks.ladders.of_long_term import (
     KYR,
     SPAN,
     STRENGTH,
-    Lean,
+    FittedSlope,
     Slope,
-    as_it_stands,
     inputs,
+    orbit_slope,
     times,
 )
 from earthspin.checks.stored import load
@@ -97,10 +97,10 @@ def main() -> None:
         error = off(path.at(times(SPAN)), true)
         print(f"Newton, {order} nodes: {error:.2g} arcsec everywhere, {ours[order] * 1e3:.2f} ms")
         assert error < ASKED
-    lean = Lean(-SPAN)
+    lean = FittedSlope(-SPAN)
     alone, _ = timed(lambda: smooth(lean, 1e-9))
     for words, slope, run, tolerances, runs in (
-        ("as it stands", as_it_stands, smooth, (1e-9,), 1),
+        ("as it stands", orbit_slope, smooth, (1e-9,), 1),
         ("lean, in one go", lean, smooth, (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12), RUNS),
         ("lean, from corner to corner", lean, dop853, (1e-7, 3e-8, 1e-8, 3e-9, 1e-9), RUNS),
     ):

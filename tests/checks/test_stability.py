@@ -122,9 +122,9 @@ def warn() -> Distances:
         (lambda: [math.nan], "NaN"),
         (lambda: [0.0, np.float64(math.nan)], "NaN"),
         (lambda: [np.array([math.nan, 9.0]), 0.0], "NaN"),
-        (lambda: [0.0, 1.5], "beyond the bound"),
-        (lambda: [-1.5, 0.0], "beyond the bound"),
-        (lambda: [math.inf], "beyond the bound"),
+        (lambda: [0.0, 1.5], "exceeds the bound"),
+        (lambda: [-1.5, 0.0], "exceeds the bound"),
+        (lambda: [math.inf], "exceeds the bound"),
         (lambda: (np.float64(1e300) * x > 0 for x in [np.float64(1e300)]), "overflow"),
         (lambda: (x / x > 0 for x in np.zeros(1)), "invalid value"),
         (lambda: (1 / x < 0 for x in np.zeros(1)), "divide by zero"),
@@ -155,8 +155,8 @@ def test_an_expected_refusal_is_refused() -> None:
 @pytest.mark.parametrize(
     ("measure", "reason"),
     [
-        (lambda: [0.0], "answered where a refusal was due"),
-        (lambda: None, "answered where a refusal was due"),
+        (lambda: [0.0], "an answer instead of a refusal"),
+        (lambda: None, "an answer instead of a refusal"),
         (refusing("quite another thing"), "does not say 'cannot be told'"),
         (refusing("it cannot be told\nin one line"), "not one line"),
         (lambda: 1 / 0, "ZeroDivisionError"),
@@ -191,7 +191,7 @@ def test_the_words_of_a_case_are_its_docstring() -> None:
 
         Hard because: reasons go on
             in a second line
-        Held against: a reference
+        Compared with: a reference
         """
         yield 1.0
 
@@ -245,7 +245,7 @@ def test_only_some() -> None:
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"only": "motio"}, "did you mean 'motion'"),
+        ({"only": "motoin"}, "did you mean 'motion'"),
         ({"only": "zzz"}, "no case has that word"),
         ({"only": ""}, "no case has that word"),
         ({"only": "10^8 epochs in", "quick": True}, "take long"),

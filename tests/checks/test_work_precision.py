@@ -306,7 +306,7 @@ def test_errors_never_fall_below_that_of_the_reference() -> None:
 
 
 def test_error_may_be_judged_on_more_than_one_run() -> None:
-    given = Setting("", lambda: (3.0, 1), judged=lambda: 4.0)
+    given = Setting("", lambda: (3.0, 1), error_values=lambda: 4.0)
     one = Ladder("q", "1", "p", "s", "r", 1e-9, [Method("m", [given])], float)
     assert measured(one).error.item() == 4.0
 

@@ -23,7 +23,7 @@ from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
-from earthspin.parts.choices import chosen_average, windows_on_offer
+from earthspin.parts.choices import chosen_average, available_windows
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
 from earthspin.parts.sky import PerturbedBody, Sky, places, sky, stretch
 from earthspin.parts.times import epochs
@@ -136,7 +136,7 @@ def pole_outcome(rng: Generator) -> Outcome:
 
     cost, cheapest = int(result.evaluations), int(result.evaluations)
     times = epochs(question.span, question.step, question.times)
-    menu = windows_on_offer(body, question.perturbers, question.effects, pulls_of(question), times)
+    menu = available_windows(body, question.perturbers, question.effects, pulls_of(question), times)
     for choice in sorted(menu, key=lambda c: c.evaluations):
         if choice.evaluations >= cheapest or choice.error > HOPELESS * asked * UAS:
             continue

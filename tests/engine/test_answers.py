@@ -110,7 +110,7 @@ def test_an_earth_with_a_day_of_twelve_hours_says_so() -> None:
     assert "free_wobble_period" in tree["free_wobble"]
     assert "observed_period" not in tree["free_wobble"]
     reason = str(tree["plan/reason"].sel(part="observed-wobble").values)
-    assert reason == "no observed wobble of this Earth is kept"
+    assert reason == "no observed wobble of this Earth is known"
     wobble = load_scene("wobble", {"body.spin_period": "12 h", "body.interior": "none"})
     assert "observed" not in earthspin.run_tree(wobble)
     changes = earthspin.run(wobble).attrs["body_changes"]

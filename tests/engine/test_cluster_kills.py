@@ -189,5 +189,5 @@ def test_a_scheduler_killed(
     its_process.kill()
     _, said = process.communicate(timeout=MINUTE)
     assert process.returncode != 0
-    assert b"the cluster lost it" in said
+    assert b"the cluster lost a block" in said
     finished(path, undisturbed)

@@ -17,7 +17,7 @@ import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
 from earthspin.engine.ensemble import ROW, Ensemble
 from earthspin.engine.inputs import inputs_of
-from earthspin.engine.variants import KEPT, Variants
+from earthspin.engine.variants import LARGEST_NUMBER_OF_RUNS, Variants
 from earthspin.scenes import QUESTIONS, Scene, VersionWarning, load_scene
 from earthspin.sky.eop import c04_path
 from earthspin.sky.ephemeris import open_ephemeris
@@ -107,12 +107,12 @@ def test_a_member_is_the_same_alone_and_in_any_block(orbits: Path) -> None:
 
 
 def test_more_orbits_than_are_kept_at_a_time(orbits: Path) -> None:
-    names = [f"{number}.dat" for number in range(KEPT + 2)]
+    names = [f"{number}.dat" for number in range(LARGEST_NUMBER_OF_RUNS + 2)]
     for number, name in enumerate(names):
         write_orbit(name, 0.01 + 0.001 * number)
     grid = {"orbit": {"grid": names}, "tides": {"grid": [1.0, 1.0]}}
     many = earthspin.run(long_term(grid, span=("-2 kyr", "0 kyr"), step="1 kyr"))
-    expected = 2 * [0.01 + 0.001 * number for number in range(KEPT + 2)]
+    expected = 2 * [0.01 + 0.001 * number for number in range(LARGEST_NUMBER_OF_RUNS + 2)]
     np.testing.assert_allclose(many.eccentricity[:, 0], expected, rtol=1e-9, atol=0)
 
 
@@ -159,10 +159,10 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
     before = bytes_of(complete)
     begun.mkdir()
     work = Ensemble(mixed(9), block=2)
-    record = dict(work.asked) | {"size": "9 along member by 2"}
+    record = dict(work.request) | {"size": "9 along member by 2"}
     (begun / "asked.json").write_text(json.dumps(record))
     write_orbit(ROUND, 0.02)
-    with pytest.raises(OutputError, match="a store of something else stands there"):
+    with pytest.raises(OutputError, match="a store of another question"):
         earthspin.ensemble(mixed(9), path=complete, block=2)
     assert bytes_of(complete) == before
     with pytest.raises(OutputError, match=r"begun with another orbit sha256 of round\.dat"):
@@ -175,7 +175,7 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
 def test_stores_know_their_kernel(word: str) -> None:
     """Whatever differs among the members: numbers of a body change what is read from it."""
     path = open_ephemeris("de421").path
-    record = Ensemble(asked(word)).asked
+    record = Ensemble(asked(word)).request
     assert record["ephemeris_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
 
 
@@ -192,11 +192,11 @@ def test_a_kernel_that_changed_is_noticed(orbits: Path) -> None:
     )
     assert ";" not in many.attrs["ephemeris_sha256"]
     assert many.attrs["ephemeris"] == "de421: de421; mine.bsp: mine.bsp"
-    before = [Ensemble(question).asked for question in (alone, among)]
+    before = [Ensemble(question).request for question in (alone, among)]
     with mine.open("r+b") as file:
         file.seek(16)  # the name that a DAF file gives itself
         file.write(b"another")
-    after = [Ensemble(question).asked for question in (alone, among)]
+    after = [Ensemble(question).request for question in (alone, among)]
     for old, new, where in zip(before, after, ("", " of mine.bsp"), strict=True):
         assert [name for name in old if old[name] != new[name]] == [f"ephemeris_sha256{where}"]
 
@@ -260,7 +260,7 @@ def test_words_that_do_not_go_with_the_question_are_left_out() -> None:
     """The Moon does not pull on itself."""
     question = QUESTIONS["precession"](perturbers=["sun", "moon"])
     grid = {"body": {"grid": ["earth", "moon", "earth"]}}
-    with pytest.raises(SceneError, match=r"'1'.*of 3 these cannot be.*does not pull on itself"):
+    with pytest.raises(SceneError, match=r"'1'.*cannot exist.*does not pull on itself"):
         earthspin.ensemble(question, grid)
     kept = earthspin.ensemble(question, grid, impossible="drop")
     assert kept.member.values.tolist() == [0, 2]
@@ -307,7 +307,7 @@ def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
     assert share == pytest.approx(between / y.var(), rel=0, abs=1e-6)
     assert np.isnan(shares.obliquity_slope.sel(input="orbit")).all()
     assert np.isfinite(shares.obliquity_slope.sel(input="tides")).all()
-    assert shares.obliquity_slope.attrs["no_slope"] == "of words there is none"
+    assert shares.obliquity_slope.attrs["no_slope"] == "inputs that are names have no slope"
     middle = many.earthspin.quantiles([0.5])
     np.testing.assert_allclose(
         middle.obliquity[0], many.obliquity.median("member"), rtol=1e-15, atol=0
@@ -316,7 +316,7 @@ def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
 
 def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
     three = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND, COPY]}}))
-    with pytest.raises(SceneError, match="1 inputs take at least 4 members"):
+    with pytest.raises(SceneError, match="1 inputs need at least 4 members"):
         three.earthspin.sensitivity()
     from earthspin.views.ensemble import lead
     from earthspin.views.of_question import tables_for
@@ -332,8 +332,14 @@ def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
 
 test_bad_words_are_refused = pytest.mark.usefixtures("orbits")(
     refused(
-        ({"n": 3, "orbit": {"normal": [OWN, ROUND]}}, "normal is of numbers; .* give choice or"),
-        ({"n": 3, "orbit": {"uniform": [OWN, ROUND]}}, "uniform is of numbers; .* give choice or"),
+        (
+            {"n": 3, "orbit": {"normal": [OWN, ROUND]}},
+            "normal applies to numbers; .* give choice or",
+        ),
+        (
+            {"n": 3, "orbit": {"uniform": [OWN, ROUND]}},
+            "uniform applies to numbers; .* give choice or",
+        ),
         ({"n": 3, "orbit": {"choice": []}}, "one value or more"),
         ({"n": 3, "orbit": {"choice": [OWN, 3]}}, 'members.orbit = 3: it is "own"'),
         ({"n": 3, "orbit": {"choice": [OWN, " "]}}, "the path of a table"),
@@ -343,19 +349,19 @@ test_bad_words_are_refused = pytest.mark.usefixtures("orbits")(
         ({"n": 3, "body": {"grid": ["mrs"]}}, "did you mean 'mars'"),
         (
             {"n": 4, "body": {"grid": ["earth"]}, "body.j2": {"choice": [1e-3]}},
-            "body.j2 = 'a number': members differ in 'body' itself",
+            "body.j2 = 'a number': .*differ in 'body' itself",
         ),
         ({"n": 3, "perturbers": {"choice": ["sun"]}}, "allowed: accuracy, body"),
         ({"n": 3, "title": {"choice": ["a"]}}, "allowed|did you mean"),
-        (xr.Dataset({"orbit": ("member", np.array([OWN, None]))}), "'member 1'.*a word for each"),
+        (xr.Dataset({"orbit": ("member", np.array([OWN, None]))}), "'member 1'.*a name for each"),
         (xr.Dataset({"orbit": ("member", np.array([OWN, np.nan], "O"))}), "'member 1'"),
         (xr.Dataset({"orbit": ("member", [OWN, ""])}), "orbit = ''"),
         (xr.Dataset({"orbit": ("member", [1.0, 2.0])}), 'orbit = 1.0: it is "own"'),
         (xr.Dataset({"tides": ("member", [OWN, ROUND])}), "tides = 'own': give finite numbers"),
-        (xr.Dataset({"orbit": (("member", "x"), [[OWN, ROUND]])}), "one word for each member"),
+        (xr.Dataset({"orbit": (("member", "x"), [[OWN, ROUND]])}), "one name for each member"),
         ({"values": {"orbit": [OWN, 3]}}, "'member 1'"),
-        ({"values": {"orbit": []}}, "one word for each member"),
-        ({"values": {"orbit": OWN}}, "one word for each member"),
+        ({"values": {"orbit": []}}, "one name for each member"),
+        ({"values": {"orbit": OWN}}, "one name for each member"),
         ({"values": [OWN]}, "a table of inputs"),
         ({"n": 3, "orbit": {"choice": [[OWN], {}]}}, "the path of a table"),
         call=lambda members: earthspin.ensemble(long_term(), members),
@@ -377,7 +383,7 @@ def test_files_of_members_with_words(orbits: Path) -> None:
     assert differ(by_table, earthspin.ensemble(long_term(), "m.nc")) == []
     assert by_table.orbit.values.tolist() == [OWN, ROUND]
     Path("gap.csv").write_text(f"orbit,tides\n{OWN},1\n,0.9\n")
-    with pytest.raises(SceneError, match=r"'member 1'.*a word for each member"):
+    with pytest.raises(SceneError, match=r"'member 1'.*a name for each member"):
         earthspin.ensemble(long_term(), "gap.csv")
 
 

@@ -115,7 +115,7 @@ def test_labels_that_differ_are_refused() -> None:
 
 
 def test_numbers_that_are_missing_are_refused_in_one_line() -> None:
-    with pytest.raises(UndefinedError, match="an angle has no value here"):
+    with pytest.raises(UndefinedError, match="an angle is undefined"):
         Angles(x=np.array([np.nan])).dataset()
 
 

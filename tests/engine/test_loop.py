@@ -87,7 +87,7 @@ def test_an_end_from_outside_says_how_to_go_on(tmp_path: Path) -> None:
     with pytest.raises(_EndError) as end:
         loop.write(Ends(), tmp_path / "r.zarr")
     assert end.value.__notes__ == [
-        "9 of 20 are kept in r.zarr.partial; the same command goes on from there"
+        "9 of 20 are stored in r.zarr.partial; run the same command to continue"
     ]
 
 
@@ -127,7 +127,7 @@ def test_a_store_of_something_else_is_left_alone(
     else:
         ended(path)
     before = bytes_of(tmp_path)
-    with pytest.raises(OutputError, match="something else" if done else words):
+    with pytest.raises(OutputError, match="another question" if done else words):
         loop.write(other, path)
     assert bytes_of(tmp_path) == before
     assert other.made == []
@@ -167,7 +167,7 @@ def test_a_disk_that_is_full(
         with pytest.raises(OutputError) as error:
             loop.write(Squares(), path)
     assert "No space left" in str(error.value)
-    assert "r.zarr.partial: make room and run it again" in str(error.value)
+    assert "r.zarr.partial: free some space and run it again" in str(error.value)
     work = Squares()
     loop.write(work, path)
     assert 1 < len(work.made) < 7
@@ -180,7 +180,7 @@ def test_a_disk_without_room_is_refused_at_once(
     usage = (100, 90, 10)
     monkeypatch.setattr(drafts.shutil, "disk_usage", lambda at: type("U", (), {"free": usage[2]}))
     work = Squares()
-    with pytest.raises(OutputError, match=r"20 members take .* and 10 B of the disk are free"):
+    with pytest.raises(OutputError, match=r"20 members take .* 10 B of the disk are free"):
         loop.write(work, tmp_path / "r.zarr")
     assert work.made == [0]
     assert list(tmp_path.iterdir()) == []
@@ -287,7 +287,7 @@ def test_a_damaged_line_of_the_ledger_counts_for_nothing(
             ".zattrs", ".zgroup", "square/.zarray", "square/.zattrs", "member/.zattrs",
             "constant/0", "constant/.zattrs", "column/0",
         )
-    ] + [unfinished.ASKED, unfinished.FRAME],
+    ] + [unfinished.REQUEST, unfinished.FRAME],
 )  # fmt: skip
 def test_a_damaged_frame_is_refused(
     tmp_path: Path, file: str, damage: Callable[[Path], object]
@@ -319,7 +319,7 @@ def test_a_disk_that_changes_what_is_written(
         return sums
 
     monkeypatch.setattr(loop, "write_block", damaging)
-    with pytest.raises(OutputError, match="not what was just written"):
+    with pytest.raises(OutputError, match="differs from what was just written"):
         loop.write(Squares(), tmp_path / "r.zarr")
     monkeypatch.undo()
     loop.write(Squares(), tmp_path / "r.zarr")
@@ -405,7 +405,7 @@ def test_a_cluster_listens_to_this_machine_only() -> None:
 
 
 def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(loop, "PATIENCE", 1)
+    monkeypatch.setattr(loop, "TIMEOUT", 1)
     with pytest.raises(SceneError, match="no scheduler answers there within 1 s"):
         loop.write(Squares(), tmp_path / "r.zarr", client="tcp://127.0.0.1:9")
     loop.write(Squares(), tmp_path / "r.zarr")
@@ -413,6 +413,6 @@ def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("client", [0, -1, True, 2.5, "nonsense://x"])
 def test_what_is_no_client(tmp_path: Path, client: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(loop, "PATIENCE", 1)
+    monkeypatch.setattr(loop, "TIMEOUT", 1)
     with pytest.raises(EarthspinError):
         loop.write(Squares(), tmp_path / "r.zarr", client=client)

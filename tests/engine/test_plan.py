@@ -10,7 +10,7 @@ import pytest
 import earthspin
 from earthspin import MARS, Scene, SceneError, load_scene
 from earthspin.engine.part import BLOCK, Part
-from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS, shipped_scenes
 
@@ -74,8 +74,8 @@ def test_reasons() -> None:
 
 def test_a_section_that_is_not_asked_for_costs_nothing() -> None:
     plan = earthspin.plan("precession")
-    assert plan.left_out["standstills"] == NOT_ASKED
-    assert plan.left_out["convergence"] == NOT_ASKED
+    assert plan.left_out["standstills"] == NOT_REQUESTED
+    assert plan.left_out["convergence"] == NOT_REQUESTED
     assert plan.sections == ()
 
 
@@ -95,7 +95,7 @@ def test_the_words_of_a_plan() -> None:
     assert " ms]" not in text
     page = earthspin.plan("sun-only")._repr_html_()
     assert page.startswith("<table>")
-    assert "its section is not asked for" in page
+    assert "its section was not requested" in page
     frame = earthspin.plan("sun-only").to_frame()
     assert set(frame.columns) == {"part", "status", "reason", "seconds"}
 
@@ -128,6 +128,6 @@ def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
 
     h = xr.DataArray([0.003, 0.0033], dims="time")
     body = earthspin.EARTH.replace(dynamical_flattening=h)
-    with pytest.raises(SceneError, match="results have this name already") as error:
+    with pytest.raises(SceneError, match="results already have this name") as error:
         earthspin.plan(Scene(compute="torque", body=body))
     assert error.value.key == "body.dynamical_flattening"

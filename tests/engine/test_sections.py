@@ -8,7 +8,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import SceneError, load_scene
-from earthspin.engine.plan import NOT_ASKED
+from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.question import Graph
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from tests import shipped
@@ -64,7 +64,7 @@ def test_a_section_alone_runs_what_it_needs(word: str, section: str) -> None:
     assert {part.name for part in plan.parts} == needed_for(graph, wanted, always)
     assert plan.sections == (section,)
     for title, why in plan.left_out.items():
-        assert why == always.get(title, NOT_ASKED)
+        assert why == always.get(title, NOT_REQUESTED)
 
 
 @pytest.mark.parametrize(
@@ -109,10 +109,10 @@ def test_an_unknown_section_is_refused(sections: str | list[str], words: str) ->
 NOT_HERE = [
     ("sun-only", {}, "standstills", "the moon is not among the perturbers"),
     ("sun-only", {}, "seasons", "the moon is not among the perturbers"),
-    ("precession", {"body.spin_period": "12 h"}, "iau_2006", "those of another Earth"),
+    ("precession", {"body.spin_period": "12 h"}, "iau_2006", "a modified Earth"),
     ("precession", {"body": "mars", "perturbers": "sun"}, "iau_2006", "no precession model"),
     ("precession", {"body.j2": 0.0, "body.dynamical_flattening": 0.0}, "free_wobble", "sphere"),
-    ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of the Earth is kept"),
+    ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of the Earth is known"),
     ("wobble", {"body": "mars"}, "interior", "published numbers, but no layers"),
     (
         "poinsot",

@@ -32,7 +32,7 @@ class Squares:
         return Layout("member", self.size, self.block)
 
     @property
-    def asked(self) -> Mapping[str, str]:
+    def request(self) -> Mapping[str, str]:
         return {"question": self.question, "version": self.version}
 
     def first(self) -> xr.Dataset:

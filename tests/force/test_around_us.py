@@ -156,7 +156,7 @@ def test_signals_end_in_one_line_that_says_how_to_go_on(
     process.send_signal(number)
     out, complaint = process.communicate(timeout=60)
     assert (out, process.returncode) == (b"", status)
-    kept = b"1000 of 1465 are kept in r.zarr.partial; the same command goes on from there"
+    kept = b"1000 of 1465 are stored in r.zarr.partial; run the same command to continue"
     assert complaint == b"earthspin: " + said + b"; " + kept + b"\n"
     assert sorted(tmp_path.iterdir()) == [path, tmp_path / "r.zarr.partial"]
     assert "top" in store.open(path).attrs["compute"]

@@ -270,7 +270,7 @@ def test_a_file_of_others_is_read_but_not_verified(tmp_path: Path) -> None:
     answer = small_series()
     answer.to_netcdf(tmp_path / "plain.nc")
     assert same(store.open(tmp_path / "plain.nc"), answer)
-    with pytest.raises(OutputError, match="carries no checksum"):
+    with pytest.raises(OutputError, match="has no checksum"):
         earthspin.verify(tmp_path / "plain.nc")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.motion.equations import OwnTorque, Rigid
+from earthspin.motion.equations import CustomTorque, Rigid
 from earthspin.motion.march import Above
 from earthspin.motion.solution import Motion, State, start_of
 
@@ -44,7 +44,9 @@ class Ellipse:
 ALONE = Above(gm={}, positions=lambda times: {})
 
 
-def rigid(h: float, triaxiality: float, unit: float = 1.0, own: OwnTorque | None = None) -> Rigid:
+def rigid(
+    h: float, triaxiality: float, unit: float = 1.0, own: CustomTorque | None = None
+) -> Rigid:
     """One body."""
     return Rigid(
         c_minus_a=np.array([h + triaxiality / 2]),
@@ -55,7 +57,7 @@ def rigid(h: float, triaxiality: float, unit: float = 1.0, own: OwnTorque | None
     )
 
 
-def of_moments(a: float, b: float, c: float, own: OwnTorque | None = None) -> Rigid:
+def of_moments(a: float, b: float, c: float, own: CustomTorque | None = None) -> Rigid:
     """One body of three moments."""
     return rigid((c - (a + b) / 2) / c, (b - a) / c, own=own)
 

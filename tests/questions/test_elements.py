@@ -95,7 +95,7 @@ def test_exact_means_are_those_of_windows() -> None:
         sampled.precession_rate.sel(perturber="moon"), exact, rtol=2e-8, atol=0
     )
     assert np.isnan(sampled.precession_rate_error.sel(perturber="moon"))
-    assert "never measured" in str(sampled.precession_rate_error.attrs)
+    assert "not measured" in str(sampled.precession_rate_error.attrs)
 
 
 def test_an_error_at_rounding() -> None:
@@ -181,14 +181,14 @@ test_elements_that_cannot_be = refused(
 
 
 def test_orbits_that_do_not_fit_together() -> None:
-    with pytest.raises(SceneError, match="go round one another"):
+    with pytest.raises(SceneError, match="orbit one another"):
         earthspin.precession(
             perturbers=[
                 SUN.replace(orbit={"a": "1 au", "about": "moon"}),
                 MOON.replace(orbit={"a": "1 au", "about": "sun"}),
             ]
         )
-    with pytest.raises(SceneError, match="say which it is"):
+    with pytest.raises(SceneError, match="give one of"):
         earthspin.precession(body=EARTH.replace(orbit={"a": "1 au"}))
     with pytest.raises(BodyError, match="position places it"):
         MOON.replace(
@@ -199,18 +199,18 @@ def test_orbits_that_do_not_fit_together() -> None:
     many = PLANET.replace(gm=xr.DataArray([4e15, 5e15], dims="case"))
     with pytest.raises(SceneError, match="both a and period"):
         earthspin.precession(body=many, perturbers=[STAR])
-    with pytest.raises(SceneError, match="never measured"):
+    with pytest.raises(SceneError, match="not measured"):
         earthspin.precession(perturbers=["sun", MEAN_MOON], accuracy=1e-4)
-    with pytest.raises(SceneError, match="give the orbits of planets"):
+    with pytest.raises(SceneError, match="list the planets as perturbers"):
         earthspin.pole("2000-01-01", "2000-02-01", "1 d", perturbers=BOTH, effects=["planets"])
-    with pytest.raises(SceneError, match="never measured"):
+    with pytest.raises(SceneError, match="not measured"):
         earthspin.compare_iau(perturbers=BOTH)
 
 
 @pytest.mark.parametrize("turns", [1.0, 1.5, 2.0])
 def test_a_locked_spin_is_refused(turns: float) -> None:
     locked = PLANET.replace(spin_period=40 * DAY / turns)
-    with pytest.raises(UndefinedError, match=f"turns {turns:g} times in each orbit"):
+    with pytest.raises(UndefinedError, match=f"{turns:g} rotations? per orbit"):
         earthspin.precession(body=locked, perturbers=[STAR])
     # turning the other way it is not
     back = PLANET.replace(spin_period=-40 * DAY / turns)

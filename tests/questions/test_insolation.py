@@ -134,9 +134,9 @@ def test_mars_gets_less_by_the_square_of_its_distance() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("91 deg", "0 deg"), "latitude = '91 deg': it lies within 90 degrees"),
-        ((65.0, "0 deg"), "within 90 degrees; give it as '65 deg'"),
-        (("65 deg", "400 deg"), "within 360 degrees"),
+        (("91 deg", "0 deg"), "latitude = '91 deg': give at most 90 degrees"),
+        ((65.0, "0 deg"), "at most 90 degrees"),
+        (("65 deg", "400 deg"), "at most 360 degrees"),
         (("65 km", "0 deg"), "not a value in units of rad"),
         (([[1, 2]] * u.deg, "0 deg"), "one list"),
     ],

@@ -155,7 +155,7 @@ test_what_has_no_layers_is_told_in_one_line = refused(
     (lambda: earthspin.love_numbers(body=EARTH.replace(interior="permm")), "'prem'"),
     (lambda: earthspin.nutation_ladder(body=EARTH.replace(interior=CORES)), "another mass"),
     (lambda: earthspin.love_numbers(body="mars"), "published numbers, but no layers"),
-    (lambda: earthspin.compliances(body="venus"), "no interior of Venus is kept; give layers"),
+    (lambda: earthspin.compliances(body="venus"), "no interior of Venus is known; give layers"),
     (lambda: earthspin.wobble_ladder(body={"from": "layers", "name": "x"}), "needs more"),
 )
 

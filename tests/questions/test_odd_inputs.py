@@ -185,7 +185,7 @@ def test_trees_know_their_scene_too() -> None:
 
 def test_a_part_that_cannot_be_drawn_says_so() -> None:
     part = earthspin.precession()[["precession_rate"]]
-    with pytest.raises(SceneError, match="draw the whole"):
+    with pytest.raises(SceneError, match="plot the full result"):
         part.earthspin.plot()
 
 

@@ -249,7 +249,7 @@ def test_phobos_librates_by_a_little_more_than_a_degree() -> None:
     assert abs(half - 1.14) < 0.1
     assert float(found.attitude_error_method.max()) < 1e-10
     assert found.attitude_error.isnull().all()
-    assert "never measured" in found.attitude_error.attrs["no_error"]
+    assert "not measured" in found.attitude_error.attrs["no_error"]
 
 
 def test_elements_and_an_ellipse_of_ones_own_give_one_motion() -> None:

@@ -51,7 +51,7 @@ def mercury(spin_period: str) -> Body:
 
 def test_mercury_is_refused_and_a_freely_turning_one_is_not() -> None:
     """58.646 d in a year of 87.969 d: three turns in two orbits."""
-    with pytest.raises(UndefinedError, match=r"Mercury turns 1.5 times in each orbit with 'sun'"):
+    with pytest.raises(UndefinedError, match=r"Mercury is locked .*1.5 rotations per orbit"):
         earthspin.precession(body=mercury("58.646 d"), perturbers=["sun"])
     free = earthspin.precession(body=mercury("50 d"), perturbers=["sun"])
     assert np.isfinite(free.precession_period).all()

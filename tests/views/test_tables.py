@@ -69,7 +69,7 @@ def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
         earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
     )
     assert (first.title, second.title) == ("Accuracy", "Torque")
-    assert first.headers[1] == "error asked for, mas"
+    assert first.headers[1] == "requested error, mas"
     assert first.rows[0][1] == "10"
 
 

@@ -226,7 +226,7 @@ def test_a_body_without_an_interior_stops_at_the_rigid_rungs() -> None:
     tree = earthspin.run_tree(scene)
     result = tree.to_dataset()
     assert list(result.rung.values) == list(ladder.RUNGS[:3])
-    assert "no interior of the Earth is kept" in result.rung.left_out
+    assert "no interior of the Earth is known" in result.rung.left_out
     assert "no interior" in str(tree["plan/reason"].sel(part="sensitivity").values)
     assert "sensitivity" not in tree
     heavy = earthspin.wobble_ladder(body=EARTH.replace(mass=7e24))

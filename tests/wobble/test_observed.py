@@ -283,8 +283,8 @@ def units(pole: xr.Dataset, **words: str) -> xr.Dataset:
             "no numbers",
         ),
         (lambda pole: units(pole, x="rad"), "'arcsec' or 'mas'"),
-        (lambda pole: units(pole * 1e3, x="arcsec", y="arcsec"), "is the unit right"),
-        (lambda pole: units(pole * ARCSEC, x="arcsec", y="arcsec"), "is the unit right"),
+        (lambda pole: units(pole * 1e3, x="arcsec", y="arcsec"), "check the unit"),
+        (lambda pole: units(pole * ARCSEC, x="arcsec", y="arcsec"), "check the unit"),
         (lambda pole: pole * 1.0, "'arcsec' or 'mas'"),
         (
             lambda pole: pole.isel(time=slice(0, 1800)),

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of many: members side by side, how they are drawn, what they tell."""
+"""Stiff and extreme cases of ensembles: computing members together, drawing, statistics."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.checks.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.given import MEMBER
+from earthspin.engine.member_values import MEMBER
 from earthspin.engine.question import Question
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.many import ensemble
@@ -24,37 +24,39 @@ from earthspin.questions.top import heavy_top
 from earthspin.scenes import QUESTIONS
 
 H_OF_BODY, J2_OF_BODY = "body.dynamical_flattening", "body.j2"
-#: A moment about each axis, and angular velocities.
+#: Names of the inputs: the moment and the angular velocity for each axis.
 ROTOR = tuple(f"{key}.{axis}" for key in ("moments", "omega") for axis in range(3))
 TIMES = (0.0, 7.0, 90.0)
 
 
-def _beside(
+def _compared_with_members_alone(
     question: Question, names: Sequence[str], rows: ArrayLike, alone: Callable[..., xr.Dataset]
 ) -> Iterator[ArrayLike]:
-    """Yield where numbers of members side by side differ from those of each member alone."""
+    """Yield True where members that are computed together differ from each member alone."""
     values = np.array(rows, dtype=float).reshape(-1, len(names))
     members = xr.Dataset({n: (MEMBER, column) for n, column in zip(names, values.T, strict=True)})
-    yield Ensemble(question.replace(members=members)).width == 1  # not one by one
+    yield Ensemble(question.replace(members=members)).width == 1  # computed separately: fails
     many = ensemble(question, members)
-    for place, row in enumerate(values.tolist()):
+    for index, row in enumerate(values.tolist()):
         for name, expected in alone(*row).data_vars.items():
             result = many[name]
-            result = result.isel({MEMBER: place}) if MEMBER in result.dims else result
+            result = result.isel({MEMBER: index}) if MEMBER in result.dims else result
             yield result.values != expected.values
 
 
 def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
     question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
-    return _beside(question, ROTOR, rows, lambda *row: free_rotor(row[:3], row[3:], TIMES))
+    return _compared_with_members_alone(
+        question, ROTOR, rows, lambda *row: free_rotor(row[:3], row[3:], TIMES)
+    )
 
 
 @holds(bound=0.0)
 def _scales() -> Distances:
-    """rotors twenty orders of magnitude apart, side by side
+    """free rotors twenty orders of magnitude apart, computed together
 
-    Hard because: what scales one to the numbers of another leaves it no digit
-    Held against: each rotor alone, bit for bit
+    Hard because: scaling one rotor to the numbers of another would lose all digits
+    Compared with: each rotor alone, bit for bit
     """
     yield from _rotors(
         [[s, 2 * s, 2.8 * s, w, 0.3 * w, w] for s, w in ((1e-10, 1e-3), (1.0, 1.0), (1e10, 1e-9))]
@@ -63,10 +65,10 @@ def _scales() -> Distances:
 
 @holds(bound=0.0)
 def _degenerate_rotors() -> Distances:
-    """a sphere and a separatrix beside other rotors
+    """sphere and separatrix computed together with other rotors
 
-    Hard because: the one has no polhode, the other's has no period: arrays know no exceptions
-    Held against: each rotor alone, bit for bit
+    Hard because: a sphere has no polhode and a separatrix no period, but arrays have no exceptions
+    Compared with: each rotor alone, bit for bit
     """
     yield from _rotors(
         [
@@ -81,25 +83,25 @@ def _degenerate_rotors() -> Distances:
 
 @holds(bound=0.0)
 def _tops() -> Distances:
-    """tops that stand, hang and sleep beside one that loops
+    """upright, hanging and sleeping tops computed together with a looping one
 
-    Hard because: upright and upside down there is no azimuth, and a sleeping top has no nutation
-    Held against: each top alone, bit for bit
+    Hard because: the azimuth of vertical tops is undefined, and a sleeping top has no nutation
+    Compared with: each top alone, bit for bit
     """
     top = {"transverse_moment": 1.0, "axial_moment": 1.2, "weight_moment": 1.5}
     question = QUESTIONS["top"](times=TIMES, theta=0.7, spin=3.0, **top)
     rows = [[0.7, 3.0], [0.0, 50.0], [0.0, 1.0], [np.pi, 3.0], [1e-9, 2.041], [1.0, 0.0]]
-    yield from _beside(
+    yield from _compared_with_members_alone(
         question, ("theta", "spin"), rows, lambda t, s: heavy_top(TIMES, **top, theta=t, spin=s)
     )
 
 
 @holds(bound=0.0)
 def _spheroids() -> Distances:
-    """a ball, a disc and a needle, side by side
+    """fields of a sphere, a disc and a needle computed together
 
-    Hard because: each has a closed form of its own, and a series where that loses its digits
-    Held against: the field of each alone, bit for bit
+    Hard because: each has its own closed form, and a series where that form loses digits
+    Compared with: field of each body alone, bit for bit
     """
     place = [[7e6, 1e5, 2e6], [1e9, 1e9, 1e3]]
     question = QUESTIONS["spheroid"](position=place)
@@ -108,18 +110,18 @@ def _spheroids() -> Distances:
         return spheroid_field(place, body=BODY.replace(flattening=flattening))
 
     rows = [0.0, 1e-15, 1e-7, float(BODY.flattening or 0.0), 0.999999, -0.05]
-    yield from _beside(question, ("body.flattening",), rows, alone)
+    yield from _compared_with_members_alone(question, ("body.flattening",), rows, alone)
 
 
 @holds(bound=0.0)
 def _discs() -> Distances:
-    """a thin disc and almost a ball, precessing side by side
+    """precession of a thin disc and a near-sphere computed together
 
-    Hard because: their rates are eleven orders of magnitude apart, in one product
-    Held against: the precession of each alone, bit for bit
+    Hard because: their rates differ by eleven orders of magnitude in one product
+    Compared with: precession of each body alone, bit for bit
     """
     rows = [[5e-12, 1e-12], [H, J2], [0.5, 0.2]]
-    yield from _beside(
+    yield from _compared_with_members_alone(
         QUESTIONS["precession"](),
         (H_OF_BODY, J2_OF_BODY),
         rows,
@@ -127,11 +129,11 @@ def _discs() -> Distances:
     )
 
 
-# --- drawn ---------------------------------------------------------------------------------------
+# --- drawing -------------------------------------------------------------------------------------
 
 
 def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
-    """Two standard normal numbers of each member."""
+    """Draw two standard normal numbers for each member."""
     normal = {"normal": [0.0, 1.0]}
     question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
     members = {"n": n, "omega.0": normal, "omega.1": normal, **settings}
@@ -142,8 +144,8 @@ def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
 def _last() -> Distances:
     """the last of ten million members, alone
 
-    Hard because: each has a generator of its own: those before it must not be needed
-    Held against: numbers of a generator of its own, Philox by seed and member
+    Hard because: each member has its own generator, so the members before it must not be drawn
+    Compared with: numbers of a separate generator, Philox with seed and member
     """
     number = 10**7 - 1
     sequence = np.random.SeedSequence(5, spawn_key=(number,))
@@ -157,7 +159,7 @@ def _correlated() -> Distances:
     """inputs correlated by 0.999999
 
     Hard because: 1 - r2 loses six digits, and the second input is nearly the first
-    Held against: r x + sqrt((1 - r) (1 + r)) y of two independent numbers
+    Compared with: r x + sqrt((1 - r) (1 + r)) y of two independent numbers
     """
     r = 0.999999
     first, second = "omega.0", "omega.1"
@@ -169,23 +171,23 @@ def _correlated() -> Distances:
 
 @refused("write them to a store")
 def _too_many() -> None:
-    """thirty thousand decades of torques held at once
+    """thirty thousand torque series of a decade in memory
 
-    Hard because: each alone fits, and so do all numbers that are drawn
+    Hard because: each series alone fits into memory, and so do all drawn numbers
     """
     decade = QUESTIONS["torque"](span=("2000-01-01", "2010-01-01"), step="1 d")
     ensemble(decade, {"n": 30_000, J2_OF_BODY: {"uniform": [1.082e-3, 1.083e-3]}})
 
 
-# --- read ----------------------------------------------------------------------------------------
+# --- statistics ----------------------------------------------------------------------------------
 
 
 @holds(bound=0.0)
 def _one() -> Distances:
-    """an ensemble of one member
+    """ensemble of one member
 
-    Hard because: it has no spread, no neighbour, and no row of its own length
-    Held against: the answer to its own numbers, and that as each quantile, bit for bit
+    Hard because: there is no spread, and the row of members is not full
+    Compared with: single answer with the same numbers, and each quantile, bit for bit
     """
     h = 1.5 * H
     alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
@@ -193,21 +195,21 @@ def _one() -> Distances:
     yield ends.precession_period.values != alone.values
 
 
-@refused("take at least 3 members")
+@refused("need at least 3 members")
 def _one_slope() -> None:
-    """slopes from one member
+    """sensitivity from one member
 
-    Hard because: any line goes through one point
+    Hard because: any line passes through one point
     """
     sensitivity(ensemble("precession", {H_OF_BODY: {"grid": [H]}}))
 
 
 @holds(bound=0.0)
 def _no_spread() -> Distances:
-    """inputs whose spread is below their last bit
+    """inputs with a spread below their last bit
 
-    Hard because: shares of no variance are zero over zero
-    Held against: no slope, no share and nothing unexplained
+    Hard because: shares of zero variance are 0/0
+    Compared with: zero slope, zero share and nothing unexplained
     """
     normal = {"normal": [H, 1e-30]}
     shares = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
@@ -216,10 +218,10 @@ def _no_spread() -> Distances:
 
 @holds(bound=2e-14)
 def _additive() -> Distances:
-    """a sum of inputs twenty-four orders of magnitude apart
+    """sum of inputs twenty-four orders of magnitude apart
 
-    Hard because: a fit in their own units would leave the small ones out
-    Held against: the coefficient of each, relative, and shares that add up to 1
+    Hard because: a fit in the original units would ignore the small inputs
+    Compared with: coefficient of each input, relative, and shares with a sum of 1
     """
     spread = np.array([1e-12, 1e-3, 1.0, 1e12])
     inputs = spread * (3 + np.random.default_rng(1).standard_normal((300, 4)))

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of how mass is spread."""
+"""Stiff and extreme cases of mass distributions and their fields."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ EPS = float(np.finfo(float).eps)
 
 @holds(bound=0.0)
 def _one_ulp() -> Distances:
-    """moments that differ by one unit in the last place
+    """principal moments that differ by one unit in the last place
 
-    Hard because: C - A is as small as a float can tell, and taken from eigenvalues
-    Held against: that unit itself, over the moment
+    Hard because: C - A is the smallest possible difference and comes from eigenvalues
+    Compared with: one unit in the last place, relative to the moment
     """
     result = principal_axes(np.diag([1.0, 1.0, 1.0 + EPS]))
     yield result.c_minus_a - EPS
@@ -41,10 +41,10 @@ def _one_ulp() -> Distances:
 
 @holds(bound=5e-15)
 def _flat() -> Distances:
-    """flat body: C = A + B exactly
+    """flat body with C = A + B exactly
 
-    Hard because: the triangle inequality of the moments is met with equality
-    Held against: A + B - C = 0, over C
+    Hard because: the triangle inequality of the moments holds with equality
+    Compared with: A + B - C = 0, relative to C
     """
     places = np.random.default_rng(5).normal(size=(40, 3)) * [1.0, 0.3, 0.0]
     a, b, c = principal_axes(inertia_tensor(np.ones(40), places)).moments
@@ -53,19 +53,19 @@ def _flat() -> Distances:
 
 @refused("none may exceed the sum of the other two")
 def _triangle() -> None:
-    """triangle inequality violated
+    """inertia tensor that violates the triangle inequality
 
-    Hard because: no body has C above A + B, yet every formula would give numbers
+    Hard because: no body has C above A + B, but every formula would give numbers
     """
     check_inertia_tensor(np.diag([1.0, 1.0, 2.0 + 1e-9]))
 
 
 @holds(bound=5e-15)
 def _scales() -> Distances:
-    """masses of 1e-30 kg and of 1e40 kg
+    """bodies of 1e-30 kg and 1e40 kg
 
-    Hard because: products of seventy decades apart pass through one formula
-    Held against: moments in proportion to the mass
+    Hard because: one formula has to cover seventy orders of magnitude
+    Compared with: moments proportional to the mass
     """
     small, large = (spheroid_moments(m, 1.0, 0.1) for m in (1e-30, 1e40))
     body = np.array([[1.0, 2.0, 3.0], [-2.0, 0.0, 1.0], [0.5, -1.0, 2.0]])
@@ -76,10 +76,11 @@ def _scales() -> Distances:
 
 @holds(bound=1e-11)
 def _nearly_round() -> Distances:
-    """flattening 1e-12: torque against the quadrupole
+    """torque on a spheroid with a flattening of 1e-12
 
-    Hard because: A3 - A1 is 1e-12 of either integral; their difference keeps four digits
-    Held against: 3 G m (C - A) z (r x k)/r5, exact to first order in the flattening at any distance
+    Hard because: A3 - A1 is 1e-12 of either integral, so their difference keeps only four digits
+    Compared with: quadrupole torque 3 G m (C - A) z (r x k)/r5, exact to first order in the
+        flattening
     """
     f, mass, radius = 1e-12, 6e24, 6.4e6
     bulge = float(spheroid_moments(mass, radius, f).difference)
@@ -93,10 +94,10 @@ def _nearly_round() -> Distances:
 
 @holds(bound=5e-15)
 def _far_field() -> Distances:
-    """field from the surface to a million radii
+    """potential of a spheroid from its surface to a million radii
 
-    Hard because: potential and quadrupole fall by six and by eighteen decades
-    Held against: the zonal series of a homogeneous spheroid, J2 to J20
+    Hard because: the potential falls by 6 orders of magnitude, and its quadrupole part by 18
+    Compared with: zonal series of a homogeneous spheroid, J2 to J20
     """
     f, theta = 1 / 298.25, np.radians(33.0)
     distance = np.geomspace(1.0 + 1e-12, 1e6, 40)
@@ -112,10 +113,10 @@ def _far_field() -> Distances:
 
 @holds(bound=0.0)
 def _centre() -> Distances:
-    """at the centre and on the axis
+    """attraction of a spheroid at its centre, and torque on its axis and in its equator
 
-    Hard because: directions vanish there: 0/0 in spherical coordinates
-    Held against: no attraction at the centre, no torque on the axis or in the equator
+    Hard because: directions are undefined there: 0/0 in spherical coordinates
+    Compared with: zero attraction at the centre, zero torque on the axis and in the equator
     """
     yield spheroid_attraction(4e14, 6.4e6, 0.01, np.zeros(3))
     places = np.array([[0.0, 0.0, 3e7], [0.0, 0.0, -1e3], [3e7, -2e7, 0.0], [0.0, 0.0, 0.0]])
@@ -124,10 +125,10 @@ def _centre() -> Distances:
 
 @holds(bound=5e-15)
 def _mass_inside() -> Distances:
-    """a mass inside the spheroid
+    """torque of a mass inside a spheroid
 
-    Hard because: no expansion in the distance holds there
-    Held against: torque in proportion to z x: A3 - A1 is constant inside, over itself
+    Hard because: no series in the inverse distance converges there
+    Compared with: torque proportional to z x, because A3 - A1 is constant inside, relative
     """
     r = np.array([[1e-9, 0.0, 1e-9], [0.1, 0.0, 0.2], [0.6, 0.0, 0.4]])
     twist = spheroid_torque(1.0, 1.0, 0.2, 1.0, r)[:, 1] / (r[:, 0] * r[:, 2])
@@ -136,10 +137,10 @@ def _mass_inside() -> Distances:
 
 @holds(bound=5e-15)
 def _far_multipoles() -> Distances:
-    """multipole moments a billion radii away
+    """multipole potential a billion radii away
 
-    Hard because: the terms fall by nine decades each, to 1e-100 and below
-    Held against: MacCullagh's potential, relative
+    Hard because: each degree is nine orders of magnitude smaller, down to 1e-100 and below
+    Compared with: MacCullagh's potential, relative
     """
     rng = np.random.default_rng(11)
     masses, places = rng.uniform(1, 2, 30), rng.normal(size=(30, 3))
@@ -152,10 +153,11 @@ def _far_multipoles() -> Distances:
 
 @holds(bound=1.0)
 def _hardly_converging() -> Distances:
-    """series of 1/R to degree 300 where it hardly converges
+    """series of 1/R to degree 300 where it converges slowly
 
-    Hard because: both points are within 10 per cent of one distance: 300 terms of like size
-    Held against: 1/R itself, over the bound that the series claims and rounding
+    Hard because: the distances of the two points differ by 10 per cent, so 300 terms have similar
+        sizes
+    Compared with: 1/R itself, relative to the claimed error bound of the series plus rounding
     """
     one, other = np.array([1.0, 0.2, -0.3]), 0.9 * np.array([0.3, 1.0, 0.2])
     exact = 1 / np.linalg.norm(one - other)
@@ -166,10 +168,10 @@ def _hardly_converging() -> Distances:
 
 @holds(bound=5e-12)
 def _legendre() -> Distances:
-    """Legendre functions of degree 1000 beside the pole
+    """Legendre functions of degree 1000 at the poles
 
-    Hard because: the recurrence runs a thousand steps where neighbours nearly cancel
-    Held against: P_n(1) = 1 and P_n(-1) = (-1)^n
+    Hard because: the recurrence takes a thousand steps in which neighbouring terms nearly cancel
+    Compared with: P_n(1) = 1 and P_n(-1) = (-1)^n
     """
     top = orthonormal_functions(1000, np.array([1.0, -1.0]))[-1] / math.sqrt(1000.5)
     yield top - 1
@@ -177,10 +179,10 @@ def _legendre() -> Distances:
 
 @holds(bound=5e-15)
 def _layers() -> Distances:
-    """a body of many layers that are all alike
+    """body of 1000 layers with the same density
 
-    Hard because: mass and moments become sums of vanishing differences
-    Held against: the whole homogeneous spheroid
+    Hard because: mass and moments are sums of small differences
+    Compared with: homogeneous spheroid
     """
     radii = np.linspace(0.001, 1.0, 1000) * 6.4e6
     mass, moments = layered_moments(radii, np.full(1000, 5500.0), np.full(1000, 1e-9))

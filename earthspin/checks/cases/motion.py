@@ -1,7 +1,8 @@
-"""Stiff and extreme cases of what the axis does: three solvers and the average.
+"""Stiff and extreme cases of the Earth's axes: three solvers and the averaged rate.
 
-Spin to precession is 10^7 to one. The averaged rate knows nothing of the spin, the pole's
-solver steps over it, the two attitude solvers follow every turn; they meet where they overlap.
+The spin is 10^7 times faster than the precession. The averaged rate does not depend on the phase of
+the spin, the axis solver uses windows of several days, and the two other solvers resolve every
+rotation. They are compared over spans that two of them cover.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from earthspin.torque.rates import precession_rate
 YEAR = JULIAN_YEAR
 ROUND = FORCES.figure
 TRIAXIALITY = float(BODY.triaxiality) * H / J2
-#: Any direction near the pole.
+#: An arbitrary direction near the pole.
 NORTH = np.array([2e-5, -3e-5, 1.0]) / np.linalg.norm([2e-5, -3e-5, 1.0])
 
 
@@ -50,7 +51,7 @@ def _momentum(path: AxisPath) -> FloatArray:
 
 
 def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
-    """Figure axes of the pole's solver and of (L, F) step by step, largest angle, uas."""
+    """Largest angle between figure axes of the axis solver and of the integrated (L, F), uas."""
     times, body = np.linspace(0.0, days * DAY, 40), forces.figure
     path = axis_path(forces, NORTH, 0.0, (0.0, times[-1]))
     start, tide = path.at(times[:1])["figure"][0], Tide(days * DAY, forces.gm)
@@ -59,32 +60,34 @@ def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
 
 
 def _exact(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """Figure axis of the round body from an angular momentum, by (L, F)."""
+    """Figure axis of the axisymmetric body by integration of (L, F)."""
     return axisymmetric_motion(tide, H, SPIN, start, NORTH, times)[1]
 
 
 def _attitude(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """The same by the whole attitude."""
-    turned = attitude_about(NORTH, 0.3)
-    return figure_axis(attitude_motion(tide, H, 0.0, SPIN, start, turned, times)[1])
+    """Figure axis of the axisymmetric body by integration of the full attitude."""
+    attitude = attitude_about(NORTH, 0.3)
+    return figure_axis(attitude_motion(tide, H, 0.0, SPIN, start, attitude, times)[1])
 
 
 @holds(bound=0.01, unit="uas")
 def _pole_and_exact() -> Distances:
-    """spin to precession 10^7: the pole and (L, F) step by step
+    """Earth's pole for 30 d: axis solver and integration of (L, F)
 
-    Hard because: one steps over a day eight at a time, the other turns with the body
-    Held against: the figure axis of axisymmetric_motion over 30 d
+    Hard because: the spin is 10^7 times faster than the precession; one solver uses windows of 8 d,
+        the other resolves each rotation
+    Compared with: figure axis of axisymmetric_motion over 30 d
     """
     yield _pole_against_exact(30.0)
 
 
 @holds(bound=2e-4, unit="uas")
 def _exact_and_attitude() -> Distances:
-    """spin to precession 10^7: (L, F) and the whole attitude
+    """Earth's pole for 10 d: integration of (L, F) and of the full attitude
 
-    Hard because: two sets of equations of different size, a thousand steps a turn of the sky
-    Held against: the figure axis of attitude_motion over 10 d
+    Hard because: the two systems of equations have different sizes and need a thousand steps per
+        rotation
+    Compared with: figure axis of attitude_motion over 10 d
     """
     start, tide = _momentum(_path(10.0)), Tide(10 * DAY)
     times = np.linspace(0.0, 10 * DAY, 20)
@@ -93,26 +96,28 @@ def _exact_and_attitude() -> Distances:
 
 @holds(bound=5e-3, unit="uas")
 def _triaxial() -> Distances:
-    """spin to precession 10^7: three unequal moments
+    """Earth's pole with three unequal moments of inertia
 
-    Hard because: the semidiurnal motion of 34 uas rides on a precession of 10^6 times that
-    Held against: the figure axis of attitude_motion over 10 d
+    Hard because: the semidiurnal motion of 34 uas is added to a precession that is 10^6 times
+        larger
+    Compared with: figure axis of attitude_motion over 10 d
     """
     days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
     path = _path(days, replace(ROUND, triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
     result = path.at(times)
     start = np.linalg.norm(_momentum(path)) * result["angular_momentum"][0]
-    turned = attitude_about(result["figure"][0], float(BODY.meridian))
-    _, turn = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, turned, times)
-    yield _angle(result["figure"], figure_axis(turn))
+    attitude = attitude_about(result["figure"][0], float(BODY.meridian))
+    _, attitudes = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, attitude, times)
+    yield _angle(result["figure"], figure_axis(attitudes))
 
 
 @holds(bound=2e-5, unit="arcsec/yr")
 def _average_and_pole() -> Distances:
-    """spin to precession 10^7: the average and the pole over 93 years
+    """averaged precession rate and Earth's pole over 93 years
 
-    Hard because: a nutation of 9 arcsec, half a million times a year's error, must average out
-    Held against: averaged rate and the published second-order effect (Capitaine et al. 2003)
+    Hard because: a nutation of 9 arcsec, half a million times the error per year, must average to
+        zero
+    Compared with: averaged rate plus the published second-order effect (Capitaine et al. 2003)
     """
     samples = _samples()
     window, times = samples.window, samples.times
@@ -120,13 +125,13 @@ def _average_and_pole() -> Distances:
     start = BODY.needed("pole").true(0.0)
     path = axis_path(FORCES, start, 0.0, (times[0] - DAY, times[-1] + DAY))
     before, after = (_psi(path.at(times + s * DAY / 2)["angular_momentum"]) for s in (-1, 1))
-    followed = float(window.mean(times, after - before)) / DAY
+    integrated = float(window.mean(times, after - before)) / DAY
     second_order = PUBLISHED_EFFECTS["second-order"].value
-    yield (followed - averaged) / ARCSEC_PER_YEAR - second_order
+    yield (integrated - averaged) / ARCSEC_PER_YEAR - second_order
 
 
 def _samples(cycles: float | None = None) -> Samples:
-    """Daily torques of Sun and Moon over a number of turns of the node, or all that there are."""
+    """Daily torques of Sun and Moon over some periods of the node, or over the whole kernel."""
     both = BODY, (SUN, MOON)
     above = sky("de421", places(*both), "jplephem")
     if cycles is None:
@@ -140,20 +145,20 @@ def _psi(vectors: FloatArray) -> FloatArray:
 
 
 def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
-    """Slope of the logarithm of the cost against that of the span, less 1."""
+    """Difference from 1 of the exponent of the cost as a function of the span."""
     counts = [count(span) for span in spans]
     return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
 
 
 def _cost(
-    follow: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
+    solver: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
 ) -> float:
-    """The same of a solver's requests for the tide, over spans in d."""
+    """Difference from 1 of the exponent of a solver's evaluations of the tide; spans in d."""
     start = _momentum(_path(8.0))
 
     def count(days: float) -> int:
         tide = Tide(days * DAY)
-        follow(start, tide, np.array([0.0, days * DAY]))
+        solver(start, tide, np.array([0.0, days * DAY]))
         return tide.calls
 
     return _exponent(count, spans)
@@ -161,20 +166,20 @@ def _cost(
 
 @holds(bound=3e-4)
 def _cost_of_average() -> Distances:
-    """cost of the average as the span grows
+    """cost of the averaged rate as the span grows
 
-    Hard because: a cost that grows faster than the span would end all long spans
-    Held against: exponent 1 of the number of epochs, over 3 to 5 turns of the node
+    Hard because: a cost that grows faster than the span would prevent long spans
+    Compared with: exponent 1 of the number of epochs, over 3 to 5 periods of the node
     """
     yield _exponent(lambda cycles: _samples(cycles).times.size, (3.0, 4.0, 5.0))
 
 
 @holds(bound=0.02)
 def _cost_of_pole() -> Distances:
-    """cost of the pole as the span grows
+    """cost of the axis solver as the span grows
 
-    Hard because: each round of its iteration covers all windows; more rounds would show
-    Held against: exponent 1 of windows times rounds, over 2 to 48 years
+    Hard because: each iteration covers all windows, and more iterations would increase the exponent
+    Compared with: exponent 1 of windows times iterations, over 2 to 48 years
     """
 
     def count(years: float) -> int:
@@ -186,40 +191,40 @@ def _cost_of_pole() -> Distances:
 
 @holds(bound=0.1)
 def _cost_of_exact() -> Distances:
-    """cost of (L, F) step by step as the span grows
+    """cost of integrating (L, F) as the span grows
 
-    Hard because: the step is bound to the turn of the body
-    Held against: exponent 1 of the number of evaluations, over 8 to 64 d
+    Hard because: the step is limited by the rotation of the body
+    Compared with: exponent 1 of the number of evaluations, over 8 to 64 d
     """
     yield _cost(_exact, (8.0, 16.0, 32.0, 64.0))
 
 
 @holds(bound=0.1, slow=True)
 def _cost_of_attitude() -> Distances:
-    """cost of the whole attitude as the span grows
+    """cost of integrating the full attitude as the span grows
 
-    Hard because: the step is bound to the turn of the body
-    Held against: exponent 1 of the number of evaluations, over 8 to 32 d
+    Hard because: the step is limited by the rotation of the body
+    Compared with: exponent 1 of the number of evaluations, over 8 to 32 d
     """
     yield _cost(_attitude, (8.0, 16.0, 32.0))
 
 
 @holds(bound=0.01, unit="uas")
 def _retrograde() -> Distances:
-    """retrograde spin
+    """pole of a retrograde Earth
 
-    Hard because: the free mode turns the other way, and A/(C Omega) is negative
-    Held against: (L, F) step by step over 20 d
+    Hard because: the free mode has the opposite sense, and A/(C Omega) is negative
+    Compared with: integration of (L, F) over 20 d
     """
     yield _pole_against_exact(20.0, replace(FORCES, figure=replace(ROUND, spin_rate=-SPIN)))
 
 
 @holds(bound=10.0, unit="uas")
 def _thousandfold() -> Distances:
-    """Sun and Moon of a thousandfold mass
+    """Earth's pole with a Sun and Moon of a thousand times their mass
 
-    Hard because: the axis precesses by a turn in 26 years, and tilts by 9 arcsec from L
-    Held against: (L, F) step by step over 20 d
+    Hard because: the axis precesses once in 26 years and is tilted by 9 arcsec from L
+    Compared with: integration of (L, F) over 20 d
     """
     heavy = {name: 1e3 * gm for name, gm in FORCES.gm.items()}
     yield _pole_against_exact(20.0, replace(FORCES, gm=heavy))
@@ -227,10 +232,11 @@ def _thousandfold() -> Distances:
 
 @holds(bound=5e-7)
 def _fast_spin() -> Distances:
-    """a spin of ten seconds
+    """pole of an Earth that rotates in ten seconds
 
-    Hard because: free mode and window are a factor of 70,000 apart
-    Held against: what half that spin moves, halved: precession is as 1/spin, over what it moves
+    Hard because: the period of the free mode and the window differ by a factor of 70,000
+    Compared with: half the displacement at half the spin rate, because precession is proportional
+        to 1/spin, relative
     """
     times = np.linspace(0.0, YEAR, 20)
     fast, half = (
@@ -242,10 +248,10 @@ def _fast_spin() -> Distances:
 
 @holds(bound=2e-4, unit="uas")
 def _tiny_h() -> Distances:
-    """dynamical flattening of 1e-9
+    """pole of an Earth with a dynamical flattening of 1e-9
 
-    Hard because: a year's precession is 6 uas: 10^-11 of the vector that carries it
-    Held against: what H = 1e-6 moves, a thousandth of it
+    Hard because: the precession in a year is 6 uas, 10^-11 of the vector
+    Compared with: a thousandth of the displacement with H = 1e-6
     """
     times = np.linspace(0.0, YEAR, 20)
     paths = (_path(365.25, replace(ROUND, h=h)) for h in (1e-9, 1e-6))
@@ -255,30 +261,31 @@ def _tiny_h() -> Distances:
 
 @holds(bound=0.02, unit="uas")
 def _there_and_back() -> Distances:
-    """there and back over 20 years
+    """Earth's pole 20 years forward and back
 
-    Hard because: the figure at the end carries the tilt of that day into the new start
-    Held against: the figure axis at the start and along the way
+    Hard because: the figure axis at the end contains the tilt of that day, which enters the new
+        start
+    Compared with: figure axis at the start and at 60 times
     """
     end = 20 * YEAR
     there = _path(20 * 365.25)
-    turned = there.at(np.array([end]))["figure"][0]
-    back = axis_path(FORCES, turned, end, (0.0, end))
+    figure = there.at(np.array([end]))["figure"][0]
+    back = axis_path(FORCES, figure, end, (0.0, end))
     times = np.linspace(0.0, end, 60)
     yield _angle(there.at(times)["figure"], back.at(times)["figure"])
 
 
 @holds(bound=1e-4, unit="uas")
 def _backwards() -> Distances:
-    """the Moon run backwards
+    """Earth's pole with the positions in reversed time
 
-    Hard because: time and spin are reversed together; every odd term must change sign
-    Held against: the axis before the epoch, as it was
+    Hard because: time and spin are both reversed, so every odd term must change sign
+    Compared with: axis before the epoch in the original time
     """
     times = np.linspace(0.0, 5 * YEAR, 40)
     before = axis_path(FORCES, NORTH, 0.0, (-5 * YEAR, 0.0)).at(-times)
-    turned = replace(ROUND, spin_rate=-SPIN)
-    mirrored = replace(FORCES, figure=turned, positions=lambda t: positions(-t / DAY))
+    retrograde = replace(ROUND, spin_rate=-SPIN)
+    mirrored = replace(FORCES, figure=retrograde, positions=lambda t: positions(-t / DAY))
     after = axis_path(mirrored, NORTH, 0.0, (0.0, 5 * YEAR)).at(times)
     yield _angle(before["figure"], after["figure"])
 
@@ -287,22 +294,22 @@ def _backwards() -> Distances:
 def _resonant_windows() -> Distances:
     """windows in resonance with the free mode
 
-    Hard because: steps of a half, one, two and three turns of the body alias its free motion
-    Held against: windows of 8 d over 60 d
+    Hard because: windows of 0.5, 1, 2 and 3 rotations alias the free motion
+    Compared with: windows of 8 d over 60 d
     """
     times = np.linspace(0.0, 60 * DAY, 100)
     usual = _path(60.0).at(times)["figure"]
-    turn = 2 * np.pi / SPIN * (1 - H)
-    for turns in (0.5, 1.0, 1.0 + 1e-12, 2.0, 3.0):
-        yield _angle(_path(60.0, window=turns * turn).at(times)["figure"], usual)
+    rotation = 2 * np.pi / SPIN * (1 - H)
+    for rotations in (0.5, 1.0, 1.0 + 1e-12, 2.0, 3.0):
+        yield _angle(_path(60.0, window=rotations * rotation).at(times)["figure"], usual)
 
 
 @holds(bound=0.03, unit="uas", slow=True)
 def _whole_kernel() -> Distances:
-    """the whole kernel in one run
+    """Earth's pole over the whole span of the kernel
 
-    Hard because: 154 years, 7000 windows, in segments chained outward from J2000
-    Held against: windows half as long with 16 nodes
+    Hard because: 154 years take 7000 windows in segments that are joined outward from J2000
+    Compared with: windows of half the length with 16 nodes
     """
     start, end = (day * DAY for day in kernel().coverage({*CODES.values(), CENTRE}))
     times = np.linspace(start, end, 3000)
@@ -317,10 +324,10 @@ def _whole_kernel() -> Distances:
 
 @holds(bound=5e-15)
 def _obliquities() -> Distances:
-    """obliquities of 0, 90 and 180 degrees in time
+    """obliquities of 0, 90 and 180 degrees in a time integration
 
-    Hard because: longitudes lose their meaning; vectors must not
-    Held against: unit vectors, and no torque on a body upright in a circular orbit
+    Hard because: longitudes are undefined at 0 and 180 degrees, but vectors are not
+    Compared with: unit vectors, and zero torque on a body with its axis normal to a circular orbit
     """
     phase = 2 * np.pi / (20 * DAY)
 
@@ -337,10 +344,11 @@ def _obliquities() -> Distances:
 
 @holds(bound=3.0, unit="uas")
 def _kernel_ends() -> Distances:
-    """the pole in the first and last second of the kernel
+    """Earth's pole in the first and last second of the kernel
 
-    Hard because: windows may not look beyond; where the sky ends no sliver of one may remain
-    Held against: what a second of precession and nutation moves the figure axis by, 0.2 to 2 uas
+    Hard because: windows must not extend beyond the kernel, and no very short window may remain at
+        its ends
+    Compared with: motion of the figure axis in one second, 0.2 to 2 uas
     """
     times = ["1899-07-29T00:00:00", "1899-07-29T00:00:01", "2053-10-08T23:59:59", "2053-10-09"]
     result = pole(times=times).sel(axis="figure")
@@ -351,41 +359,42 @@ def _kernel_ends() -> Distances:
 
 @holds(bound=9e-4)
 def _geodesic_alone() -> Distances:
-    """geodesic precession on a body without a bulge to speak of
+    """geodesic precession of a body with almost no bulge
 
-    Hard because: nothing but the frame turns, forward, at 1/2600 of the rate that torques make
-    Held against: its published rate along the ecliptic, 30 years, over itself
+    Hard because: only the frame rotates, prograde, at 1/2600 of the rate that torques produce
+    Compared with: published rate along the ecliptic over 30 years, relative
     """
     years = 30.0
     body = BODY.replace(j2=1e-15, dynamical_flattening=1e-15)
     path = pole("2000-01-01T12:00", "2030-01-01", "3652.5 d", body=body, effects=["geodesic"])
-    turned = float((path.psi[-1] - path.psi[0]).sel(axis="figure"))  # arcsec
-    yield turned / (PUBLISHED_EFFECTS["geodesic"].value * years) - 1
+    precession = float((path.psi[-1] - path.psi[0]).sel(axis="figure"))  # arcsec
+    yield precession / (PUBLISHED_EFFECTS["geodesic"].value * years) - 1
 
 
 @holds(bound=4e-18)
 def _three_axes() -> Distances:
-    """rotation axis between figure axis and angular momentum
+    """rotation axis between the figure axis and the angular momentum
 
-    Hard because: the three are a few milliarcseconds apart, and on one arc
-    Held against: L = A w + (C - A)(w . F) F: the part of L across (1 - H) w + H F
+    Hard because: the three axes are a few milliarcseconds apart on one great circle
+    Compared with: L = A w + (C - A)(w . F) F: component of L perpendicular to (1 - H) w + H F
     """
     result = pole("2010-01-01", "2010-03-01", "1 d", effects=[])
     momentum, rotation, figure = (
         np.stack([result[c].sel(axis=axis).values for c in "XYZ"], axis=-1)
         for axis in ("angular_momentum", "rotation", "figure")
     )
-    # w . F is 1 but for 1e-15
+    # w . F differs from 1 by only 1e-15
     across = np.cross(momentum, (1 - H) * rotation + H * figure)
     yield np.linalg.norm(across, axis=-1)
 
 
 @holds(bound=0.03)
 def _slow_bulge() -> Distances:
-    """a J2 that changes by three parts in a million a century
+    """J2 that changes by three parts in a million per century
 
-    Hard because: after 40 years it has moved the pole by two milliarcseconds of thirty arcminutes
-    Held against: rate x trend x t2/2 in longitude, over itself
+    Hard because: in 40 years it moves the pole by two milliarcseconds, compared with thirty
+        arcminutes of precession
+    Compared with: rate x trend x t2/2 in longitude, relative
     """
     years = 40.0
     ends = ("2000-01-01T12:00", "2040-01-01T12:00", "14610 d")

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the mathematics below the physics."""
+"""Stiff and extreme cases of `numerics`."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from earthspin.numerics import quaternion
 def _products() -> Distances:
     """quaternion after 10^5 products
 
-    Hard because: each product rounds, and nothing brings the length back
-    Held against: the turn by 10^5 times the angle
+    Hard because: each product is rounded, and the quaternion is never normalized
+    Compared with: rotation by 10^5 times the angle
     """
     step = 2 * np.pi * 12345.25 / 1e5
-    one = quaternion.turn_about_z(np.array(step / 2))
-    turn = np.array([1.0, 0.0, 0.0, 0.0])
+    factor = quaternion.turn_about_z(np.array(step / 2))
+    product = np.array([1.0, 0.0, 0.0, 0.0])
     for _ in range(100_000):
-        turn = quaternion.multiply(one, turn)
+        product = quaternion.multiply(factor, product)
     exact = float(Fraction(step / 2) * 100_000)
-    yield np.hypot(turn[0] - math.cos(exact), turn[3] - math.sin(exact))
+    yield np.hypot(product[0] - math.cos(exact), product[3] - math.sin(exact))

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of our pole beside the IAU's."""
+"""Stiff and extreme cases of precession angles, nutation terms and responses."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
 
-#: A century of days.
+#: Times over a century, days from J2000.0.
 DAYS = np.arange(-18000.0, 18000.0, 9.7)
 
 
 @holds(bound=5e-15)
 def _angles_at_the_pole() -> Distances:
-    """angles of a pole a picoradian from the ecliptic's
+    """angles of a pole 1e-12 rad from the ecliptic pole
 
-    Hard because: the longitude is that of a vector of 1e-12; an arc cosine would see nothing
-    Held against: the longitude and inclination that made it, relative, at 0, 90 and 180 degrees
+    Hard because: the longitude is that of a vector of length 1e-12; an arc cosine would give zero
+    Compared with: original longitude and inclination, relative, from 0 to 180 degrees
     """
     for omega in (1e-150, 1e-12, 1e-3, np.pi / 2, np.pi - 1e-3):
         psi = np.linspace(-3.1, 3.1, 21)
@@ -40,10 +40,10 @@ def _angles_at_the_pole() -> Distances:
 
 @holds(bound=2e-4, unit="uas")
 def _still_ecliptic() -> Distances:
-    """ecliptic of date that has not moved
+    """precession angles with a fixed ecliptic
 
-    Hard because: chi_A and p_A are angles between directions that agree
-    Held against: eps_A = omega_A, chi_A = 0, p_A = psi_A
+    Hard because: chi_A and p_A are angles between equal directions
+    Compared with: eps_A = omega_A, chi_A = 0, p_A = psi_A
     """
     psi, omega = np.linspace(-2.0, 2.0, 41), np.full(41, 0.409)
     result = precession_angles(psi, omega, np.broadcast_to([0.0, 0.0, 1.0], (41, 3)))
@@ -55,8 +55,9 @@ def _still_ecliptic() -> Distances:
 def _angles_of_eleven_centuries() -> Distances:
     """precession angles from 1550 to 2650
 
-    Hard because: five angles by vectors, against five polynomials far from their epoch
-    Held against: IAU 2006 (ERFA p06e): its own p_A and eps_A from its psi_A, omega_A and ecliptic
+    Hard because: five angles from vectors are compared with five polynomials far from their epoch
+    Compared with: p_A and eps_A of IAU 2006 (ERFA p06e), computed from its psi_A, omega_A and
+        ecliptic
     """
     days = np.linspace(-164_000.0, 237_000.0, 60)
     exact = iau.precession_angles(days)
@@ -66,10 +67,11 @@ def _angles_of_eleven_centuries() -> Distances:
 
 @holds(bound=1e-7, slow=True)
 def _faint_line() -> Distances:
-    """a nutation of 1e-9 of the largest
+    """nutation term of 1e-9 of the largest term
 
-    Hard because: 153 circles at once, some with neighbours that a century hardly parts
-    Held against: the amplitude that was put in, over itself
+    Hard because: 153 terms are fitted together, and some have neighbours that a century hardly
+        separates
+    Compared with: original amplitude, relative
     """
     arguments, rates = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
     faint = np.exp(-1j * (MULTIPLES[40] @ arguments))
@@ -80,10 +82,11 @@ def _faint_line() -> Distances:
 
 @holds(bound=1e-9, unit="d")
 def _resonance() -> Distances:
-    """a response whose core resonates next to the annual term
+    """free core nutation period close to the annual term
 
-    Hard because: a term within 3e-4 of the resonance is amplified a thousandfold
-    Held against: the period of the free core nutation that was put in
+    Hard because: a term at a relative distance of 3e-4 from the resonance is amplified a
+        thousandfold
+    Compared with: original period of the free core nutation
     """
     strengths = np.array([-0.14 + 0.03j, -0.93 + 0.07j, 0.049, 2.8e-4])
     true = Response(H, SPIN, -1.0025 + 1e-6j, strengths)
@@ -97,10 +100,10 @@ def _resonance() -> Distances:
 
 @holds(bound=5e-15)
 def _budget() -> Distances:
-    """a budget whose shares cancel
+    """budget whose contributions cancel
 
-    Hard because: effects of either sign a million times their sum
-    Held against: the sum of all shares is the rate, over the largest share
+    Hard because: effects of both signs are a million times larger than their sum
+    Compared with: the rate as the sum of all contributions, relative to the largest one
     """
     without = {"a": 1e6, "b": -1e6 + 0.25, "c": 1.0, "d": 1.0 + 1e-9}
     yield (sum(contributions(1.0, without).values()) - 1.0) / 1e6
@@ -108,10 +111,10 @@ def _budget() -> Distances:
 
 @holds(bound=0.0)
 def _at_rest() -> Distances:
-    """no precession at all
+    """derived periods without precession
 
-    Hard because: periods are infinite, and ratios 0/0
-    Held against: infinite period and error, ratio 1, tropical year equal to the sidereal one
+    Hard because: periods are infinite, and ratios are 0/0
+    Compared with: infinite period and error, ratio 1, tropical year equal to the sidereal year
     """
     year = SIDEREAL_YEAR.value
     yield ~np.isposinf(period(np.zeros(2)))
@@ -123,10 +126,10 @@ def _at_rest() -> Distances:
 
 @holds(bound=5e-7)
 def _near_resonance() -> Distances:
-    """a transfer function a hundred millionth of a turn from a resonance
+    """transfer function at 1e-8 of the spin rate from a resonance
 
-    Hard because: four motions that each grow without bound, and must be told apart
-    Held against: the sum of the partial fractions of the system, relative
+    Hard because: four modes that each grow without limit must be separated
+    Compared with: sum of the partial fractions of the system, relative
     """
     parts = parts_of(PREM, SPIN, elastic(PREM).answers, H / (1 - H))
     p, q, right, left = system(parts)
@@ -140,10 +143,10 @@ def _near_resonance() -> Distances:
 
 @holds(bound=1e-3)
 def _soft_mantle() -> Distances:
-    """a mantle ten thousand times softer than it is heavy
+    """mantle with a rigidity ten thousand times smaller than its pressure
 
-    Hard because: a boundary layer at core and surface, and shear that bears nothing
-    Held against: the Love number of a liquid, relative
+    Hard because: boundary layers form at the core and the surface, and shear stress carries no load
+    Compared with: Love number of a liquid, relative
     """
     core = Layer(3.5e6, (11000.0,), (1e5,))
     body = LayeredBody("soft", (core, Layer(6.4e6, (4500.0,), (1e5,), (50.0,), 1.0)), "")
@@ -152,9 +155,10 @@ def _soft_mantle() -> Distances:
 
 @refused("has 2 liquids with solids between")
 def _two_liquids() -> None:
-    """an ocean under ice, over rock with a liquid core
+    """ocean under ice above rock with a liquid core
 
-    Hard because: solids between two liquids turn by themselves, which no equation here lets them
+    Hard because: the solid between two liquids rotates independently, which no equation in the
+        package describes
     """
     rock, ice = ((7000.0,), (4000.0,), 300.0), ((3800.0,), (1900.0,), 100.0)
     layers = (

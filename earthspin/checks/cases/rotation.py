@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the whole attitude."""
+"""Stiff and extreme cases of the full attitude in time."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 def _body(a: float, b: float, unit: float = 1.0) -> Rigid:
-    """A body of moments a, b and 1."""
+    """Rigid body with the principal moments a, b and 1."""
     one = np.ones(1)
     return Rigid(c_minus_a=(1 - a) * one, c_minus_b=(1 - b) * one, tide=one, unit=unit)
 
 
 def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) -> float:
-    """Largest angle from Jacobi's closed form."""
+    """Largest angle between a free rotation and Jacobi's closed form, rad."""
     times = np.linspace(0.0, end, 50)
     body, alone = _body(*moments), Above(gm={}, positions=lambda times: {})
     result = Motion(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
@@ -36,47 +36,47 @@ def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) ->
 
 
 def _angle(a: FloatArray, b: FloatArray) -> float:
-    """Largest angle between attitudes, of which q and -q are the same."""
+    """Largest angle between attitudes, where q and -q are the same, rad."""
     chords = [np.linalg.norm(a - s * b, axis=1) for s in (1, -1)]
     return float(2 * np.max(np.minimum(*chords)))
 
 
 @holds(bound=1e-11, unit="rad")
 def _nearly_round() -> Distances:
-    """a thousand turns of a body that is a hair from round
+    """a thousand rotations of a nearly spherical body
 
-    Hard because: moments agree to 1e-12: what is left of them turns the pole once in 1e12 turns
-    Held against: Jacobi's closed form
+    Hard because: the moments agree to 1e-12, so the pole moves once around in 1e12 rotations
+    Compared with: Jacobi's closed form
     """
     yield _free((1 - 2e-12, 1 - 1e-12), (0.1, 0.2, 1.0), 2000 * np.pi)
 
 
 @holds(bound=9e-10, unit="rad")
 def _racket() -> Distances:
-    """a racket that flips, its attitude followed
+    """attitude of a tennis racket that flips
 
-    Hard because: near the middle axis each flip multiplies what rounding left by a thousand
-    Held against: Jacobi's closed form
+    Hard because: near the intermediate axis each flip multiplies rounding errors by a thousand
+    Compared with: Jacobi's closed form
     """
     yield _free((0.4, 0.7), (1e-3, 1.0, 0.0), 60.0)
 
 
 @holds(bound=1e-8, unit="rad")
 def _rod() -> Distances:
-    """a rod that tumbles
+    """attitude of a tumbling rod
 
-    Hard because: one moment is a ten-thousandth of the others, and the spin about it fast
-    Held against: Jacobi's closed form
+    Hard because: one moment is 1e-4 of the others, and the spin about its axis is fast
+    Compared with: Jacobi's closed form
     """
     yield _free((1e-4, 1.0 - 1e-6), (50.0, 0.3, 0.2), 20.0)
 
 
 @holds(bound=2e-13, unit="rad")
 def _tumbling() -> Distances:
-    """a tumbling moon over two and a half orbits
+    """attitude of a tumbling moon over two and a half orbits
 
-    Hard because: neighbours part fifteen times as far in that time
-    Held against: extrapolation of order 20 in long double
+    Hard because: differences between neighbouring motions grow fifteenfold in that time
+    Compared with: extrapolation of order 20 in long double
     """
     times = of_rotation.times()
     (_, attitude), _ = of_rotation._windows(times, 1e-13)
@@ -85,10 +85,11 @@ def _tumbling() -> Distances:
 
 @holds(bound=1.0)
 def _close_passage() -> Distances:
-    """a passage at a hundredth of the distance
+    """attitude during a passage at a hundredth of the mean distance
 
-    Hard because: the tide grows a million times within a thousandth of the orbit, and goes
-    Held against: what both claim of their errors, at two tolerances
+    Hard because: the tide grows a million times within a thousandth of the orbit, and decreases
+        again
+    Compared with: sum of the claimed errors at two tolerances
     """
     body, eccentricity = _body(0.7, 0.8), 0.99
 
@@ -120,10 +121,11 @@ TOP = Body(
 
 @holds(bound=0.0, unit="rad")
 def _at_rest() -> Distances:
-    """a body at rest
+    """attitude of a body at rest
 
-    Hard because: nothing gives a unit of time, and the first window none of its length
-    Held against: the attitude that it had
+    Hard because: there is no angular velocity to set a unit of time or the length of the first
+        window
+    Compared with: initial attitude
     """
     numbers = {"start_attitude": UPRIGHT, "start_omega": [0.0, 0.0, 0.0]}
     still = rotation("2000-01-01", "2000-01-02", "6 h", body=TOP, perturbers=[], **numbers)

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of motion with no torque."""
+"""Stiff and extreme cases of torque-free rotation."""
 
 from __future__ import annotations
 
@@ -24,36 +24,37 @@ START = [0.7, -0.4, 0.2]
 
 
 def _many_periods(periods: float) -> FreeRotation:
-    """A tumbling body at its start and at random times over many periods."""
+    """Motion of a tumbling body at the start and at random times over many periods."""
     span = periods * float(jacobi_motion(MOMENTS, START).period)
     times = np.random.default_rng(5).uniform(0.0, span, 2000)
     return free_rotation(MOMENTS, START, np.concatenate([[0.0], times]))
 
 
-def _followed(rotor: SymmetricRotor, times: FloatArray) -> FreeRotation:
-    """A symmetric rotor of unit A, followed as if it were of no symmetry."""
+def _as_triaxial(rotor: SymmetricRotor, times: FloatArray) -> FreeRotation:
+    """Motion of a symmetric rotor with A = 1, computed by the triaxial closed form."""
     moments = {"A": 1.0, "B-A": 0.0, "C-A": float(rotor.difference)}
     return free_rotation(moments, rotor.omega_body(np.zeros(1))[0], times)
 
 
 @holds(bound=2e-11)
 def _axisymmetric() -> Distances:
-    """A = B exactly, over 10^4 wobbles
+    """free rotor with A = B exactly, over 10^4 wobble periods
 
-    Hard because: the elliptic functions degenerate to circular ones
-    Held against: the axisymmetric closed form (I.6)
+    Hard because: the elliptic functions degenerate to circular functions
+    Compared with: axisymmetric closed form (I.6)
     """
     rotor = SymmetricRotor(1.0, 0.3, 1.1, 0.6)
     times = np.linspace(0.0, 1e4 * 2 * np.pi / float(rotor.wobble_rate), 500)
-    yield relative_error(_followed(rotor, times).omega_body, rotor.omega_body(times))
+    yield relative_error(_as_triaxial(rotor, times).omega_body, rotor.omega_body(times))
 
 
 @holds(bound=1e-12)
 def _one_ulp() -> Distances:
-    """A and B one unit in the last place apart
+    """free rotor whose A and B differ by one unit in the last place
 
-    Hard because: which axis is the middle one hangs on the last bit
-    Held against: the axisymmetric closed form, over 100 wobbles; the bit itself does 1e-13
+    Hard because: the last bit decides which axis is the intermediate one
+    Compared with: axisymmetric closed form over 100 wobble periods; the bit itself changes it by
+        1e-13
     """
     rotor = SymmetricRotor(1.0, 0.3, 1.1, 0.6)
     times = np.linspace(0.0, 100 * 2 * np.pi / float(rotor.wobble_rate), 500)
@@ -65,10 +66,10 @@ def _one_ulp() -> Distances:
 
 @holds(bound=5e-15)
 def _nearly_sphere() -> Distances:
-    """all three moments one unit in the last place apart
+    """free rotor whose three moments differ by one unit in the last place
 
-    Hard because: the wobble takes 10^16 turns, and the polhode is decided by two bits
-    Held against: omega in space that stays as it was, over 100 turns
+    Hard because: a wobble period lasts 10^16 rotations, and two bits decide the polhode
+    Compared with: constant angular velocity in space over 100 rotations
     """
     result = free_rotation([1.0, 1.0 + EPS, 1.0 + 2 * EPS], START, np.linspace(0.0, 800.0, 300))
     yield relative_error(result.omega_inertial, START)
@@ -76,16 +77,17 @@ def _nearly_sphere() -> Distances:
 
 @holds(bound=1e-14)
 def _prolate() -> Distances:
-    """prolate and turning backwards
+    """prolate and retrograde free rotors
 
-    Hard because: the wobble goes the other way, and so does the spin
-    Held against: the axisymmetric closed form, C - A of either sign, alpha on either side
+    Hard because: the wobble or the spin has the opposite sense
+    Compared with: axisymmetric closed form, with both signs of C - A and alpha on both sides of 90
+        degrees
     """
     times = np.linspace(-30.0, 30.0, 61)
     for difference in (-0.9, -1e-9, 0.4):
         for alpha in (0.3, np.pi - 0.3):
             rotor = SymmetricRotor(1.0, difference, 1.0, alpha)
-            result = _followed(rotor, times)
+            result = _as_triaxial(rotor, times)
             start = quaternion.conjugate(rotor.attitude(np.zeros(1)))  # the axes at t = 0
             expected = quaternion.rotate(start, rotor.omega_inertial(times))
             yield relative_error(result.omega_inertial, expected)
@@ -93,10 +95,10 @@ def _prolate() -> Distances:
 
 @holds(bound=5e-15)
 def _leaf() -> Distances:
-    """leaf: I3 = 2 I1 exactly
+    """thin plate with I3 = 2 I1 exactly
 
-    Hard because: the last body that can be; Feynman's plate
-    Held against: precession at twice the spin as the cone closes, relative
+    Hard because: it is the limiting case of possible bodies (Feynman's plate)
+    Compared with: precession at twice the spin rate in the limit of a small cone, relative
     """
     rotor = SymmetricRotor(1.0, 1.0, 3.0, 1e-9)
     yield rotor.precession_rate / (2 * rotor.speed) - 1
@@ -104,13 +106,13 @@ def _leaf() -> Distances:
 
 @holds(bound=5e-15)
 def _separatrix() -> Distances:
-    """exactly on the separatrix
+    """free rotor exactly on the separatrix
 
-    Hard because: the period is infinite; elliptic functions become hyperbolic ones
-    Held against: (G/I1) sech, (G/I2) tanh, (G/I3) sech, moments 3, 4, 6
+    Hard because: the period is infinite, and elliptic functions become hyperbolic functions
+    Compared with: (G/I1) sech, (G/I2) tanh, (G/I3) sech with moments 3, 4, 6
     """
     i1, i2, i3 = body = np.array([3.0, 4.0, 6.0])
-    start = np.array([2.0, 0.0, 1.0])  # I1 (I2 - I1) w1^2 = I3 (I3 - I2) w3^2 in whole numbers
+    start = np.array([2.0, 0.0, 1.0])  # I1 (I2 - I1) w1^2 = I3 (I3 - I2) w3^2 exactly
     times = np.linspace(-20.0, 20.0, 81)
     g = float(np.sqrt(np.sum((body * start) ** 2)))
     rate = g / i2 * math.sqrt((i2 - i1) * (i3 - i2) / (i1 * i3))
@@ -122,15 +124,15 @@ def _separatrix() -> Distances:
 
 @holds(bound=1e-14)
 def _near_separatrix() -> Distances:
-    """one unit in the last place off the separatrix
+    """free rotor one unit in the last place from the separatrix
 
-    Hard because: k' is 1e-8 and must come from the difference of two nearly equal numbers
-    Held against: the period 4 ln(4/k')/lambda, k' in exact fractions, relative
+    Hard because: k' is 1e-8 and follows from the difference of two nearly equal numbers
+    Compared with: period 4 ln(4/k')/lambda with k' in exact fractions, relative
     """
     for w3 in (np.nextafter(1.0, 2.0), np.nextafter(1.0, 0.0)):
         i1, i2, i3 = (Fraction(x) for x in (3, 4, 6))
         x1, x3 = i1 * 2**2, i3 * Fraction(float(w3)) ** 2
-        if (i3 - i2) * x3 < (i2 - i1) * x1:  # it circles the axis of the other end
+        if (i3 - i2) * x3 < (i2 - i1) * x1:  # the polhode encloses the axis of least moment
             i1, i3, x1, x3 = i3, i1, x3, x1
         r, s = (i3 - i2) / (i3 - i1), (i2 - i1) / (i3 - i1)
         k = math.sqrt((r * x3 - s * x1) / (r * x3))
@@ -142,10 +144,11 @@ def _near_separatrix() -> Distances:
 
 @holds(bound=5e-9, slow=True)
 def _racket() -> Distances:
-    """tennis racket through five flips
+    """tennis racket through five flips of the intermediate axis
 
-    Hard because: a push of 1e-3 grows a thousandfold before each flip, and errors with it
-    Held against: Euler's equations and the attitude by DOP853, 1e-13
+    Hard because: a perturbation of 1e-3 grows a thousandfold before each flip, and errors grow
+        equally
+    Compared with: Euler's equations and the attitude integrated by DOP853 with tolerance 1e-13
     """
     start = np.array([1e-3, 1.0, 1e-3])
     period = float(jacobi_motion(MOMENTS, start).period)
@@ -156,10 +159,10 @@ def _racket() -> Distances:
 
 @holds(bound=1e-14)
 def _energy() -> Distances:
-    """energy over 10^4 periods
+    """energy of a free rotor over 10^4 periods
 
-    Hard because: errors that grow with time would show
-    Held against: the energy at the start, relative
+    Hard because: errors that grow with time would become visible
+    Compared with: energy at the start, relative
     """
     energy = _many_periods(1e4).energy
     yield energy / energy[0] - 1
@@ -167,10 +170,10 @@ def _energy() -> Distances:
 
 @holds(bound=1e-14)
 def _momentum() -> Distances:
-    """size of the angular momentum over 10^4 periods
+    """size of the angular momentum of a free rotor over 10^4 periods
 
-    Hard because: errors that grow with time would show
-    Held against: |L| at the start, relative
+    Hard because: errors that grow with time would become visible
+    Compared with: size at the start, relative
     """
     size = np.linalg.norm(_many_periods(1e4).angular_momentum_body, axis=-1)
     yield size / size[0] - 1
@@ -178,10 +181,10 @@ def _momentum() -> Distances:
 
 @holds(bound=1e-14)
 def _direction() -> Distances:
-    """direction of the angular momentum over 10^4 periods
+    """direction of the angular momentum of a free rotor over 10^4 periods
 
-    Hard because: attitude and spin must err together, or not at all
-    Held against: L in space at the start, over |L|
+    Hard because: errors of attitude and angular velocity would have to cancel
+    Compared with: L in space at the start, relative to its size
     """
     result = _many_periods(1e4)
     space = quaternion.rotate(result.attitude, result.angular_momentum_body)
@@ -190,22 +193,23 @@ def _direction() -> Distances:
 
 @holds(bound=1e-14)
 def _unit() -> Distances:
-    """unit quaternion over 10^4 periods
+    """norm of the attitude quaternion of a free rotor over 10^4 periods
 
-    Hard because: no step ever brings its length back
-    Held against: 1
+    Hard because: the quaternion is never normalized
+    Compared with: 1
     """
     yield np.sum(_many_periods(1e4).attitude ** 2, axis=-1) - 1
 
 
 @holds(bound=7e-8, unit="uas")
 def _polhode() -> Distances:
-    """60 years of a planet's polhode
+    """polhode of the Earth over 60 years
 
-    Hard because: 72 rounds of a cone of 0.2 arcsec, A and B 7e-6 apart, after 22,000 turns
-    Held against: omega at the start after every whole round
+    Hard because: the cone of 0.2 arcsec is traversed 72 times in 22,000 rotations, and A and B
+        differ by 7e-6
+    Compared with: angular velocity at the start after every complete period
     """
-    # in units of A, from J2 = (C - (A + B)/2)/(M a2), H, and B - A over M a2; C/(M a2) is J2/H
+    # Moments in units of A from J2 = (C - (A + B)/2)/(M a2), H and (B - A)/(M a2); C/(M a2) = J2/H
     b_a = float(BODY.triaxiality)
     a, c_a = J2 / H - J2 - b_a / 2, J2 + b_a / 2
     moments = {"A": 1.0, "B-A": b_a / a, "C-A": c_a / a}
@@ -218,10 +222,11 @@ def _polhode() -> Distances:
 
 @holds(bound=5e-15)
 def _tiny_cones() -> Distances:
-    """cones of one microarcsecond
+    """body cone of one microarcsecond
 
-    Hard because: the body cone is 5e-12 rad, the space cone 300 times less; cosines see neither
-    Held against: the small-angle form e alpha/(1 + e) of the space cone, relative
+    Hard because: the body cone is 5e-12 rad and the space cone 300 times smaller, too small for
+        cosines
+    Compared with: small-angle form e alpha/(1 + e) of the space cone, relative
     """
     e = ellipticity_from_h(0.00327)
     rotor = SymmetricRotor(1.0, e, 7.3e-5, UAS)
@@ -230,10 +235,10 @@ def _tiny_cones() -> Distances:
 
 @holds(bound=5e-15)
 def _batch() -> Distances:
-    """ten thousand rotors at once
+    """ten thousand free rotors in one array
 
-    Hard because: tumbling, separatrix, sphere and leaf stand in one array
-    Held against: fifty of them by themselves; only the last bit may differ
+    Hard because: the array contains tumbling rotors, a separatrix, a sphere and a thin plate
+    Compared with: fifty of the rotors computed alone; only the last bit may differ
     """
     rng = np.random.default_rng(8)
     moments = rng.uniform(0.51, 1.0, (10_000, 3))
@@ -250,8 +255,8 @@ def _batch() -> Distances:
 
 @refused("may exceed the sum of the other two")
 def _triangle() -> None:
-    """C one part in 10^9 above A + B
+    """principal moments with C above A + B by one part in 10^9
 
-    Hard because: no such body; the closed form would not notice
+    Hard because: no such body exists, but the closed form gives numbers
     """
     principal_moments([1.0, 1.0, 2.0 + 2e-9])

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of scenes: what may be asked, and long series."""
+"""Stiff and extreme cases of scenes and of long series."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from earthspin.questions.top import heavy_top
 from earthspin.questions.torque import torque_series
 from earthspin.scenes import Scene
 
-#: In a fresh process: how much more memory (MB) a long series needs than a short one.
+#: Program for a new process that prints the extra memory (MB) of a long series.
 _GROWTH = """
 import sys
 import earthspin
@@ -23,8 +23,8 @@ from earthspin.scenes import run_blocks
 
 scene = earthspin.load_scene("torque")
 
-def most_so_far():
-    try:  # what getrusage says on Linux begins with the memory of the parent
+def peak_memory():
+    try:  # on Linux, getrusage includes the memory of the parent process
         with open("/proc/self/status") as status:
             return next(int(line.split()[1]) / 1024 for line in status if "VmHWM" in line)
     except OSError:
@@ -35,7 +35,7 @@ def most_so_far():
 def peak(span, step):
     for block in run_blocks(scene.replace(span=span, step=step)):
         pass
-    return most_so_far()
+    return peak_memory()
 
 short = peak(("1980-01-01", "2020-01-01"), "210 min")
 print(peak({span!r}, {step!r}) - short)
@@ -43,21 +43,21 @@ print(peak({span!r}, {step!r}) - short)
 
 
 def _memory_growth(span: tuple[str, str], step: str) -> float:
-    """Resident memory of a torque series, made block by block, beyond that of 10^5 epochs, MB."""
+    """Extra peak memory of a torque series in blocks, compared with 10^5 epochs, MB."""
     program = _GROWTH.format(span=span, step=step)
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    if done.returncode != 0:
-        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+    process = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    if process.returncode != 0:
+        last = (process.stderr.strip().splitlines() or ["no message"])[-1]
         raise UndefinedError(f"the process that measures its memory ended early: {last}")
-    return float(done.stdout)
+    return float(process.stdout)
 
 
 @holds(bound=80.0, unit="MB", slow=True)
 def _million() -> Distances:
     """10^6 epochs in bounded memory
 
-    Hard because: they take 120 MB if they are kept
-    Held against: the peak of resident memory with 10^5 epochs, in a process of its own
+    Hard because: they would take 120 MB if all were stored
+    Compared with: peak of resident memory with 10^5 epochs, in a separate process
     """
     yield _memory_growth(("1980-01-01", "2020-01-01"), "21 min")
 
@@ -66,18 +66,18 @@ def _million() -> Distances:
 def _hundred_million() -> Distances:
     """10^8 epochs in bounded memory
 
-    Hard because: they take 12 GB if they are kept; an index of them alone 0.8 GB
-    Held against: the peak of resident memory with 10^5 epochs, in a process of its own
+    Hard because: they would take 12 GB if all were stored, and their index alone 0.8 GB
+    Compared with: peak of resident memory with 10^5 epochs, in a separate process
     """
     yield _memory_growth(("1900-01-01", "2053-01-01"), "48 s")
 
 
 @holds(bound=0.0)
 def _twice() -> Distances:
-    """the same question twice, and backwards
+    """torques computed twice, and in reverse order
 
-    Hard because: caches, orders of sums and shared arrays would show
-    Held against: the same numbers, bit for bit
+    Hard because: effects of caches, orders of summation and shared arrays would become visible
+    Compared with: the same numbers, bit for bit
     """
     dates = ["2000-01-01", "2003-07-01T06:00", "1999-05-05", "2000-01-01"]
     one, two = torque_series(times=dates), torque_series(times=dates)
@@ -88,10 +88,10 @@ def _twice() -> Distances:
 
 @holds(bound=1e-14)
 def _rotor_without_period() -> Distances:
-    """a free rotor on the separatrix, at rest about an axis, and a sphere
+    """free rotors on the separatrix, about a principal axis, and with equal moments
 
-    Hard because: its polhode has no period and its herpolhode no advance
-    Held against: energy at the start, relative, in a labelled result without a NaN
+    Hard because: the polhode has no period, and the herpolhode no advance
+    Compared with: energy at the start, relative, in a result without NaN
     """
     for moments, omega in (
         ((3.0, 4.0, 6.0), (2.0, 0.0, 1.0)),
@@ -104,10 +104,10 @@ def _rotor_without_period() -> Distances:
 
 @holds(bound=0.0)
 def _still_top() -> Distances:
-    """a top that does nothing
+    """top at rest without weight
 
-    Hard because: no spin, no weight and no push: every rate is zero, and so is their scale
-    Held against: angles as they were, bit for bit
+    Hard because: there is no spin, weight or push, so every rate and its scale are zero
+    Compared with: initial angles, bit for bit
     """
     moments = {"transverse_moment": 2.0, "axial_moment": 1.0, "weight_moment": 0.0}
     for theta in (0.0, 1.0):
@@ -118,17 +118,17 @@ def _still_top() -> Distances:
 
 @refused("did you mean 'torque'")
 def _unknown_question() -> None:
-    """a question that does not exist
+    """question that does not exist
 
-    Hard because: a typing error must not pick the nearest
+    Hard because: a misspelled name must not select the nearest one
     """
     Scene(compute="torqe")
 
 
 @refused("at most 0.5")
 def _too_flat() -> None:
-    """flatter than a disc
+    """dynamical flattening above that of a disc
 
-    Hard because: C above A + B: no such body, yet all formulas give numbers
+    Hard because: no body has C above A + B, but all formulas give numbers
     """
     BODY.replace(dynamical_flattening=0.5 + 1e-9, j2=0.1)

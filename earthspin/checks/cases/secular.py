@@ -20,14 +20,14 @@ from earthspin.secular.trajectory import solve
 
 MYR = 1e6 * JULIAN_YEAR
 NORTH = np.array([0.0, 0.0, 1.0])
-#: Some constants of precession, 17 and 37 arcsec a year, and a geodesic term.
+#: Precession constants of Sun and Moon near those of the Earth, and geodesic precession.
 STRENGTH = Strength(
     sun=17.4 * ARCSEC_PER_YEAR, moon=37.6 * ARCSEC_PER_YEAR, geodesic=0.0192 * ARCSEC_PER_YEAR
 )
 
 
-class _Still:
-    """A circular orbit that does not change."""
+class _FixedOrbit:
+    """A constant circular orbit."""
 
     edges = MYR / 50 * np.arange(-60.0, 61.0)
     coverage = float(edges[0]), float(edges[-1])
@@ -38,7 +38,8 @@ class _Still:
         return normal, 0 * normal, 0 * normal
 
 
-def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
+def _axis_at(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
+    """Unit vector at an obliquity from the orbit normal, in an arbitrary direction."""
     across = np.cross(normal, [1.0, 0.3, 0.2])
     across /= np.linalg.norm(across)
     return math.cos(obliquity) * normal + math.sin(obliquity) * across
@@ -46,24 +47,29 @@ def _leaning(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
 
 @holds(bound=3e-7, unit="arcsec")
 def _near_upright() -> Distances:
-    """axes within 8 degrees of the normal, and of its opposite
+    """axes within 8 degrees of the orbit normal and of its opposite
 
-    Hard because: there the longitude about the normal has no derivative; another axis is taken
-    Held against: a cone about the normal
+    Hard because: the longitude about the normal is undefined there, so another reference axis is
+        used
+    Compared with: cone about the normal
     """
     times = np.linspace(-MYR, MYR, 101)
     for degrees in (1e-6, 0.5, 5, 7.9, 172.1, 179.5, 180):
-        axis = _leaning(math.radians(degrees))
+        axis = _axis_at(math.radians(degrees))
         constant = STRENGTH.sun + STRENGTH.moon
-        turned = (STRENGTH.geodesic - constant * math.cos(math.radians(degrees))) * times
-        c, s = np.cos(turned), np.sin(turned)
+        angle = (STRENGTH.geodesic - constant * math.cos(math.radians(degrees))) * times
+        c, s = np.cos(angle), np.sin(angle)
         cone = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
-        yield (solve(STRENGTH, _Still(), axis, (-MYR, MYR), pieces=2).at(times) - cone) / ARCSEC
-        yield (solve_many(STRENGTH, _Still(), axis[:, np.newaxis], times)[..., 0] - cone) / ARCSEC
+        yield (
+            solve(STRENGTH, _FixedOrbit(), axis, (-MYR, MYR), pieces=2).at(times) - cone
+        ) / ARCSEC
+        yield (
+            solve_many(STRENGTH, _FixedOrbit(), axis[:, np.newaxis], times)[..., 0] - cone
+        ) / ARCSEC
 
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:
-    """Newton in time against lanes on the shipped orbit."""
+    """Yield angles between the two solvers on the shipped orbit, arcsec."""
     times = np.linspace(*span, 51)
     path = solve(STRENGTH, orbit(), axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
     many = solve_many(STRENGTH, orbit(), axis[:, np.newaxis], times, step)
@@ -72,33 +78,34 @@ def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances
 
 @holds(bound=2e-6, unit="arcsec")
 def _lying() -> Distances:
-    """a mean obliquity of 90 degrees
+    """axis with a mean obliquity of 90 degrees
 
-    Hard because: the mean precession is zero, and goes forward and back with the tilt of the orbit
-    Held against: the other solver over a million years
+    Hard because: the mean precession is zero and reverses with the inclination of the orbit
+    Compared with: the other solver over a million years
     """
     normal = orbit().at(np.zeros(1))[0][:, 0]
-    yield from _both((-MYR, 0.0), _leaning(math.pi / 2, normal), 1e3 * JULIAN_YEAR)
+    yield from _both((-MYR, 0.0), _axis_at(math.pi / 2, normal), 1e3 * JULIAN_YEAR)
 
 
 @holds(bound=0.05, unit="arcsec", slow=True)
 def _ends() -> Distances:
-    """ten million years to either end of the table
+    """axis over ten million years to both ends of the orbit table
 
-    Hard because: four hundred turns, fifty blocks, and a last window with no neighbour
-    Held against: the other solver
+    Hard because: the axis precesses four hundred times in fifty blocks, and the last window has no
+        neighbour
+    Compared with: the other solver
     """
     normal = orbit().at(np.zeros(1))[0][:, 0]
     for span in ((-10 * MYR, 0.0), (0.0, 10 * MYR)):
-        yield from _both(span, _leaning(0.41, normal), 2e3 * JULIAN_YEAR)
+        yield from _both(span, _axis_at(0.41, normal), 2e3 * JULIAN_YEAR)
 
 
 @holds(bound=1e-9, unit="arcsec")
 def _now() -> Distances:
-    """J2000.0 alone
+    """axis at J2000.0 only
 
-    Hard because: a span of no length: no window would be solved
-    Held against: the start
+    Hard because: the span has zero length, so no window would be solved
+    Compared with: initial axis
     """
     yield (solve(STRENGTH, orbit(), NORTH, (0.0, 0.0)).at(np.zeros(1))[:, 0] - NORTH) / ARCSEC
     asked = long_term(times=["0 kyr"])
@@ -109,8 +116,8 @@ def _now() -> Distances:
 def _coarse() -> Distances:
     """two epochs a million years apart
 
-    Hard because: forty turns lie between them, of which neither epoch tells
-    Held against: the same epochs among a thousand
+    Hard because: forty precession cycles lie between the two epochs, which do not show their number
+    Compared with: the same epochs in a series of a thousand
     """
     few, many = long_term("-1 Myr", "0 kyr", "1 Myr"), long_term("-1 Myr", "0 kyr", "1 kyr")
     for name in ("longitude_of_perihelion", "general_precession", "psi_A"):
@@ -119,10 +126,10 @@ def _coarse() -> Distances:
 
 @holds(bound=2e-4, unit="deg", slow=True)
 def _all_but_round() -> Distances:
-    """perihelia of an orbit that is all but round
+    """perihelia of a nearly circular orbit
 
-    Hard because: at an eccentricity of 1.6e-4 a perihelion turns by a radian in two hundred years
-    Held against: windows of half the length, share of the error by the method
+    Hard because: at an eccentricity of 1.6e-4 a perihelion moves by a radian in two hundred years
+    Compared with: windows of half the length: contribution of the method to the error
     """
     tree = run_tree(LongTerm(span=["-10 Myr", "0 kyr"], step="20 kyr"), sections="budget")
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
@@ -130,19 +137,20 @@ def _all_but_round() -> Distances:
 
 @refused("was asked for")
 def _too_accurate() -> None:
-    """an accuracy that no knowledge of the body allows
+    """accuracy that the uncertainty of the body does not allow
 
-    Hard because: the solver itself would keep it
+    Hard because: the solver itself would reach it
     """
     long_term(times=["-1 Myr"], accuracy="0.1 arcsec")
 
 
 @holds(bound=5e-15)
 def _light() -> Distances:
-    """circular orbit, retrograde and upright daily light
+    """daily insolation on a circular orbit at obliquities from 0 to 180 degrees
 
-    Hard because: the longitude of perihelion has no value, and hours of day are clipped
-    Held against: the closed form at a solstice and a pole
+    Hard because: the longitude of perihelion is undefined, and the length of the day reaches its
+        limits
+    Compared with: closed form at a solstice and a pole
     """
     for obliquity in (0.0, 0.4, math.pi / 2, 3.0, math.pi):
         season = Season(*(np.array(x) for x in (obliquity, 0.0, 1.0)))

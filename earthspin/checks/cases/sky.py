@@ -24,11 +24,10 @@ def _ends() -> tuple[float, float]:
 
 @holds(bound=0.02)
 def _first_and_last() -> Distances:
-    """the Moon in the first and last minutes of the kernel
+    """position of the Moon in the first and last minutes of the kernel
 
-    Hard because: a record read one too far is extrapolated without a word
-    Held against: the acceleration by Newton's law from both masses, over itself; the Sun's tide is
-        1 %
+    Hard because: a wrong record would be extrapolated without an error
+    Compared with: acceleration by Newton's law from both masses, relative; the Sun's tide is 1 %
     """
     start, end = _ends()
     minute = 60 / DAY
@@ -43,10 +42,10 @@ def _first_and_last() -> Distances:
 
 @holds(bound=3e-11)
 def _torque_at_the_ends() -> Distances:
-    """torques at the very first and last epoch of the kernel
+    """torques at the first and last epoch of the kernel
 
-    Hard because: nutation wants nodes beyond the ends, the kernel has none
-    Held against: the same epoch inside a series, over the largest torque
+    Hard because: nutation is interpolated with nodes beyond the ends, where the kernel has no data
+    Compared with: the same epoch in a series, relative to the largest torque
     """
     alone = torque_series(times=["1899-07-29", "2053-10-09"], equator="true")
     before = torque_series("1899-07-29", "1899-08-03", "1 h", equator="true")
@@ -57,9 +56,9 @@ def _torque_at_the_ends() -> Distances:
 
 @refused("jumps")
 def _metre_off() -> None:
-    """a kernel with one coefficient of the Moon a metre off
+    """kernel with an error of one metre in one coefficient of the Moon
 
-    Hard because: one record of 14080, and by 3e-9 of the distance
+    Hard because: one record of 14080 is wrong by 3e-9 of the distance
     """
     leg = (3, CODES["moon"])
     segment, data = kernel()._segments[leg], bytearray(kernel().path.read_bytes())
@@ -73,23 +72,23 @@ def _metre_off() -> None:
 
 @holds(bound=1e-11, unit="rad")
 def _nutation_ends() -> Distances:
-    """nutation nodes at both ends
+    """interpolated nutation near both ends of a span
 
-    Hard because: a spline is worst at its ends
-    Held against: ERFA's pnm06a, epochs within an hour of the first and the last node
+    Hard because: a spline is least accurate at its ends
+    Compared with: ERFA's pnm06a at epochs within an hour of the first and the last node
     """
     for day in (-36000.0, 0.0, 19000.0):
         days = day + np.concatenate([np.linspace(0, 0.04, 20), np.linspace(29.96, 30.0, 20)])
-        ours = Nutation(days[0], days[-1], 1000).true_equator(days)
-        yield ours - erfa.pnm06a(J2000_JD, days)
+        interpolated = Nutation(days[0], days[-1], 1000).true_equator(days)
+        yield interpolated - erfa.pnm06a(J2000_JD, days)
 
 
 @holds(bound=5e-15)
 def _no_equinox() -> Distances:
-    """equator of an axis upright on its orbit
+    """equator of an axis normal to its orbit
 
-    Hard because: it has no equinox: the node is a vector of zeros
-    Held against: right-handed unit axes whose third is the spin axis
+    Hard because: there is no equinox, because the node is a zero vector
+    Compared with: right-handed orthonormal axes, the third along the spin axis
     """
     for axis in (np.array([0.0, 0.0, 1.0]), np.array([0.6, 0.0, -0.8])):
         for normal in (axis, -axis, axis + np.array([0.0, 1e-13, 0.0])):
@@ -100,10 +99,10 @@ def _no_equinox() -> Distances:
 
 @holds(bound=5e-15, unit="rad")
 def _beside_the_pole() -> Distances:
-    """declinations beside the poles of the sky
+    """declinations near the celestial poles
 
-    Hard because: an arc sine there is right to half the digits alone
-    Held against: the distance from the pole that was put in
+    Hard because: an arc sine has only half the digits there
+    Compared with: original distance from the pole
     """
     away = np.array([1e-3, 1e-6, 1e-9])
     vectors = 4e8 * np.stack([np.sin(away), 0 * away, np.cos(away)], axis=1)
@@ -115,10 +114,10 @@ def _beside_the_pole() -> Distances:
 
 @holds(bound=5e-15)
 def _both_ways() -> Distances:
-    """a planet seen from another, kernel codes of barycentres
+    """Mars as seen from the Earth, with barycentre codes
 
-    Hard because: common legs of the two paths must cancel, not be subtracted
-    Held against: the same, seen the other way, over the distance
+    Hard because: common segments of the two paths must cancel instead of being subtracted
+    Compared with: the Earth as seen from Mars, relative to the distance
     """
     days = np.linspace(-30000.0, 15000.0, 50)
     mars = kernel().code(MARS.naif, "mars")
@@ -129,10 +128,10 @@ def _both_ways() -> Distances:
 
 @holds(bound=1e-14)
 def _legs() -> Distances:
-    """the Moon by way of either of its legs
+    """position of the Moon by two paths of segments
 
-    Hard because: the barycentre of planet and Moon lies inside the planet
-    Held against: Moon from planet less barycentre from planet, over the distance
+    Hard because: the barycentre of Earth and Moon lies inside the Earth
+    Compared with: position of the Sun minus that of the Sun from the Moon, relative to the distance
     """
     days = np.linspace(-30000.0, 15000.0, 50)
     result = positions(days)
@@ -142,10 +141,10 @@ def _legs() -> Distances:
 
 @holds(bound=0.0)
 def _no_standstill() -> Distances:
-    """standstills in a span too short for one
+    """lunar standstills in a span too short for one
 
-    Hard because: an empty search must not pass for a find
-    Held against: none found in a month, and none in no time at all
+    Hard because: an empty search must not return a result
+    Compared with: none in a month, and none in a span of zero length
     """
     for end in (30.0, 0.0):
         yield len(find_standstills(np.sin, 0.0, end))

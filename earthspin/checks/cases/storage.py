@@ -21,16 +21,16 @@ def _small(value: float = 1.0) -> xr.Dataset:
     )
 
 
-class _HalfWayError(Exception):
-    """What goes wrong in the middle of a write."""
+class _InterruptionError(Exception):
+    """Raised to interrupt a write."""
 
 
 @holds(bound=0.0)
 def _odd_numbers() -> Distances:
-    """infinity, the least and the largest float on disk
+    """infinity and extreme floats in a file
 
-    Hard because: fill values stand for missing ones, and some are such numbers
-    Held against: the number that was written, bit for bit
+    Hard because: files mark missing values by fill values, and some of these are such numbers
+    Compared with: the written number, bit for bit
     """
     for value in (np.inf, 5e-324, 9.969209968386869e36, 1.7976931348623157e308):
         with temporary("r.nc") as path:
@@ -40,33 +40,33 @@ def _odd_numbers() -> Distances:
 
 @holds(bound=0.0)
 def _half_netcdf() -> Distances:
-    """a write to netCDF that fails half-way
+    """write to netCDF that fails halfway
 
     Hard because: half a file looks like a file
-    Held against: the old result, whole, and nothing beside it
+    Compared with: the complete old result, and no other file in the folder
     """
     with temporary("r.nc") as path:
         store.write(_small(1.0), path)
-        with suppress(_HalfWayError), drafts.replacing(path) as draft:
+        with suppress(_InterruptionError), drafts.replacing(path) as draft:
             draft.write_bytes(path.read_bytes()[:100])
-            raise _HalfWayError
+            raise _InterruptionError
         yield len({path} ^ set(path.parent.iterdir()))
         yield store.read(path).x.values != 1.0
 
 
 @holds(bound=0.0)
 def _half_zarr() -> Distances:
-    """a write to a Zarr folder that fails half-way
+    """write to a Zarr store that fails halfway
 
-    Hard because: a store is many files, replaced as one
-    Held against: the old files, and nothing beside them
+    Hard because: a store consists of many files, which are replaced together
+    Compared with: the old files, and no other file in the folder
     """
     with temporary("r.zarr") as old:
         old.mkdir()
         (old / ".zgroup").write_text("old")
-        with suppress(_HalfWayError), drafts.replacing(old) as draft:
+        with suppress(_InterruptionError), drafts.replacing(old) as draft:
             draft.mkdir()
             (draft / ".zgroup").write_text("new")
-            raise _HalfWayError
+            raise _InterruptionError
         yield len({old} ^ set(old.parent.iterdir()))
         yield (old / ".zgroup").read_text() != "old"

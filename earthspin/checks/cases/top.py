@@ -31,7 +31,7 @@ def _top(**changes: Any) -> HeavyTop:
 
 
 def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
-    """Change of the energy less that of the spin, over the largest of its two parts."""
+    """Relative change of the energy without that of the spin."""
     motion = heavy_top_motion(top, times)
     p, q, _ = np.moveaxis(motion.omega_body, -1, 0)
     kinetic = top.transverse_moment * (p * p + q * q) / 2
@@ -41,10 +41,10 @@ def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
 
 @holds(bound=1e-14)
 def _just_below() -> Distances:
-    """sleeping top one unit in the last place below its critical spin
+    """sleeping top with a spin one unit in the last place below the critical spin
 
-    Hard because: the growth rate is the root of a difference of 1e-15
-    Held against: sqrt(omega_c (omega_c - omega)/2) I3/I1 and the fall to 2 arccos(omega/omega_c)
+    Hard because: the growth rate is the square root of a difference of 1e-15
+    Compared with: sqrt(omega_c (omega_c - omega)/2) I3/I1 and the fall to 2 arccos(omega/omega_c)
     """
     spin = np.nextafter(CRITICAL, 0.0)
     result = sleeping_top(_top(theta=0.0, spin=spin))
@@ -57,10 +57,10 @@ def _just_below() -> Distances:
 
 @holds(bound=5e-15)
 def _just_above() -> Distances:
-    """sleeping top one unit in the last place above its critical spin
+    """sleeping top with a spin one unit in the last place above the critical spin
 
-    Hard because: it is stable by the last bit alone
-    Held against: circling rates a/2 and their difference from the exact difference of the spins
+    Hard because: the top is stable only because of the last bit of the spin
+    Compared with: circling rates a/2 and their difference from the exact difference of the spins
     """
     spin = np.nextafter(CRITICAL, 9.0)
     result = sleeping_top(_top(theta=0.0, spin=spin))
@@ -72,14 +72,15 @@ def _just_above() -> Distances:
 
 @holds(bound=3e-13)
 def _pushed_above() -> Distances:
-    """pushed top a millionth above its critical spin
+    """tilted top with a spin a millionth above the critical spin
 
-    Hard because: two rates of circling 1e-3 apart: the push grows a thousandfold, then shrinks
-    Held against: the linear motion: theta_0 a/sqrt(a2 - 2 beta) at most, relative
+    Hard because: two circling rates differ by 1e-3, so the tilt first grows a thousandfold and then
+        shrinks
+    Compared with: largest tilt theta_0 a/sqrt(a2 - 2 beta) of the linearized motion, relative
     """
     gap = 2.0**-20
     greatest = turning_angles(_top(theta=1e-12, spin=CRITICAL * (1 + gap)))[1]
-    # a/sqrt(a2 - 2 beta), with a in proportion to the spin and a2 = 2 beta where it is critical
+    # a/sqrt(a2 - 2 beta), with a proportional to the spin and a2 = 2 beta at the critical spin
     yield greatest / (1e-12 * (1 + gap) / math.sqrt(gap * (2 + gap))) - 1
 
 
@@ -87,20 +88,20 @@ def _pushed_above() -> Distances:
 def _upright() -> Distances:
     """exactly upright top below its critical spin
 
-    Hard because: unstable, and every formula divides by sin(theta)
-    Held against: theta = 0 for a day, bit for bit
+    Hard because: the position is unstable, and every formula divides by sin(theta)
+    Compared with: theta = 0 for a day, bit for bit
     """
     yield heavy_top_motion(_top(theta=0.0, spin=1.0), np.linspace(0.0, 86400.0, 101)).theta
 
 
 @holds(bound=1e-14)
 def _creeping() -> Distances:
-    """top that all but stays upright for ever
+    """top that approaches the upright position without reaching it
 
-    Hard because: k'2 is 2e-16: the start is within rounding of a period without end
-    Held against: energy less that of the spin, at 100 times, relative
+    Hard because: k'2 is 2e-16, so the start is within rounding of a motion with infinite period
+    Compared with: energy without that of the spin, at 100 times, relative
     """
-    # b = a and alpha = beta put the upper turning point on the pole itself
+    # b = a and alpha = beta place the upper turning point exactly at the upward vertical
     spin, beta = 2.0, 2.0
     a = spin / 2
     top = _top(theta=np.pi / 2, spin=spin, phi_rate=a, theta_rate=math.sqrt(beta - a * a))
@@ -109,10 +110,10 @@ def _creeping() -> Distances:
 
 @holds(bound=1e-14)
 def _nearly_weightless() -> Distances:
-    """weight of 1e-200 of what the spin resists
+    """top with a weight of 1e-200 of its gyroscopic resistance
 
-    Hard because: squares of the weight vanish, and the cubic seems to have lost a root
-    Held against: the weightless top, after 10^4 turns
+    Hard because: squares of the weight underflow, so the cubic seems to lose a root
+    Compared with: weightless top after 10^4 rotations
     """
     times = np.linspace(0.0, 6e3, 50)
     with_weight, without = (
@@ -123,10 +124,11 @@ def _nearly_weightless() -> Distances:
 
 @holds(bound=2e-13)
 def _fast_top() -> Distances:
-    """spin to precession 10^7 to one
+    """top that spins 10^7 times faster than it precesses
 
-    Hard because: the nutation is 10^-14 of a turn and 10^7 times faster than the precession
-    Held against: the slow steady precession, relative; from rest it differs by (beta/a2)2 = 2e-13
+    Hard because: the nutation has an amplitude of 10^-14 revolutions and is 10^7 times faster than
+        the precession
+    Compared with: slow steady precession, relative; a start from rest differs by (beta/a2)2 = 2e-13
     """
     spin = 10**3.5 * math.sqrt(2.0)  # spin/precession = I3 omega3^2/(m g r) = 10^7
     top = _top(spin=spin, theta=1.0)
@@ -135,10 +137,10 @@ def _fast_top() -> Distances:
 
 @holds(bound=1e-14)
 def _fast_top_for_a_day() -> Distances:
-    """spin to nutation 10^7: a fast top after a day
+    """fast top after a day, with 10^10 rotations
 
-    Hard because: 10^10 turns: phi and psi run to 10^11 rad, and their sum must keep the precession
-    Held against: energy less that of the spin, and vertical angular momentum, relative
+    Hard because: phi and psi grow to 10^11 rad, and their sum must keep the precession
+    Compared with: energy without that of the spin, and vertical angular momentum, relative
     """
     top = _top(spin=1e5, theta=1.0)
     times = np.linspace(0.0, 86400.0, 200)
@@ -152,23 +154,23 @@ def _fast_top_for_a_day() -> Distances:
 
 @holds(bound=1e-14)
 def _inverted_pendulum() -> Distances:
-    """pendulum a nanoradian from standing on its head
+    """pendulum that starts 1e-9 rad from its upright position
 
-    Hard because: no spin at all, and k is 1 but for 1e-19
-    Held against: the pendulum's period 4 K/omega by scipy's ellipkm1, relative
+    Hard because: the spin is zero, and k differs from 1 by 1e-19
+    Compared with: period 4 K/omega of the pendulum by scipy's ellipkm1, relative
     """
     top = _top(spin=0.0, theta=1e-9)
     exact = 4 * float(ellipkm1(math.sin(0.5e-9) ** 2))  # omega = sqrt(m g r/I1) = 1
-    # theta goes once to and fro in half a swing across the lower pole
+    # theta completes a cycle in half a swing through the lowest point
     yield nutation_period(top) / (exact / 2) - 1
 
 
 @holds(bound=1e-14)
 def _grazing() -> Distances:
-    """axis that misses the upper pole by 1e-12 rad
+    """axis that misses the upward vertical by 1e-12 rad
 
-    Hard because: phi turns by half a turn within a picosecond
-    Held against: energy along the way, relative
+    Hard because: phi changes by half a revolution within a picosecond
+    Compared with: energy at 2001 times, relative
     """
     exact = 5.0 / (1 + math.cos(0.4))
     top = _top(phi_rate=exact * (1 + 1e-12))
@@ -177,10 +179,11 @@ def _grazing() -> Distances:
 
 @holds(bound=0.0)
 def _cusp() -> Distances:
-    """start exactly on a cusp
+    """top that starts exactly at a cusp
 
-    Hard because: between waves and loops; the tip comes to rest
-    Held against: the word 'cusp' at both limits, and 'wave' and 'loop' 1e-12 to either side
+    Hard because: the start is on the border between waves and loops, where the tip comes to rest
+    Compared with: pattern 'cusp' at both limits, and 'wave' and 'loop' at relative distances of
+        1e-12
     """
     low, high = pattern_limits(_top()).cusp
     rates = np.array([low, high, high * (1 - 1e-12), high * (1 + 1e-12)])
@@ -189,24 +192,25 @@ def _cusp() -> Distances:
 
 @holds(bound=1e-14)
 def _hanging() -> Distances:
-    """hanging at exactly pi, and turned upside down
+    """top that hangs exactly downward, and an inverted copy of a top
 
-    Hard because: no float is pi; the axis is described by its other end
-    Held against: theta = pi for a day, and the same motion with weight, spin and axis reversed
+    Hard because: no float equals pi, and the inverted top is described by the opposite end of its
+        axis
+    Compared with: theta = pi for a day, and the same motion with weight, spin and axis reversed
     """
     yield heavy_top_motion(_top(theta=np.pi), np.linspace(0.0, 86400.0, 11)).theta - np.pi
     times = np.linspace(0.0, 20.0, 50)
-    one = heavy_top_motion(_top(theta=2.0, phi_rate=0.3), times).theta
-    turned = _top(theta=np.pi - 2.0, phi_rate=0.3, spin=-10.0, weight_moment=-2.0)
-    yield one + heavy_top_motion(turned, times).theta - np.pi
+    theta = heavy_top_motion(_top(theta=2.0, phi_rate=0.3), times).theta
+    inverted = _top(theta=np.pi - 2.0, phi_rate=0.3, spin=-10.0, weight_moment=-2.0)
+    yield theta + heavy_top_motion(inverted, times).theta - np.pi
 
 
 @holds(bound=1e-14)
 def _shapes() -> Distances:
-    """needle and lamina
+    """needle-shaped and disc-shaped tops
 
-    Hard because: I3 of 1e-12 I1, and I3 = 2 I1, the most a body can have
-    Held against: energy over 100 s, relative
+    Hard because: I3 is 1e-12 I1 for the needle, and the largest possible value 2 I1 for the disc
+    Compared with: energy over 100 s, relative
     """
     for axial, spin in ((2e-12, 1e13), (4.0, 3.0)):
         top = _top(axial_moment=axial, spin=spin, theta=1.1)
@@ -215,8 +219,8 @@ def _shapes() -> Distances:
 
 @refused("no body has more than twice its transverse moment")
 def _impossible() -> None:
-    """a top with I3 above 2 I1
+    """top with I3 above 2 I1
 
-    Hard because: no such body, yet all formulas give numbers
+    Hard because: no such body exists, but all formulas give numbers
     """
     _top(axial_moment=4.0 + 1e-9)

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of what pulls on the bulge, at an instant and on average."""
+"""Stiff and extreme cases of torques, at an instant and averaged."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
 
 @holds(bound=0.0)
 def _no_mass() -> Distances:
-    """perturber of no mass
+    """perturber without mass
 
-    Hard because: rates are zero and periods infinite: 0/0 lies in wait at every ratio
-    Held against: no torque, no rate and an infinite period, and nothing that is no number
+    Hard because: rates are zero and periods infinite, so every ratio may become 0/0
+    Compared with: zero torque, zero rate and infinite period, and no NaN
     """
     rates = _rate(perturber=MOON.replace(gm=0.0))
     yield rates.mean_torque
@@ -48,10 +48,10 @@ def _no_mass() -> Distances:
 
 @holds(bound=5e-15)
 def _tiny_h() -> Distances:
-    """dynamical flattening of 1e-12
+    """averaged precession with a dynamical flattening of 1e-12
 
-    Hard because: the precession takes 10^14 years
-    Held against: the rate in proportion to H, relative
+    Hard because: the precession period is 10^14 years
+    Compared with: rate proportional to H, relative
     """
     tiny = _rate(BODY.replace(j2=1e-12 / 3, dynamical_flattening=1e-12))
     yield tiny.precession_rate[0] / _rate().precession_rate[0] * H / 1e-12 - 1
@@ -59,11 +59,10 @@ def _tiny_h() -> Distances:
 
 @holds(bound=1e-14)
 def _nearly_upright() -> Distances:
-    """obliquity of 1e-6 rad, and of 1e-6 rad less than 180 degrees
+    """averaged torque at obliquities of 1e-6 rad and pi - 1e-6 rad
 
-    Hard because: the longitude is all but undefined: both torque and sin2 nearly vanish
-    Held against: mean precessing torque along a circular orbit, (3/2) GM/b3 cos(obliquity), over
-        itself
+    Hard because: the longitude is almost undefined, because the torque and sin2 nearly vanish
+    Compared with: mean precessing torque of a circular orbit, (3/2) GM/b3 cos(obliquity), relative
     """
     phase = 2 * np.pi * np.arange(4000) / 4000
     orbit = 1.5e11 * np.stack([np.cos(phase), np.sin(phase), 0 * phase], axis=1)
@@ -76,10 +75,11 @@ def _nearly_upright() -> Distances:
 
 @holds(bound=5e-15)
 def _over_the_pole() -> Distances:
-    """perturber over the pole
+    """perturber above the pole
 
-    Hard because: at a declination of 90 degrees the right ascension means nothing
-    Held against: the vector form, which vanishes there, over the largest torque at that distance
+    Hard because: the right ascension is undefined at a declination of 90 degrees
+    Compared with: vector form, which vanishes there, relative to the largest torque at that
+        distance
     """
     offset = np.array([0.0, 1e-300, 1e-16, 1e-9])
     r = 4e8 * np.stack([offset, 0 * offset, np.ones(4)], axis=1)
@@ -91,10 +91,10 @@ def _over_the_pole() -> Distances:
 
 @holds(bound=5e-15)
 def _far() -> Distances:
-    """perturber a million astronomical units away, and at 10^90 m
+    """perturber at distances of a million au to 10^90 m
 
     Hard because: r5 overflows, and the torque falls to 10^-271
-    Held against: torque in proportion to 1/b3, distances of 2^57, 2^203 and 2^299, relative
+    Compared with: torque proportional to 1/b3 at distances of 2^57, 2^203 and 2^299, relative
     """
     place = np.array([[0.6, 0.0, 0.8]])
     near = torque_from_position(1.0, 1.0, place, NORTH)[0, 1]
@@ -106,39 +106,40 @@ def _far() -> Distances:
 SWOLLEN = 5e8  # m, beyond the Moon
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_a_series() -> None:
-    """perturber inside the body, a series
+    """torque series with a perturber inside the body
 
-    Hard because: the formula goes on inside, and gives a plausible wrong number
+    Hard because: the formula gives a plausible wrong number inside the body
     """
     torque_series(times=["2000-01-01"], body=BODY.replace(radius=SWOLLEN))
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_an_average() -> None:
-    """perturber inside the body, an average
+    """averaged torque of a perturber inside the body
 
-    Hard because: the formula goes on inside, and gives a plausible wrong number
+    Hard because: the formula gives a plausible wrong number inside the body
     """
     _rate(BODY.replace(radius=SWOLLEN), MOON)
 
 
-@refused("holds outside it alone")
+@refused("valid only outside")
 def _inside_the_pole() -> None:
-    """perturber inside the body, the pole
+    """pole of a body with a perturber inside it
 
-    Hard because: the formula goes on inside, and gives a plausible wrong number
+    Hard because: the formula gives a plausible wrong number inside the body
     """
     pole("2000-01-01", "2000-01-11", "1 d", body=BODY.replace(radius=SWOLLEN))
 
 
 @holds(bound=5e-15)
 def _three_forms() -> Distances:
-    """three forms of one torque, masses of 1e-30 and 1e40 kg together
+    """three formulas for the torque with masses of 1e-30 kg and 1e40 kg
 
-    Hard because: seventy decades are added up in one tensor
-    Held against: declination, position and tide tensor against each other, over the largest
+    Hard because: one tensor sums terms that differ by seventy orders of magnitude
+    Compared with: formulas with declination, position and tidal tensor with one another, relative
+        to the largest torque
     """
     rng = np.random.default_rng(7)
     r = rng.normal(size=(500, 3)) * 10.0 ** rng.uniform(7, 13, (500, 1))
@@ -154,10 +155,10 @@ def _three_forms() -> Distances:
 
 @holds(bound=1e-13)
 def _harmonics() -> Distances:
-    """zonal harmonics of degree 30 with the mass on the surface
+    """torque of degree 30 with the mass on the surface
 
     Hard because: P_30 has coefficients of 10^8 that nearly cancel
-    Held against: n (P_(n-1) - u P_n)/(1 - u2) by scipy's recurrence, over the largest slope
+    Compared with: n (P_(n-1) - u P_n)/(1 - u2) by scipy's recurrence, relative to the largest slope
     """
     u = np.linspace(-0.99, 0.99, 41)
     place = np.stack([np.sqrt(1 - u * u), 0 * u, u])
@@ -169,10 +170,10 @@ def _harmonics() -> Distances:
 
 @holds(bound=2e-13)
 def _weights() -> Distances:
-    """averages at steps that resonate with the month and the node
+    """averages with steps in resonance with the month and the node
 
-    Hard because: a handful of samples, some of them on the very edge of the window
-    Held against: a constant comes out as itself through every taper, relative
+    Hard because: there are few samples, and some of them are exactly at the edge of the window
+    Compared with: mean of a constant with every taper, relative
     """
     for taper in TAPERS:
         window = Window(1e9, 5, 6798 * DAY, taper)
@@ -183,43 +184,43 @@ def _weights() -> Distances:
 
 @refused("needs three turns of the slowest cycle")
 def _too_short() -> None:
-    """an average over fewer than three cycles
+    """average over fewer than three cycles
 
-    Hard because: with two, nothing tells how far the mean is off
+    Hard because: two cycles do not show how large the error of the mean is
     """
     best_window(0.0, 2.99 * 18.6 * JULIAN_YEAR, 18.6 * JULIAN_YEAR, 0.0)
 
 
 @refused("needs three turns of the slowest cycle")
 def _short_span() -> None:
-    """an average over a scene's span of 30 years
+    """average over a requested span of 30 years
 
-    Hard because: the Moon's node turns but once and a half
+    Hard because: the span covers only one and a half periods of the Moon's node
     """
     precession(span=("1985-01-01", "2015-01-01"))
 
 
 @refused("was asked for")
 def _too_accurate() -> None:
-    """an accuracy that no kernel gives
+    """accuracy that no kernel allows
 
-    Hard because: the number would look the same
+    Hard because: the returned number would look the same
     """
     precession(accuracy=1e-12)
 
 
 @holds(bound=0.0, slow=True)
 def _ten_thousand() -> Distances:
-    """ten thousand bodies at once
+    """averaged rates of ten thousand bodies in one call
 
-    Hard because: prolate, round, retrograde and slow ones stand in one call
-    Held against: six of them one at a time, bit for bit
+    Hard because: prolate, spherical, retrograde and slowly rotating bodies are in the same arrays
+    Compared with: six of the bodies computed alone, bit for bit
     """
     rng = np.random.default_rng(1)
     h = rng.uniform(-0.01, 0.01, 10_000)
     h[1234] = 0.0
     spins = rng.uniform(-3e5, 3e5, 10_000)
-    spins += np.copysign(6000.0, spins)  # the equator flies off at periods below 1.41 h
+    spins += np.copysign(6000.0, spins)  # periods below 1.41 h exceed the break-up spin
     numbers = {"j2": J2 / H * h, "dynamical_flattening": h, "spin_period": spins}
     many = {name: xr.DataArray(values, dims="body") for name, values in numbers.items()}
     whole = precession(body=BODY.replace(**many))
@@ -232,10 +233,10 @@ def _ten_thousand() -> Distances:
 
 @holds(bound=5e-15)
 def _sky_poles() -> Distances:
-    """axes and directions given at the poles of the sky
+    """directions at the celestial poles
 
-    Hard because: a declination of exactly 90 degrees leaves cosines of 6e-17
-    Held against: unit vectors along the third axis
+    Hard because: at a declination of exactly 90 degrees the cosine is 6e-17
+    Compared with: unit vectors along the third axis
     """
     yield direction(1.0, math.pi / 2) - NORTH
     yield -direction(1.0, -math.pi / 2) - NORTH
@@ -243,10 +244,10 @@ def _sky_poles() -> Distances:
 
 @holds(bound=1e-14)
 def _next_to_a_parabola() -> Distances:
-    """a Sun on an ellipse next to a parabola
+    """Sun on a nearly parabolic ellipse
 
-    Hard because: e is 1 - 1e-9: almost all of the pull comes in a moment at the pericentre
-    Held against: the closed form of the mean over the orbit, relative
+    Hard because: e is 1 - 1e-9, so almost the whole torque acts near the pericentre
+    Compared with: closed form of the mean over the orbit, relative
     """
     e, a, obliquity = 1 - 1e-9, 1e20, 0.4
     (ra,), (dec,), _ = spherical(ecliptic_pole()[np.newaxis])

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the free wobble and of what excites it."""
+"""Stiff and extreme cases of the free wobble and its excitation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ DAYS = 64 * 365 + 16
 def _round_trip(
     quality_factor: float, step: float = 1.0, size: int = DAYS
 ) -> Iterator[NDArray[np.complex128]]:
-    """From a white excitation of 30 mas to the pole and back, and to the pole again, mas."""
+    """Yield errors of excitation and pole after computing each from the other, mas.
+
+    The original excitation is white noise of 30 mas.
+    """
     s = resonance.chandler_frequency(PERIOD, quality_factor)
     both = 30 * np.random.default_rng(1).standard_normal((2, size))
     chi = both[0] + 1j * both[1]
@@ -34,50 +37,51 @@ def _round_trip(
 
 @holds(bound=2e-11, unit="mas")
 def _no_loss() -> Distances:
-    """no loss at all: an infinite quality factor
+    """free wobble without damping (infinite quality factor)
 
-    Hard because: nothing forgets the start, so that errors stay for ever
-    Held against: the excitation that drove the pole, and that pole, over 64 years
+    Hard because: errors of the start never decay
+    Compared with: excitation that produced the polar motion, and that polar motion, over 64 years
     """
     yield from _round_trip(np.inf)
 
 
 @holds(bound=1e-11, unit="mas")
 def _all_loss() -> Distances:
-    """quality factor of one half
+    """free wobble with a quality factor of one half
 
-    Hard because: the wobble dies within a period; its start decays to 1e-60
-    Held against: the excitation that drove the pole, and that pole, over 64 years
+    Hard because: the wobble decays within a period; the start decays to 1e-60
+    Compared with: excitation that produced the polar motion, and that polar motion, over 64 years
     """
     yield from _round_trip(0.5)
 
 
 @holds(bound=5e-12, unit="mas")
 def _resonant_step() -> Distances:
-    """step of exactly one free period
+    """time step of exactly one free period
 
-    Hard because: the pole comes back to where it was, but for the loss: 3 per cent tell what drove
-        it
-    Held against: the excitation that drove the pole, and that pole, over 400 steps
+    Hard because: the pole returns to its position except for damping of 3 per cent, which
+        determines the excitation
+    Compared with: excitation that produced the polar motion, and that polar motion, over 400 steps
     """
     yield from _round_trip(100.0, step=PERIOD, size=400)
 
 
 @holds(bound=1e-6, unit="mas")
 def _tiny_steps() -> Distances:
-    """steps of a second
+    """time steps of one second
 
-    Hard because: the pole moves by 1e-7 of itself from one to the next
-    Held against: the excitation that drove the pole; rounding of the pole times 6e6
+    Hard because: the pole moves by only 1e-7 of its distance in each step
+    Compared with: excitation that produced the polar motion; the bound is rounding of the pole
+        times 6e6
     """
     yield from _round_trip(100.0, step=1 / 86400, size=5000)
 
 
 @refused("a gap of 21.0 d")
 def _gap() -> None:
-    """a gap of twenty days in the observed pole
+    """observed polar motion with a gap of twenty days
 
-    Hard because: what is bridged over it would pass for data
+    Hard because: interpolated values in the gap would be mistaken for data
     """
     lines = c04_path().read_text(encoding="ascii", errors="replace").splitlines(keepends=True)
     rows = [n for n, line in enumerate(lines) if line[:1].isdigit() or line[:5].strip().isdigit()]
@@ -89,19 +93,19 @@ def _gap() -> None:
 
 @refused("even")
 def _uneven() -> None:
-    """excitation over steps that are not even
+    """excitation from unevenly spaced times
 
-    Hard because: each step has its own response; one for all would be wrong by per cents
+    Hard because: each step has its own response; a common one would be wrong by per cents
     """
     excitation(polar_motion().isel(time=[0, 1, 2, 4, 5]))
 
 
 @holds(bound=0.0)
 def _sphere() -> Distances:
-    """the free wobble of a sphere
+    """free wobble of a sphere
 
-    Hard because: (C - A)/A is zero: a division by it
-    Held against: an infinite period, and no number anywhere that is not one
+    Hard because: (C - A)/A is zero and appears in a denominator
+    Compared with: infinite period, and no NaN
     """
     yield free_wobble_period(0.0, 86164.0) != np.inf
     yield turns_rigid(0.0) != np.inf
@@ -109,10 +113,10 @@ def _sphere() -> Distances:
 
 @holds(bound=5e-15)
 def _prolate() -> Distances:
-    """prolate and oblate wobble alike
+    """free wobble of prolate and oblate bodies
 
-    Hard because: the wobble goes the other way; periods count without sign
-    Held against: A/(C - A) turns, relative, down to H of 1e-15
+    Hard because: the wobble of a prolate body is retrograde, but its period is positive
+    Compared with: A/(C - A) rotations, relative, down to H = 1e-15
     """
     h = np.array([0.3, 3e-3, 1e-9, 1e-15])
     for sign in (1, -1):
@@ -121,10 +125,10 @@ def _prolate() -> Distances:
 
 @holds(bound=2e-14)
 def _microarcsecond() -> Distances:
-    """a wobble of one microarcsecond
+    """free wobble with an amplitude of one microarcsecond
 
-    Hard because: the least that is ever told, on a pole given in arcseconds
-    Held against: excitation in proportion, and back, over its size
+    Hard because: it is the smallest amplitude that is ever resolved, in a pole given in arcseconds
+    Compared with: excitation that produced the polar motion, relative to its size
     """
     s = resonance.chandler_frequency(PERIOD, 100.0)
     chi = UAS * np.exp(0.3j * np.arange(2000.0))

@@ -1,1 +1,1 @@
-"""One ladder per quantity: its methods, their settings, and the reference."""
+"""Ladders of error against run time, one module per quantity: methods, settings, reference."""

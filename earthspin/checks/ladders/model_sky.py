@@ -1,11 +1,11 @@
-"""A sky whose mean torque is known: Sun on an ellipse, Moon by the main terms of her theory.
+"""Model sky with a known mean torque: Sun on an ellipse, Moon by the main terms of ELP2000-82.
 
-Everything hangs on four angles that run evenly: the Moon's elongation D, the mean anomalies of
-Sun (l') and Moon (l), and the Moon's distance from her node (F). The mean of all time is then
-the mean over the torus of the four, for which the trapezoid rule converges faster than any
-power of its step. Main terms of longitude, latitude and distance after ELP2000-82 (Chapront-Touze &
-Chapront 1983, Astron. Astrophys. 124, 50), as Meeus gives them (1998, Astronomical Algorithms,
-tables 47.A and 47.B); the Sun's perihelion and the equator stand still.
+All positions depend on four angles that change linearly with time: the Moon's elongation D, the
+mean anomalies of Sun (l') and Moon (l), and the Moon's argument of latitude (F). The mean over
+infinite time is then the mean over the torus of the four angles, for which the trapezoid rule
+converges faster than any power of its step. The main terms of longitude, latitude and distance
+follow ELP2000-82 (Chapront-Touze & Chapront 1983, Astron. Astrophys. 124, 50), as in Meeus (1998,
+Astronomical Algorithms, tables 47.A and 47.B). The Sun's perigee and the equator are fixed.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from earthspin.torque.gravity import torque_from_position
 #: D, l', l, F at J2000.0 (deg) and their rates (deg per Julian century).
 ARGUMENTS = np.array([297.8501921, 357.5291092, 134.9633964, 93.2720950])
 RATES = np.array([445267.1114034, 35999.0502909, 477198.8675055, 483202.0175233])
-#: Of the Sun's orbit at J2000.0 (Meeus 1998, ch. 25): longitude of the perigee (deg), eccentricity,
+#: Orbit of the Sun at J2000.0 (Meeus 1998, ch. 25): longitude of the perigee (deg), eccentricity,
 #: semi-major axis (m); and the obliquity (ch. 22). A model sky need not be more exact.
 PERIGEE, ECCENTRICITY, SEMI_MAJOR_AXIS = 282.93735, 0.016708634, 1.495978707e11
 OBLIQUITY = np.radians(23.4392911)
 
-#: Multiples of D, l', l, F; longitude (1e-6 deg, sine), distance (m, cosine).
+#: Columns: multiples of D, l', l, F; longitude (1e-6 deg, sine), distance (m, cosine).
 LONGITUDE_AND_DISTANCE = np.loadtxt(FOLDER / "moon-longitude-distance.txt")
-#: Multiples of D, l', l, F; latitude (1e-6 deg, sine).
+#: Columns: multiples of D, l', l, F; latitude (1e-6 deg, sine).
 LATITUDE = np.loadtxt(FOLDER / "moon-latitude.txt")
 MEAN_DISTANCE = 385000560.0  # m
 
-#: Axis of the equator and normal of the ecliptic, along ecliptic and equinox.
+#: Pole of the equator and normal of the ecliptic, in axes of ecliptic and equinox.
 AXIS = np.array([0.0, -np.sin(OBLIQUITY), np.cos(OBLIQUITY)])
 NORMAL = np.array([0.0, 0.0, 1.0])
 
@@ -43,10 +43,10 @@ def arguments(times: FloatArray) -> FloatArray:
     return np.asarray(np.radians(ARGUMENTS[:, np.newaxis] + RATES[:, np.newaxis] * centuries))
 
 
-def turn_of_the_node() -> float:
-    """Time in which the Moon's node goes once round, s."""
-    of_node = RATES[3] - RATES[0] - RATES[1]  # F - (D + l'): how fast the node falls back
-    return float(360.0 / of_node * DAYS_PER_CENTURY * DAY)
+def node_period() -> float:
+    """Period of the Moon's node, s."""
+    node_rate = RATES[3] - RATES[0] - RATES[1]  # F - (D + l'): rate of the node's regression
+    return float(360.0 / node_rate * DAYS_PER_CENTURY * DAY)
 
 
 def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -77,17 +77,20 @@ def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def positions(angles: FloatArray) -> dict[str, FloatArray]:
-    """Sun and Moon along ecliptic and equinox, m, shape (n, 3) each."""
+    """Positions of Sun and Moon in axes of ecliptic and equinox, m, shape (n, 3) each."""
     longitude, distance = sun(angles[1])
-    of_sun = distance[:, np.newaxis] * unit_vectors(longitude, 0 * longitude)
+    sun_position = distance[:, np.newaxis] * unit_vectors(longitude, 0 * longitude)
     longitude, latitude, distance = moon(angles)
-    return {"sun": of_sun, "moon": distance[:, np.newaxis] * unit_vectors(longitude, latitude)}
+    return {
+        "sun": sun_position,
+        "moon": distance[:, np.newaxis] * unit_vectors(longitude, latitude),
+    }
 
 
 def precessing(angles: FloatArray) -> FloatArray:
-    """What makes the axis precess, Sun and Moon together, per unit of C - A, s-2, shape (n,)."""
-    place = positions(angles)
-    torque = sum(torque_from_position(GM[name], 1.0, place[name], AXIS) for name in GM)
+    """Precessing torque of Sun and Moon per unit of C - A, s-2, shape (n,)."""
+    position = positions(angles)
+    torque = sum(torque_from_position(GM[name], 1.0, position[name], AXIS) for name in GM)
     return precessing_torque(np.asarray(torque), AXIS, NORMAL)
 
 
@@ -102,12 +105,12 @@ def torus_mean(counts: tuple[int, int, int, int]) -> float:
     Parameters
     ----------
     counts : tuple of int
-        Points along each angle.
+        Number of points along each angle.
     """
-    turns = [2 * np.pi * np.arange(count) / count for count in counts]
-    rest = np.stack(np.meshgrid(*turns[1:], indexing="ij")).reshape(3, -1)
+    grids = [2 * np.pi * np.arange(count) / count for count in counts]
+    rest = np.stack(np.meshgrid(*grids[1:], indexing="ij")).reshape(3, -1)
     means = []
-    for elongation in turns[0]:  # slice by slice, to spare memory
+    for elongation in grids[0]:  # slice by slice, to save memory
         angles = np.concatenate([np.full((1, rest.shape[1]), elongation), rest])
         means.append(float(np.mean(precessing(angles))))
     return float(np.mean(means))

@@ -1,4 +1,4 @@
-"""Period of the free wobble from polar motion: our fits against the peak of a spectrum."""
+"""Ladder for the period of the free wobble: fits to polar motion, and the peak of a spectrum."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from earthspin.wobble.record import BAND
 
 Record = tuple[FloatArray, NDArray[np.complex128]]
 
-#: Truth of the simulated records; d.
+#: Period (d) and quality factor of the simulated records.
 PERIOD, QUALITY = 433.0, 100.0
 YEARS, QUICK_YEARS = (15.0, 30.0, 65.0, 130.0), (20.0, 40.0)
 RECORDS, FEW_RECORDS = 32, 4
-#: What a record counts in which a method finds no wobble: half of the band that it looks in, d.
+#: Error assigned to a record in which a method finds no wobble: half of the search band, d.
 NOTHING_FOUND = 35.0
-#: How far beyond the best possible scatter each method of ours may be.
+#: Allowed scatter of each method of this package, relative to the best possible scatter.
 EXCESS = {"burg": 1.6, "likelihood": 1.6, "least-squares": 3.6}
-QUICK_EXCESS = 2.0  # few records tell a scatter to a third
+QUICK_EXCESS = 2.0  # a few records determine a scatter to one third
 
 
 def ladder(quick: bool) -> Ladder:
@@ -36,8 +36,8 @@ def ladder(quick: bool) -> Ladder:
     bounds = {name: EXCESS[name] * excess * scatter * DAY for name in METHODS}
 
     def method(name: str, estimate: Callable[[Record], float]) -> Method:
-        each = [_setting(estimate, length, records) for length in years]
-        return Method(name, each, bounds.get(name, np.inf))
+        settings = [_setting(estimate, length, records) for length in years]
+        return Method(name, settings, bounds.get(name, np.inf))
 
     return Ladder(
         quantity="chandler",
@@ -46,10 +46,10 @@ def ladder(quick: bool) -> Ladder:
         "record with seasons, drift and background, one value in 10 d; the error is the rms over "
         f"{records} simulated records, known to {100 / np.sqrt(2 * records):.0f} per cent",
         subject="the period of the free wobble from one record",
-        reference="the period that the records were simulated with",
+        reference="the period of the simulated records",
         reference_error=1e-9 * DAY,
         methods=[
-            *(method(name, partial(_fitted, name)) for name in METHODS),
+            *(method(name, partial(_period_by_fit, name)) for name in METHODS),
             method("peak of the FFT", _peak),
         ],
         useful=10 * DAY,
@@ -58,13 +58,13 @@ def ladder(quick: bool) -> Ladder:
 
 
 def best_scatter(years: float) -> float:
-    """Scatter below which no method can come: T sqrt(T/(4 pi Q L)), d."""
+    """Smallest possible scatter of any method: T sqrt(T/(4 pi Q L)), d."""
     return float(PERIOD * np.sqrt(PERIOD / (4 * np.pi * QUALITY * years * 365.25)))
 
 
 @cache
 def record(years: float, seed: int) -> Record:
-    """A simulated record: time (d) and polar motion (mas)."""
+    """Simulate a record: time (d) and polar motion (mas)."""
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 
@@ -73,20 +73,20 @@ def _setting(estimate: Callable[[Record], float], years: float, records: int) ->
     return Setting(
         f"{years:g} years",
         lambda: (estimate(first), first[0].size),
-        judged=lambda: np.array([estimate(record(years, seed)) for seed in range(records)]),
+        error_values=lambda: np.array([estimate(record(years, seed)) for seed in range(records)]),
     )
 
 
-def _fitted(name: str, given: Record) -> float:
+def _period_by_fit(name: str, record: Record) -> float:
     try:
-        return fit(*given, name).period
+        return fit(*record, name).period
     except UndefinedError:
         return PERIOD + NOTHING_FOUND
 
 
-def _peak(given: Record) -> Any:
-    """Highest line of the spectrum of the record less its line, in the wobble's band."""
-    time, p = given
+def _peak(record: Record) -> Any:
+    """Period of the highest spectral line of the detrended record in the wobble's band."""
+    time, p = record
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])
     inside = (frequency > 1 / BAND[1]) & (frequency < 1 / BAND[0])

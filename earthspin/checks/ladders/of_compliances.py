@@ -1,7 +1,7 @@
-"""How the parts of a layered Earth answer to one another: collocation against step-by-step solvers.
+"""Ladder for the compliances of a layered Earth: collocation and step-by-step integrators.
 
-The equations, the radius where they start and the conditions at boundaries and surface are the
-same for all; only what carries a solution from one radius to another differs.
+The equations, the initial radius and the conditions at boundaries and surface are the same for all
+methods, which differ only in the integration from one radius to another.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from earthspin.numerics.double_double import DoubleDouble
 Array = NDArray[Any]
 Matrix = Callable[[Array], Array]
 
-#: Numbers that the stored reference was made for.
+#: Inputs of the stored reference.
 INPUTS = {
     "G": G.value,
     "layers": [
@@ -35,10 +35,10 @@ INPUTS = {
         for layer in PREM.layers
     ],
 }
-#: By what other steps and another start change the reference.
+#: Change of the reference with other steps and another initial radius.
 REFERENCE_ERROR = 4e-15
-#: Of any method: what a start at a thousandth of the radius leaves of the inner core's answer to
-#: itself, 4.5e-12, twice over.
+#: Bound for every method: about twice the error of the inner core's diagonal compliance from
+#: starting the integration at r = 0.001 R, 4.5e-12.
 BOUND = 1e-11
 
 
@@ -56,20 +56,26 @@ def ladder(quick: bool) -> Ladder:
     return Ladder(
         quantity="compliances",
         unit="1",
-        problem="what whole body, fluid core and inner core of PREM answer to potentials in one "
-        "another, nine numbers; the error is the largest, over the geometric mean of what the two "
-        "parts answer to themselves",
+        problem="nine compliances of PREM (whole body, fluid core and inner core, each to "
+        "potentials in each); the error is the largest, relative to the geometric mean of the two "
+        "diagonal compliances",
         subject="the compliances of PREM",
         reference="Hooke's law and Poisson's equation in the logarithm of the radius, in long "
-        "double by extrapolation of order 20, from a tenth of the radius at which these start",
+        "double by extrapolation of order 20, starting at a tenth of the radius at which the "
+        "methods start",
         reference_error=REFERENCE_ERROR,
         methods=[
             row("collocation at Gauss's nodes", "settled to {}", by_collocation, settled, BOUND),
             row("solve_ivp DOP853", "rtol {}", partial(_by_scipy, "DOP853"), fine),
             row("solve_ivp LSODA", "rtol {}", partial(_by_scipy, "LSODA"), fine),
             row("solve_ivp RK45", "rtol {}", partial(_by_scipy, "RK45"), coarse),
-            row("RK4 by hand", "steps of {} in ln r", _runge_kutta, thin),
-            row("even layers, matrix exponentials", "layers of {} in ln r", _even_layers, thin),
+            row("RK4", "steps of {} in ln r", _runge_kutta, thin),
+            row(
+                "homogeneous layers, matrix exponentials",
+                "layers of {} in ln r",
+                _even_layers,
+                thin,
+            ),
         ],
         useful=0.01,
         error=partial(scaled_error, true),
@@ -77,13 +83,13 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest error of an answer over the geometric mean of the two on the diagonal."""
+    """Largest error of a compliance, relative to the geometric mean of the two diagonal ones."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
     return float(np.max(abs((result - true).hi) / np.outer(own, own)))
 
 
 def _run(carry: Callable[..., Array], setting: float) -> Result:
-    """Answers of PREM, and at how many radii the matrix was asked for."""
+    """Compliances of PREM, and the number of radii at which the matrix was evaluated."""
     radii = 0
 
     def counted(
@@ -94,15 +100,15 @@ def _run(carry: Callable[..., Array], setting: float) -> Result:
             radii += r.size
             return matrix(r)
 
-        # Every method follows each solution by itself, `together` or not.
+        # Every method integrates each solution separately, so `together` is ignored.
         return carry(at, start, stop, y, setting)
 
-    carried: Carry = counted
-    return yielding(PREM, 0.0, carried).answers, radii
+    integration: Carry = counted
+    return yielding(PREM, 0.0, integration).answers, radii
 
 
 def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
-    """All columns as one system."""
+    """Integrate all columns as one system with SciPy."""
 
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
@@ -113,7 +119,7 @@ def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rt
 
 
 def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Runge and Kutta's rule in steps that grow with the radius."""
+    """Integrate by the classical Runge-Kutta method in steps proportional to the radius."""
     edges = _edges(start, stop, step)
     for r, after in pairwise(edges):
         h = after - r
@@ -127,7 +133,7 @@ def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: floa
 
 
 def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Propagators of thin layers that are even in ln r: exponentials of r M at their middles."""
+    """Multiply propagators of thin layers, exponentials of r M at their middles in ln r."""
     edges = _edges(start, stop, step)
     for r, after in pairwise(edges):
         middle = np.sqrt(r * after)
@@ -140,5 +146,5 @@ def _edges(start: float, stop: float, step: float) -> Array:
 
 
 def _at(matrix: Matrix, r: float) -> Array:
-    """The matrix at one radius."""
+    """Matrix of the equations at one radius."""
     return np.asarray(matrix(np.array([r]))[..., 0, :, :])

@@ -1,7 +1,7 @@
-r"""Places on orbits by their elements, against what one would type.
+r"""Ladder for positions on orbits by elements: the package, textbook methods and Skyfield.
 
-Others find the place in the plane of the orbit and turn it as a textbook does. With M the mean
-anomaly and J the functions of Bessel,
+The other methods compute the position in the plane of the orbit and rotate it as in a textbook.
+With M the mean anomaly and J the Bessel functions,
 
     cos E = -e/2 + sum (2/k) J_k'(k e) cos kM,    sin E = (2/e) sum J_k(k e)/k sin kM.
 """
@@ -22,15 +22,15 @@ from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse, Plane
 
-#: Coordinates in the plane of an orbit, x to the pericentre, m, and how often the costly function
-#: was evaluated.
+#: Coordinates in the plane of an orbit, x to the pericentre, m, and the number of evaluations of
+#: the costly function.
 Planar = tuple[FloatArray, FloatArray, int]
-#: From an ellipse, mean anomalies and a setting.
+#: Function of an ellipse, mean anomalies and a setting.
 InPlane = Callable[[Ellipse, FloatArray, float], Planar]
 
-#: Of the three ellipses on which places are asked for: the Earth's, and two that cost something.
+#: Eccentricities of the three ellipses: that of the Earth, and two for which iterations are slower.
 ECCENTRICITIES = (0.0167, 0.5, 0.99)
-#: A month, and a node that goes round in nineteen years.
+#: Elements with a period of a month and a node period of nineteen years; m, rad, rad/s.
 ELEMENTS = {
     "a": 4e8,
     "e": 0.5,
@@ -46,9 +46,9 @@ ELEMENTS = {
 PLANE = Plane(tuple(np.eye(3).ravel().tolist()))
 ORBIT = Ellipse(**ELEMENTS, plane=PLANE)
 ORBITS = tuple(Ellipse(**ELEMENTS | {"e": e}, plane=PLANE) for e in ECCENTRICITIES)
-#: So many places on each in so many turns; every second one in a quick run.
+#: Number of revolutions, and of positions on each ellipse; a quick run takes every second one.
 TURNS, TIMES = 30, 100
-#: Numbers that the stored reference was made for.
+#: Inputs of the stored reference.
 INPUTS = ELEMENTS | {
     "turns": TURNS,
     "times": TIMES,
@@ -58,9 +58,9 @@ ROUNDING = 1e-28
 
 
 def days() -> FloatArray:
-    """Days of the places, in sixteenths of a day, so that they are the same wherever made."""
-    turn = 2 * math.pi / ORBIT.motion / DAY
-    return np.asarray(np.rint(16 * np.linspace(0, TURNS * turn, TIMES)) / 16)
+    """Days of the positions, rounded to sixteenths so that they are the same on every machine."""
+    period = 2 * math.pi / ORBIT.motion / DAY
+    return np.asarray(np.rint(16 * np.linspace(0, TURNS * period, TIMES)) / 16)
 
 
 def ladder(quick: bool) -> Ladder:
@@ -68,7 +68,7 @@ def ladder(quick: bool) -> Ladder:
     true = load("elements", INPUTS)["places"]
     wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
     t = days()[wanted]
-    by_hand: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
+    others: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
         ("fixed-point iteration", "{} steps", _fixed_point, (5, 20, 80, 320)),
         ("Newton's method from M", "{} steps", _newton, (2, 4, 8, 16)),
         ("Newton's method, Danby's start", "{} steps", _danby, (2, 3, 4, 6, 8)),
@@ -78,17 +78,17 @@ def ladder(quick: bool) -> Ladder:
     ]
     by_elements = partial(_by_elements, t)
     methods = [method("ellipses by their elements", "", by_elements, bound=1e-13)]
-    for name, words, run, values in by_hand:
+    for name, words, run, values in others:
         few = values[1:3] if quick and len(values) > 1 else values
-        methods.append(method(name, words, partial(_placed, run, t), few))
+        methods.append(method(name, words, partial(_on_all_orbits, run, t), few))
     return Ladder(
         quantity="elements",
         unit="1",
-        problem="places on ellipses of eccentricity 0.0167, 0.5 and 0.99 whose nodes and "
-        f"pericentres turn, at {wanted.size} times in {TURNS} turns; the error is the largest, "
-        "over half the long axis",
-        subject="places by elements",
-        reference="Kepler's equation with 50 digits, kept to 32",
+        problem="positions on ellipses of eccentricity 0.0167, 0.5 and 0.99 whose nodes and "
+        f"pericentres precess, at {wanted.size} times in {TURNS} revolutions; the error is the "
+        "largest, relative to the semi-major axis",
+        subject="positions by elements",
+        reference="Kepler's equation with 50 digits, stored with 32",
         reference_error=ROUNDING,
         methods=methods,
         error=lambda places: _error((places - true[:, wanted]).hi),
@@ -96,27 +96,27 @@ def ladder(quick: bool) -> Ladder:
     )
 
 
-def _error(off: FloatArray) -> float:
-    """Largest of all places, off by so much, m, shape (3, n, 3)."""
-    return float(np.max(np.linalg.norm(off, axis=-1)) / ORBIT.a)
+def _error(difference: FloatArray) -> float:
+    """Largest length of the differences, m, shape (3, n, 3), relative to the semi-major axis."""
+    return float(np.max(np.linalg.norm(difference, axis=-1)) / ORBIT.a)
 
 
 def _by_elements(t: FloatArray) -> Result:
     return np.stack([orbit.positions(t) for orbit in ORBITS]), t.size * len(ORBITS)
 
 
-def _placed(run: InPlane, t: FloatArray, setting: float) -> Result:
-    """Places on all ellipses by a method that finds them in the plane, x to the pericentre."""
-    places, calls = [], 0
+def _on_all_orbits(run: InPlane, t: FloatArray, setting: float) -> Result:
+    """Positions on all ellipses by a method that computes them in the plane of the orbit."""
+    positions, calls = [], 0
     for orbit in ORBITS:
         x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)
-        places.append(_turned(orbit, t, x, y))
+        positions.append(_in_space(orbit, t, x, y))
         calls += more
-    return np.stack(places), calls
+    return np.stack(positions), calls
 
 
-def _turned(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """From the plane of the orbit to axes at rest, as a textbook does."""
+def _in_space(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Rotate positions from the plane of the orbit to inertial axes."""
     along = orbit.pericentre + orbit.pericentre_rate * DAY * t
     node = orbit.node + orbit.node_rate * DAY * t
     u, v = x * np.cos(along) - y * np.sin(along), x * np.sin(along) + y * np.cos(along)
@@ -126,7 +126,7 @@ def _turned(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> Floa
 
 
 def _on_ellipse(orbit: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
-    """From the cosine and sine of the eccentric anomaly."""
+    """Position in the plane from the cosine and sine of the eccentric anomaly."""
     return orbit.a * (cosine - orbit.e), orbit.a * math.sqrt(1 - orbit.e**2) * sine, int(calls)
 
 
@@ -145,7 +145,7 @@ def _newton(
 
 
 def _danby(orbit: Ellipse, mean: FloatArray, steps: float) -> Planar:
-    """From M + 0.85 e, on the side of the pericentre that M is on (Danby 1988)."""
+    """Newton's method from Danby's first estimate M + 0.85 e sign(sin M) (Danby 1988)."""
     return _newton(orbit, mean, steps, mean + 0.85 * orbit.e * np.sign(np.sin(mean)))
 
 
@@ -158,15 +158,16 @@ def _series(orbit: Ellipse, mean: FloatArray, terms: float) -> Planar:
 
 
 def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
-    """Place and velocity at the pericentre, m and m/s, and the GM that goes with them."""
-    fast = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
-    place, velocity = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0]), np.array([0.0, fast, 0.0])
-    return place, velocity, orbit.motion**2 * orbit.a**3
+    """Position (m) and velocity (m/s) at the pericentre, and GM (m3 s-2)."""
+    speed = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
+    position = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0])
+    velocity = np.array([0.0, speed, 0.0])
+    return position, velocity, orbit.motion**2 * orbit.a**3
 
 
 def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
-    """The equations of motion, from the pericentre before the first time."""
-    place, velocity, gm = _start(orbit)
+    """Integrate the equations of motion from the pericentre before the first time."""
+    position, velocity, gm = _start(orbit)
 
     def slopes(time: float, state: FloatArray) -> list[float]:
         x, y, u, v = state
@@ -174,15 +175,15 @@ def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
         return [u, v, pull * x, pull * y]
 
     since, size = mean / orbit.motion, np.array([orbit.a, orbit.a, velocity[1], velocity[1]])
-    start = [*place[:2], *velocity[:2]]
+    start = [*position[:2], *velocity[:2]]
     states, evaluations = integrate(slopes, start, since, rtol, atol=rtol * size)
     return states[:, 0], states[:, 1], evaluations
 
 
 def _skyfield(orbit: Ellipse, mean: FloatArray, setting: float) -> Planar:
-    """What Skyfield takes for comets, after SPICE."""
+    """Skyfield's propagator for comets, which follows SPICE."""
     from skyfield.keplerlib import propagate
 
-    place, velocity, gm = _start(orbit)
-    (x, y, _), _ = propagate(place, velocity, 0.0, mean / orbit.motion, gm)
+    position, velocity, gm = _start(orbit)
+    (x, y, _), _ = propagate(position, velocity, 0.0, mean / orbit.motion, gm)
     return x, y, mean.size

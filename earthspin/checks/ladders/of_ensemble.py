@@ -1,6 +1,7 @@
-"""What an uncertain H makes of the period of precession: members, drawn or spread; linear errors.
+"""Ladder for the uncertainty of the precession period due to H: ensembles and linear errors.
 
-The period is as 1/H, so that the ends of its central 95 % are those of H, turned over.
+The period is proportional to 1/H, so the ends of its central 95 % interval are the reciprocals of
+those of H.
 """
 
 from __future__ import annotations
@@ -19,18 +20,18 @@ from earthspin.engine.spread import quantiles
 from earthspin.many import ensemble
 from earthspin.scenes import QUESTIONS, run
 
-#: Relative standard uncertainty of H: so large that the period is not linear in it.
+#: Relative standard uncertainty of H, large enough that the period is not linear in H.
 UNCERTAINTY = 0.1
 NAME, TOTAL = "body.dynamical_flattening", {"perturber": "total"}
-#: Ends of the central 95 %.
+#: Quantiles at the ends of the central 95 % interval.
 ENDS = (0.025, 0.975)
-#: By how much H is off at an end, relative; what the period is then off by, half of both ends.
-OFF = float(ndtri(ENDS[1])) * UNCERTAINTY
-HALF_WIDTH = OFF / (1 - OFF * OFF)
+#: Relative half-widths of the central 95 % intervals of H and of the period.
+H_OFFSET = float(ndtri(ENDS[1])) * UNCERTAINTY
+HALF_WIDTH = H_OFFSET / (1 - H_OFFSET * H_OFFSET)
 MEMBERS, QUICK_MEMBERS = (100, 1000, 10_000), (100, 1000)
-#: Seeds that the rms error of drawn members is taken over.
+#: Number of seeds over which the rms error of drawn members is taken.
 SEEDS, FEW_SEEDS = 32, 4
-#: How far beyond what is expected of so many draws a rms over seeds may be, and over a few.
+#: Allowed rms error over all seeds and over a few seeds, relative to the expected scatter.
 EXCESS, QUICK_EXCESS = 1.5, 2.0
 
 
@@ -39,23 +40,25 @@ def ladder(quick: bool) -> Ladder:
     seeds = FEW_SEEDS if quick else SEEDS
     members = QUICK_MEMBERS if quick else MEMBERS
     scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])
-    drawn, by_numpy = ([_over_seeds(n, run, seeds) for n in members] for run in (_drawn, _by_hand))
-    spread = [Setting(f"{n:,} members", partial(_spread, n)) for n in members]
+    drawn, by_numpy = (
+        [_over_seeds(n, run, seeds) for n in members] for run in (_from_draws, _by_numpy)
+    )
+    spread = [Setting(f"{n:,} members", partial(_from_even_members, n)) for n in members]
     return Ladder(
         quantity="ensemble",
         unit="1",
-        problem="half-width of the central 95 % of the period of precession, if H has a relative "
+        problem="half-width of the central 95 % of the precession period, if H has a relative "
         f"standard uncertainty of {100 * UNCERTAINTY:g} %; the error is relative, with drawn "
         f"members the rms over {seeds} seeds, known to {100 / math.sqrt(2 * seeds):.0f} per cent",
         subject="the half-width of a number from an uncertain H",
-        reference="the closed form: the period is as 1/H, so that its quantiles follow from those "
-        "of the normal distribution",
+        reference="the closed form: the period is proportional to 1/H, so its quantiles follow "
+        "from those of the normal distribution",
         reference_error=1e-15,
         methods=[
             Method("members drawn", drawn, scatter),
-            Method("members spread evenly", spread, 5 / members[-1]),
-            method("linear errors", "", _linear, bound=1.1 * OFF * OFF),
-            Method("numpy, as 1/H", by_numpy),
+            Method("evenly spaced members", spread, 5 / members[-1]),
+            method("linear errors", "", _linear, bound=1.1 * H_OFFSET * H_OFFSET),
+            Method("numpy, period as 1/H", by_numpy),
         ],
         error=lambda widths: float(np.sqrt(np.mean((widths / HALF_WIDTH - 1) ** 2))),
         useful=0.3,
@@ -63,15 +66,15 @@ def ladder(quick: bool) -> Ladder:
 
 
 def expected_scatter(members: int) -> float:
-    """Relative scatter of a sampled half-width by the density of the period at its ends.
+    """Expected relative scatter of a sampled half-width.
 
-    A quantile of n draws scatters by sqrt(p (1 - p)/n) over the density there, and both ends are
-    correlated by p/(1 - p).
+    A quantile of n draws has the standard deviation sqrt(p (1 - p)/n) divided by the density, and
+    the two ends have the correlation p/(1 - p).
     """
-    p, at = ENDS[0], OFF / UNCERTAINTY
+    p, at = ENDS[0], H_OFFSET / UNCERTAINTY
     density = math.exp(-at * at / 2) / math.sqrt(2 * math.pi)
-    of_h = math.sqrt(p * (1 - p) / members) * UNCERTAINTY / density
-    low, high = of_h / (1 + OFF) ** 2, of_h / (1 - OFF) ** 2
+    scatter = math.sqrt(p * (1 - p) / members) * UNCERTAINTY / density
+    low, high = scatter / (1 + H_OFFSET) ** 2, scatter / (1 - H_OFFSET) ** 2
     both = math.sqrt(low * low + high * high - 2 * low * high * p / (1 - p)) / 2
     return both / HALF_WIDTH
 
@@ -80,23 +83,23 @@ def _over_seeds(members: int, run: Callable[[int, int], Result], seeds: int) -> 
     return Setting(
         f"{members:,} members",
         lambda: run(members, 0),
-        judged=lambda: np.concatenate([run(members, seed)[0] for seed in range(seeds)]),
+        error_values=lambda: np.concatenate([run(members, seed)[0] for seed in range(seeds)]),
     )
 
 
-def _drawn(members: int, seed: int) -> Result:
+def _from_draws(members: int, seed: int) -> Result:
     normal = {"normal": [H, UNCERTAINTY * H]}
     return _half_width({"n": members, NAME: normal}, seed), members
 
 
-def _spread(members: int) -> Result:
-    """Each member in the middle of its share of the distribution."""
+def _from_even_members(members: int) -> Result:
+    """Half-width from members in the middle of intervals of equal probability."""
     grid = H * (1 + UNCERTAINTY * ndtri((np.arange(members) + 0.5) / members))
     return _half_width({NAME: {"grid": grid.tolist()}}), members
 
 
 def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
-    """From quantiles of an ensemble, over the period of the body as it is."""
+    """Half-width from quantiles of an ensemble, relative to the period without uncertainty."""
     answer = ensemble("precession", members, seed=seed)
     low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
     return np.atleast_1d((high - low) / 2 / _period())
@@ -109,8 +112,8 @@ def _linear() -> Result:
     return np.atleast_1d(width.values), 1
 
 
-def _by_hand(members: int, seed: int) -> Result:
-    """One answer, and draws of 1/H over its own."""
+def _by_numpy(members: int, seed: int) -> Result:
+    """Half-width from a single answer, scaled by draws of 1/H."""
     period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
     drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)
     low, high = np.quantile(period / drawn, ENDS)

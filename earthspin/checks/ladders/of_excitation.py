@@ -1,12 +1,12 @@
-r"""Polar motion and its excitation: the exact pair against schemes that are only near.
+r"""Ladder for polar motion and its excitation: the exact schemes and approximate ones.
 
-The excitation is known: sinusoids and steps. So is its polar motion, in closed form: with
+The excitation consists of sinusoids and steps, and its polar motion has a closed form. With
 p' = i s (p - chi), a sinusoid chi = c exp(i w t) gives
 
     p = c [exp(i w t) - exp(i s t)] s/(s - w)
 
-and a step of size c at time u gives c [1 - exp(i s (t - u))] after it. The steps fall on times
-of every series, so that the mean over an interval is the sinusoids' and a constant.
+and a step of size c at time u gives c [1 - exp(i s (t - u))] after u. The steps occur at times of
+every series, so that they are constant within each interval.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_
 
 Complex = NDArray[np.complex128]
 
-#: Period (d), Q, and length of the series (d); quick ones are shorter.
+#: Period (d), quality factor, and length of the series (d), shorter in a quick run.
 PERIOD, QUALITY = 433.0, 100.0
 SPAN, SHORT_SPAN = 14400.0, 1440.0
-#: Amplitudes (mas) and periods (d) of the sinusoids; negative ones turn backwards.
+#: Amplitudes (mas) and periods (d) of the sinusoids; negative periods are retrograde.
 WAVES = ((15.0, 365.25), (6.0, -365.25), (4.0, 182.6), (3.0, -61.0), (2.0, 27.6))
 #: Sizes (mas) and times (d) of the steps.
 JUMPS = ((8.0 - 3.0j, 360.0), (-5.0 + 2.0j, 1080.0))
@@ -40,7 +40,7 @@ def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
     span = SHORT_SPAN if quick else SPAN
     steps = (10.0, 1.0) if quick else STEPS
-    to, back = partial(_to, span=span), partial(_from, span=span)
+    to, back = partial(_excitation_setting, span=span), partial(_polar_motion_setting, span=span)
     return Ladder(
         quantity="excitation",
         unit="mas",
@@ -68,7 +68,7 @@ def frequency() -> complex:
 
 
 def true_polar_motion(t: FloatArray) -> Complex:
-    """Polar motion that the excitation drives, mas."""
+    """Closed form of the polar motion, mas."""
     s = frequency()
     p = START * np.exp(1j * s * t)
     for size, period in WAVES:
@@ -81,7 +81,7 @@ def true_polar_motion(t: FloatArray) -> Complex:
 
 
 def true_mean(begin: FloatArray, length: float) -> Complex:
-    """Mean excitation over intervals that hold no step, mas."""
+    """Mean excitation over intervals, mas."""
     middle = begin + length / 2
     chi = np.zeros(begin.shape, dtype=complex)
     for size, period in WAVES:
@@ -92,17 +92,18 @@ def true_mean(begin: FloatArray, length: float) -> Complex:
 
 
 def weighting_error(step: float, *, resonant: bool) -> float:
-    """What it does that a response weighs an interval's end more than its start, mas.
+    """Bound on the error from replacing the weighted mean over an interval by the plain mean, mas.
 
-    An even mean of c exp(i w t) differs from the weighted one by c s w D^2/12, and the
-    polar motion that it drives by s/(s - w) times as much, and as much again at the start.
+    The plain mean of c exp(i w t) over an interval of length D differs from the mean with the
+    weights of the response by c s w D^2/12. The polar motion differs by s/(s - w) times as much,
+    and by the same amount again from the start.
 
     Parameters
     ----------
     step : float
-        D, d.
+        Interval D, d.
     resonant : bool
-        Of the polar motion, not of the excitation.
+        Return the error of the polar motion rather than that of the excitation.
     """
     s = frequency()
     total = 0.0
@@ -116,22 +117,22 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Return a scheme at every step; only the exact pair claims a bound."""
+    """Make a scheme with every step; only the exact schemes have a bound."""
     claimed = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
     bound = claimed if name.startswith("exact") else np.inf
     return Method(name, [setting(step) for step in steps], bound, task)
 
 
-def _to(scheme: str, step: float, span: float) -> Setting:
-    """Excitation by a scheme, and the true mean over the intervals that a value speaks for."""
+def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
+    """Excitation by a scheme, and the true mean over the interval of each value."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     intervals = 2 if scheme == "central difference" else 1
     p, true = true_polar_motion(t), true_mean(t[:-intervals], intervals * step)
     return Setting(f"{step:g} d", lambda: ((TO_EXCITATION[scheme](p, step, s), true), t.size))
 
 
-def _from(scheme: str, step: float, span: float) -> Setting:
-    """Polar motion by a scheme that takes the mean excitation of each interval."""
+def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
+    """Polar motion by a scheme from the mean excitation of each interval, and the true one."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     chi, true = true_mean(t[:-1], step), true_polar_motion(t)
     return Setting(

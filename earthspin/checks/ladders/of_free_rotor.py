@@ -1,20 +1,20 @@
-"""A triaxial rotor without torque: Jacobi's closed form against integrators."""
+"""Ladder for a free triaxial rotor: Jacobi's closed form and numerical integrators."""
 
 from __future__ import annotations
 
 from functools import partial
 
-from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation, periods
+from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, periods, scipy_methods
 from earthspin.checks.solvers.stepping import integrate, quaternion_rate
 from earthspin.checks.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import free_rotation
 
-#: kg m2 and rad/s: three different moments, a start that is near no axis.
+#: Three different moments (kg m2), and an angular velocity that is near no principal axis (rad/s).
 MOMENTS = (1.0, 1.7, 2.4)
 OMEGA = (0.5, 0.2, 0.8)
-#: Numbers that the stored reference was made for.
+#: Inputs of the stored reference.
 INPUTS = {"moments": MOMENTS, "omega": OMEGA}
 
 
@@ -32,11 +32,11 @@ def ladder(quick: bool) -> Ladder:
         [
             method("closed form", "", partial(_closed_form, t), bound=1e-13),
             method("integrate_rotation", "DOP853, rtol {}", partial(_integrated, t), fine, bound),
-            *by_hand("solve_ivp {}", _by_hand, t, tolerances),
+            *scipy_methods("solve_ivp {}", _by_scipy, t, tolerances),
         ],
         span=f"{count} periods of a free triaxial rotor",
         detail=", moments 1 : 1.7 : 2.4",
-        reference="the textbook's closed form (Whittaker) with 80 digits, kept to 32",
+        reference="the textbook's closed form (Whittaker) with 80 digits, stored with 32",
     )
 
 
@@ -50,8 +50,8 @@ def _integrated(t: FloatArray, rtol: float) -> Result:
     return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
-    """Euler's equations and the quaternion as one would type them."""
+def _by_scipy(method: str, t: FloatArray, rtol: float) -> Result:
+    """Integrate Euler's equations and the quaternion with SciPy."""
     a, b, c = MOMENTS
 
     def rates(_: float, state: FloatArray) -> list[float]:

@@ -1,4 +1,4 @@
-"""The spin axis over a million years: Newton in time and lanes against step-by-step solvers."""
+"""Ladder for the spin axis over a million years: two solvers of the package, and integrators."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from earthspin.secular.strength import Strength, Tides
 from earthspin.sky.orbit_table import OrbitTable, shipped
 
 KYR = 1000 * JULIAN_YEAR
-#: What is followed, s, and how many axes are asked for.
+#: Span of a full and of a quick run, s, and the number of times.
 SPAN, FEW, TIMES = 1000 * KYR, 100 * KYR, 101
-#: Some arcseconds a year for each, as they turn the Earth's axis.
+#: Precession constants, geodesic precession and tides near those of the Earth.
 STRENGTH = Strength(
     sun=17.384 * ARCSEC_PER_YEAR,
     moon=37.555 * ARCSEC_PER_YEAR,
@@ -34,11 +34,11 @@ STRENGTH = Strength(
     tides=Tides.of_the_earth(1.0, SPIN, 2 * np.pi / MOON.number("orbital_period")),
     node_rate=2 * np.pi / MOON.cycle,
 )
-#: Members side by side; a run of lanes is of all of them. Their steps should divide the windows of
-#: the orbit, 20,000 years, at whose ends it has corners: those of 3,000 years do not.
+#: Number of axes in one run of lanes. The steps of lanes should divide the windows of the orbit,
+#: 20,000 years, at whose ends its derivatives jump; steps of 3,000 years do not.
 MEMBERS = 64
-#: What steps of half and of a quarter of the length change in the reference, rad: rounding, which
-#: differs from processor to processor by up to 2.2e-12.
+#: Change of the reference with steps of half and a quarter of the length, rad. It is caused by
+#: rounding, which differs between processors by up to 2.2e-12.
 REFERENCE_ERROR = 4e-12
 #: Largest errors of the finest settings, rad.
 BOUND = 0.02 * ARCSEC
@@ -46,7 +46,7 @@ BOUND = 0.02 * ARCSEC
 
 @lru_cache
 def orbit() -> OrbitTable:
-    """The orbit of the Earth that is shipped."""
+    """Shipped orbit table of the Earth."""
     result = shipped(BODY.name)
     if result is None:
         raise LookupError(BODY.name)
@@ -54,7 +54,7 @@ def orbit() -> OrbitTable:
 
 
 def inputs() -> dict[str, Any]:
-    """Numbers that the stored reference was made for, and the checksum of the orbit."""
+    """Inputs of the stored reference, with the checksum of the orbit."""
     return {
         "orbit": orbit().sha256,
         "strength": asdict(STRENGTH),
@@ -64,7 +64,7 @@ def inputs() -> dict[str, Any]:
 
 
 def times(span: float) -> FloatArray:
-    """Times at which the axis is asked for, s, ascending; the last is J2000.0."""
+    """Times of the axes, s, ascending; the last is J2000.0."""
     return np.linspace(-span, 0.0, TIMES)
 
 
@@ -72,8 +72,8 @@ def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
     true = load("long-term", inputs())["quick" if quick else "axes"]
     start, t = true.hi[:, -1], times(FEW if quick else SPAN)
-    lean = Lean(t[0])
-    plain = partial(_scipy, as_it_stands)
+    fitted = FittedSlope(t[0])
+    plain = partial(_scipy, orbit_slope)
     words = "100,000 years" if quick else "a million years"
     nodes = (12, 16) if quick else (10, 12, 14, 16)
     steps = (4, 2) if quick else (8, 5, 4, 3, 2)
@@ -96,16 +96,16 @@ def ladder(quick: bool) -> Ladder:
             row("Newton in time", "{} nodes", partial(_newton, 1), nodes, BOUND),
             row("Newton in time, windows halved", "{} nodes", partial(_newton, 2), (6, 8), BOUND),
             row(f"lanes, {MEMBERS} members", "steps of {} kyr", _lanes, steps, BOUND),
-            row("DOP853 on the equation as it stands", "rtol {}", plain, loose[:3]),
-            row("DOP853 on a lean one", "rtol {}", partial(_scipy, lean), loose),
-            row("RK4 by hand, lean", "steps of {} kyr", partial(_by_hand, lean), hand),
+            row("DOP853, orbit at every step", "rtol {}", plain, loose[:3]),
+            row("DOP853, fitted equation", "rtol {}", partial(_scipy, fitted), loose),
+            row("RK4, fitted equation", "steps of {} kyr", partial(_runge_kutta, fitted), hand),
         ],
         error=lambda axes: float(np.max(np.linalg.norm((axes - true).hi, axis=0))),
         useful=1000 * ARCSEC,
     )
 
 
-# --- ours ----------------------------------------------------------------------------------------
+# --- methods of the package ----------------------------------------------------------------------
 
 
 def _newton(pieces: int, start: FloatArray, t: FloatArray, order: int) -> Result:
@@ -119,21 +119,21 @@ def _lanes(start: FloatArray, t: FloatArray, step: float) -> Result:
     return axes[..., 0], 12 * int(np.ceil(-t[0] / KYR / step))
 
 
-# --- what one would do ---------------------------------------------------------------------------
+# --- other methods -------------------------------------------------------------------------------
 
 Slope = Callable[[float, FloatArray], FloatArray]
 
 
-def as_it_stands(time: float, s: FloatArray) -> FloatArray:
-    """Slope of the axis, the orbit asked for at every step."""
-    now = np.array([time])
-    on = pull(STRENGTH, orbit().at(now), now)
-    m = on.axis[:, 0]
-    return np.cross(on.geodesic[:, 0] - on.constant[0] * (m @ s) * m, s)
+def orbit_slope(time: float, s: FloatArray) -> FloatArray:
+    """Rate of the axis, with the orbit evaluated at every step."""
+    times = np.array([time])
+    torque = pull(STRENGTH, orbit().at(times), times)
+    m = torque.axis[:, 0]
+    return np.cross(torque.geodesic[:, 0] - torque.constant[0] * (m @ s) * m, s)
 
 
-class Lean:
-    """The same slope from a polynomial for each window, in plain floats."""
+class FittedSlope:
+    """Rate of the axis from a polynomial fitted to each window of the orbit, in plain floats."""
 
     def __init__(self, begin: float) -> None:
         edges = orbit().edges
@@ -144,18 +144,18 @@ class Lean:
         self.series = []
         for left, right in pairwise(edges):
             t = (left + right) / 2 + (right - left) / 2 * nodes
-            on = pull(STRENGTH, orbit().at(t), t)
-            root = np.sqrt(on.constant) * on.axis
-            fit = legendre.legfit(nodes, np.concatenate([root, on.geodesic]).T, 19)
+            torque = pull(STRENGTH, orbit().at(t), t)
+            root = np.sqrt(torque.constant) * torque.axis
+            fit = legendre.legfit(nodes, np.concatenate([root, torque.geodesic]).T, 19)
             powers = [legendre.leg2poly(column) for column in fit.T]
             self.series.append(np.array([np.pad(p, (0, 20 - p.size)) for p in powers]))
         self.exponents = np.arange(20)
 
     def __call__(self, time: float, s: FloatArray) -> FloatArray:
-        """Slope of the axis."""
-        place = (time - self.start) / self.length
-        window = min(max(int(place), 0), len(self.series) - 1)
-        x = 2 * (place - window) - 1
+        """Rate of the axis."""
+        position = (time - self.start) / self.length
+        window = min(max(int(position), 0), len(self.series) - 1)
+        x = 2 * (position - window) - 1
         a, b, c, p, q, r = (self.series[window] @ x**self.exponents).tolist()
         u, v, w = s.tolist()
         lift = a * u + b * v + c * w
@@ -169,8 +169,8 @@ def _scipy(slope: Slope, start: FloatArray, t: FloatArray, rtol: float) -> Resul
     return axes / np.linalg.norm(axes, axis=0), evaluations
 
 
-def _by_hand(slope: Slope, start: FloatArray, times: FloatArray, kyr: float) -> Result:
-    """Runge and Kutta's rule in equal steps that meet the times."""
+def _runge_kutta(slope: Slope, start: FloatArray, times: FloatArray, kyr: float) -> Result:
+    """Integrate by the classical Runge-Kutta method in equal steps that include the times."""
     each = max(round(-times[0] / (TIMES - 1) / (kyr * KYR)), 1)
     step = times[0] / (TIMES - 1) / each
     s, axes = start, [start]
@@ -183,5 +183,5 @@ def _by_hand(slope: Slope, start: FloatArray, times: FloatArray, kyr: float) -> 
         s = s + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         if (number + 1) % each == 0:
             axes.append(s)
-    places = np.array(axes[::-1]).T
-    return places / np.linalg.norm(places, axis=0), 4 * (TIMES - 1) * each
+    vectors = np.array(axes[::-1]).T
+    return vectors / np.linalg.norm(vectors, axis=0), 4 * (TIMES - 1) * each

@@ -1,4 +1,4 @@
-"""The figure axis under Sun and Moon: Picard on Gauss windows against step-by-step solvers."""
+"""Ladder for the figure axis under Sun and Moon: Picard iteration and step-by-step integrators."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from earthspin.constants import DAY, UAS
 from earthspin.motion.axes import axis_path
 from earthspin.numerics.double_double import DoubleDouble
 
-#: d: what is followed, from J2000.0; the figure axis is asked for at so many times.
+#: Span from J2000.0 in a full and in a quick run, d, and the numbers of times.
 DAYS, FEW_DAYS = 730.0, 64.0
 TIMES, FEW_TIMES = 240, 60
-#: Numbers that the stored reference was made for.
+#: Inputs of the stored reference.
 INPUTS = {
     "h": H,
     "spin_rate": SPIN,
@@ -31,7 +31,7 @@ INPUTS = {
     "kernel": "de421",
     "days": DAYS,
 }
-#: Nodes by length of the window, d, and a bound on the error with the most nodes, uas.
+#: Numbers of nodes, and a bound on the error with the most nodes (uas), by window length (d).
 WINDOWS = {
     4: ((4, 6, 8, 10, 12, 14), 5e-4),
     8: ((4, 6, 8, 10, 12, 14, 16, 20), 5e-4),
@@ -39,15 +39,16 @@ WINDOWS = {
     32: ((6, 8, 12, 16), 5e3),
 }
 QUICK_WINDOWS = {8: ((6, 12, 20), 5e-4)}
-#: Of the solvers that follow each turn: no step is ever longer than a radian of it, so that
-#: tolerances hardly matter.
+#: Tolerance of the integrators that resolve each rotation. It hardly matters, because no step is
+#: longer than a radian of the rotation.
 TOLERANCE = 1e-9
-#: Steps of half the length change the reference by 1e-21, and no more free motion is left, rad.
+#: Bound on the error of the reference, rad: halving its steps changes it by 1e-21, and the
+#: remaining free motion is smaller.
 REFERENCE_ERROR = 1e-19
 
 
 def days() -> FloatArray:
-    """Times of the reference, d from J2000.0: quarters of days, many of them early."""
+    """Times of the reference in quarters of days from J2000.0, many of them early."""
     generator = np.random.default_rng(7)
     early = generator.choice(np.arange(4, 4 * FEW_DAYS), FEW_TIMES, replace=False)
     late = generator.choice(np.arange(4 * FEW_DAYS, 4 * DAYS), TIMES - FEW_TIMES, replace=False)
@@ -56,16 +57,16 @@ def days() -> FloatArray:
 
 @dataclass(frozen=True)
 class Motion:
-    """What is followed.
+    """Initial values and times of the motion.
 
     Attributes
     ----------
     start, momentum : ndarray, shape (3,)
         Figure axis, and angular momentum in units of C Omega, at J2000.0.
     times : ndarray, shape (n,)
-        At which the figure axis is asked for, s.
+        Times of the figure axes, s.
     end : float
-        Of the span, s.
+        End of the span, s.
     """
 
     start: FloatArray
@@ -85,7 +86,7 @@ def ladder(quick: bool) -> Ladder:
         true["start_axis"].hi, true["start_momentum"].hi, true["days"].hi[wanted] * DAY, span * DAY
     )
     windows = QUICK_WINDOWS if quick else WINDOWS
-    by_hand = ("LSODA",) if quick else ("RK45", "LSODA", "DOP853")
+    integrators = ("LSODA",) if quick else ("RK45", "LSODA", "DOP853")
     loose = (1e-6,) if quick else (1e-6, 1e-8)
 
     def row(name: str, words: str, run: Callable[..., Result], *rest: Any) -> Method:
@@ -97,10 +98,10 @@ def ladder(quick: bool) -> Ladder:
             for length, (nodes, bound) in windows.items()
         ),
         row("momentum and figure axis", "DOP853", _exact, None, 5e-4 * UAS),
-        row("whole attitude", "DOP853", _attitude, None, 5e-3 * UAS),
+        row("full attitude", "DOP853", _attitude, None, 5e-3 * UAS),
         *(
-            row(f"{name} on the pole alone", "rtol {}", partial(_by_hand, name), loose)
-            for name in by_hand
+            row(f"{name}, angular momentum only", "rtol {}", partial(_by_scipy, name), loose)
+            for name in integrators
         ),
     ]
     if taylor.is_installed():
@@ -127,7 +128,7 @@ def _error(axes: FloatArray, figure: DoubleDouble) -> float:
 
 
 def _picard(length: int, motion: Motion, order: int) -> Result:
-    """What the package does: windows of so many days, with so many nodes."""
+    """Axis solver of the package with windows of `length` days and `order` nodes."""
     span = (0.0, motion.end)
     path = axis_path(FORCES, motion.start, 0.0, span, window=length * DAY, order=order)
     return path.at(motion.times)["figure"], path.windows.times.size
@@ -144,8 +145,8 @@ def _exact(motion: Motion) -> Result:
 def _attitude(motion: Motion) -> Result:
     tide, times = Tide(motion.end), np.concatenate([[0.0], motion.times])
     start = attitude_about(motion.start, 0.0)
-    _, turned = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
-    return figure_axis(turned[1:]), tide.calls
+    _, attitude = attitude_motion(tide, H, 0.0, SPIN, motion.momentum, start, times, rtol=TOLERANCE)
+    return figure_axis(attitude[1:]), tide.calls
 
 
 def _peer(motion: Motion, tolerance: float) -> Result:
@@ -156,8 +157,11 @@ def _peer(motion: Motion, tolerance: float) -> Result:
     )
 
 
-def _by_hand(method: str, motion: Motion, rtol: float) -> Result:
-    """Integrate the angular momentum, torque taken along it; then tilt it to the first order."""
+def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
+    """Integrate the angular momentum with the torque of an aligned body, and add the tilt.
+
+    The tilt between angular momentum and figure axis is computed to first order.
+    """
     tide, tau = Tide(motion.end), (1 - H) / SPIN
 
     def rate(time: float, axis: FloatArray) -> FloatArray:

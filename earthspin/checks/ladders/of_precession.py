@@ -1,4 +1,4 @@
-"""Mean rate of precession from a window of torques: tapers, lengths, steps, and plain means."""
+"""Ladder for the mean precession rate from torques: tapers, window lengths, steps, plain means."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, 
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.torque.average import TAPERS, Window
 
-#: Epochs about which is averaged, d from J2000.0: no two meet the same Moon.
+#: Central epochs of the averages, d from J2000.0, at different phases of the Moon.
 EPOCHS: FloatArray = np.asarray(np.arange(-6, 7) * 1237.0)
-#: Points along the four angles for the mean of all time; fewer change it by 1e-14.
+#: Points along the four angles for the mean over infinite time; fewer change it by 1e-14.
 TORUS = (24, 16, 24, 16)
-#: Turns of the node, and days between samples, from coarse to fine.
+#: Length of the window in periods of the node, and days between samples, from coarse to fine.
 WINDOWS = ((3, 6), (3, 3), (3, 2), (4, 2), (5, 2), (6, 2), (7, 2), (8, 2), (8, 1))
 QUICK_WINDOWS = ((3, 3), (4, 2))
-#: Years over which one would take a plain mean.
-BY_HAND = (1.0, 18.0, 18.6, 19.0, 150.0)
-#: Largest error of each taper on its longest window: for tapers the slow swing that is claimed
-#: for the real Moon. The model has one, too: 4.1e-8 in 184 years, the time in which the
-#: perigee meets two turns of the node (3D + 3l' - l - 2F), longer than any window.
+#: Lengths of plain means, years.
+PLAIN_YEARS = (1.0, 18.0, 18.6, 19.0, 150.0)
+#: Largest allowed error of each taper with its longest window: for tapers, the claimed long-period
+#: variation with the real Moon. The model also has one: 4.1e-8 in 184 years, the period of the
+#: perigee relative to twice the node (3D + 3l' - l - 2F), which is longer than any window.
 BOUNDS = {"plain": 1e-3, "hann": 2e-7, "sin4": 2e-7, "blackman-harris": 2e-7}
 QUICK_BOUND = 1e-3
 
@@ -31,8 +31,8 @@ QUICK_BOUND = 1e-3
 def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
     epochs = EPOCHS[::4] if quick else EPOCHS
-    true, cycle = model_sky.torus_mean(TORUS), model_sky.turn_of_the_node()
-    windows, years = (QUICK_WINDOWS, BY_HAND[1:3]) if quick else (WINDOWS, BY_HAND)
+    true, cycle = model_sky.torus_mean(TORUS), model_sky.node_period()
+    windows, years = (QUICK_WINDOWS, PLAIN_YEARS[1:3]) if quick else (WINDOWS, PLAIN_YEARS)
     tapered = [
         Method(
             taper,
@@ -55,8 +55,8 @@ def ladder(quick: bool) -> Ladder:
         f"of ELP2000-82), from torques in a window; the error is the largest of {epochs.size} "
         "epochs, relative",
         subject="the mean rate of precession of a model Sun and Moon",
-        reference="mean over the torus of the four angles that the model hangs on, by the "
-        "trapezoid rule; no window is in it",
+        reference="mean over the torus of the four angles of the model, by the trapezoid rule, "
+        "without any window",
         reference_error=1e-14,
         methods=[*tapered, Method("plain mean over years", plain)],
         error=lambda means: float(np.max(np.abs(np.asarray(means) / true - 1))),
@@ -65,7 +65,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
-    """A window of this length about one epoch, timed, and about all, judged."""
+    """Window about one epoch for the run time, and about all epochs for the error."""
 
     def mean_about(
         epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque
@@ -82,14 +82,14 @@ def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArra
 
 
 def _daily_torque(times: FloatArray) -> FloatArray:
-    """Torque at whole days, from a series that is made once."""
+    """Torque at whole days, from a series that is computed once."""
     first, series = _series()
     return np.asarray(series[np.rint(times / DAY).astype(int) - first])
 
 
 @cache
 def _series() -> tuple[int, FloatArray]:
-    """First day and daily precessing torque of all windows about all epochs."""
-    longest = max(turns for turns, _ in WINDOWS) * model_sky.turn_of_the_node() / DAY
-    reach = int(max(longest, max(BY_HAND) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
+    """First day and daily precessing torques that cover all windows about all epochs."""
+    longest = max(turns for turns, _ in WINDOWS) * model_sky.node_period() / DAY
+    reach = int(max(longest, max(PLAIN_YEARS) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
     return -reach, model_sky.precessing_at(np.arange(-reach, reach + 1.0) * DAY)

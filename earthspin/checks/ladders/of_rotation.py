@@ -1,4 +1,4 @@
-"""The whole attitude of a tumbling moon: windows with their error against step-by-step solvers."""
+"""The full attitude of a tumbling moon: windows with their error against step-by-step solvers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation
+from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, scipy_methods
 from earthspin.checks.sky import eccentric_anomaly
 from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.checks.solvers.stepping import integrate, quaternion_rate
@@ -18,15 +18,15 @@ from earthspin.motion.march import Above
 from earthspin.motion.solution import Motion, start_of
 from earthspin.numerics.quaternion import conjugate, rotate
 
-#: A homogeneous ellipsoid of Hyperion's axes (360 x 266 x 205 km), (C - (A + B)/2)/C and (B - A)/C,
-#: on an ellipse about a mass of GM 1 with mean motion 1, its spin in that unit.
+#: (C - (A + B)/2)/C and (B - A)/C of a homogeneous ellipsoid with Hyperion's axes (360 x 266 x
+#: 205 km), on an ellipse with mean motion 1 about a mass with GM = 1; spin in the same unit.
 H, TRIAXIALITY = 0.29, 0.29
 ECCENTRICITY = 0.1
 OMEGA = (0.5, 0.3, 1.5)
-#: Time that is followed, of which the first part in a quick run; asked for at so many times.
+#: Span in a full and in a quick run, and the numbers of times.
 SPAN, SHORT = 16.0, 4.0
 TIMES, FEW = 32, 8
-#: Numbers that the stored reference was made for.
+#: Inputs of the stored reference.
 INPUTS = {
     "h": H,
     "triaxiality": TRIAXIALITY,
@@ -34,7 +34,7 @@ INPUTS = {
     "omega": list(OMEGA),
     "span": SPAN,
 }
-#: Steps of half the length change the reference by 4e-17.
+#: Bound on the error of the reference; halving its steps changes it by 4e-17.
 REFERENCE_ERROR = 5e-17
 
 
@@ -58,7 +58,9 @@ def ladder(quick: bool) -> Ladder:
         [
             method(words, "tolerance {}", windows, tolerances, 1e-6 if quick else 2e-11),
             method("attitude_motion", "DOP853, rtol {}", attitude, fine, 1e-5 if quick else 1e-9),
-            *by_hand("solve_ivp {}", _by_hand, t, {"DOP853": fine, "LSODA": fine, "RK45": coarse}),
+            *scipy_methods(
+                "solve_ivp {}", _by_scipy, t, {"DOP853": fine, "LSODA": fine, "RK45": coarse}
+            ),
         ],
         span=f"{(SHORT if quick else SPAN) / (2 * math.pi):.1f} orbits of a tumbling moon",
         detail=f" with three moments, eccentricity {ECCENTRICITY:g}",
@@ -76,7 +78,7 @@ def _places(t: FloatArray) -> FloatArray:
 
 
 def _windows(t: FloatArray, tolerance: float) -> Result:
-    """What the package does."""
+    """Attitude solver of the package, on Gauss windows."""
     body = Rigid(
         c_minus_a=np.array([H + TRIAXIALITY / 2]),
         c_minus_b=np.array([H - TRIAXIALITY / 2]),
@@ -91,7 +93,7 @@ def _windows(t: FloatArray, tolerance: float) -> Result:
 
 
 def _attitude(t: FloatArray, rtol: float) -> Result:
-    """The solver that checks the others."""
+    """Independent step-by-step solver of `earthspin.checks.solvers.attitude`."""
     calls = 0
 
     def tide(time: float) -> FloatArray:
@@ -102,15 +104,15 @@ def _attitude(t: FloatArray, rtol: float) -> Result:
 
     moments = np.array([1 - H - TRIAXIALITY / 2, 1 - H + TRIAXIALITY / 2, 1.0])
     start = np.array([1.0, 0.0, 0.0, 0.0])
-    momentum, turned = attitude_motion(
+    momentum, attitude = attitude_motion(
         tide, H, TRIAXIALITY, 1.0, moments * OMEGA, start, np.concatenate([[0.0], t]), rtol=rtol
     )
-    omega = rotate(conjugate(turned), momentum) / moments
-    return (omega[1:], turned[1:]), calls
+    omega = rotate(conjugate(attitude), momentum) / moments
+    return (omega[1:], attitude[1:]), calls
 
 
-def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
-    """Euler's equations, the quaternion and Kepler's equation as one would type them."""
+def _by_scipy(method: str, t: FloatArray, rtol: float) -> Result:
+    """Integrate Euler's equations and the quaternion with SciPy; positions by Kepler's equation."""
     a, b, c = 1 - H - TRIAXIALITY / 2, 1 - H + TRIAXIALITY / 2, 1.0
     shrink = math.sqrt(1 - ECCENTRICITY**2)
 
@@ -119,8 +121,8 @@ def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
         w, x, y, z = quaternion = state[3:]
         anomaly = time
         for _ in range(6):
-            rest = anomaly - ECCENTRICITY * math.sin(anomaly) - time
-            anomaly -= rest / (1 - ECCENTRICITY * math.cos(anomaly))
+            residual = anomaly - ECCENTRICITY * math.sin(anomaly) - time
+            anomaly -= residual / (1 - ECCENTRICITY * math.cos(anomaly))
         u, v = math.cos(anomaly) - ECCENTRICITY, shrink * math.sin(anomaly)
         pull = 3 / (u * u + v * v) ** 2.5
         xb = (w * w + x * x - y * y - z * z) * u + 2 * (x * y + w * z) * v

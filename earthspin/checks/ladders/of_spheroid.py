@@ -1,4 +1,4 @@
-"""Attraction and torque of a homogeneous spheroid: exact form against series and sums."""
+"""Ladder for attraction and torque of a homogeneous spheroid: exact form, series and sums."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from earthspin.numerics.double_double import DoubleDouble
 Field = Callable[[Any], tuple[Any, Any]]
 
 FLATTENING = 1 / 298.25
-#: Distances in equatorial radii: just outside, near, the Moon's, far, the Sun's.
+#: Distances in equatorial radii; 60 is the distance of the Moon, 2.35e4 that of the Sun.
 DISTANCES = (1.05, 1.5, 4.0, 60.0, 1e4, 2.35e4)
 LATITUDES = (-70.0, -30.0, 10.0, 45.0, 80.0)
 
@@ -28,9 +28,9 @@ ROUNDING = 1e-28
 
 
 def points() -> FloatArray:
-    """Points at which the field is asked for, in equatorial radii, by distance, shape (n, 3).
+    """Points of the field in equatorial radii, ordered by distance, shape (n, 3).
 
-    Rounded to 2^-30, so that they are the same wherever they are made.
+    Directions are rounded to 2^-30, so that they are the same on every machine.
     """
     azimuth = np.arange(0.3, len(LATITUDES))
     direction = unit_vectors(azimuth, np.radians(LATITUDES))
@@ -40,26 +40,26 @@ def points() -> FloatArray:
 
 def ladder(quick: bool) -> Ladder:
     """Return the methods, their settings and the reference."""
-    place = points()
-    true = load("spheroid", {"flattening": FLATTENING, "points": place.tolist()})
+    positions = points()
+    true = load("spheroid", {"flattening": FLATTENING, "points": positions.tolist()})
     degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
     cells = (4, 8) if quick else (4, 8, 12, 16, 20)
 
-    def setting(words: str, field: Field, where: Any = place) -> Setting:
+    def setting(words: str, field: Field, where: Any = positions) -> Setting:
         return Setting(words, lambda: (field(where), len(where)))
 
     textbook = [
         setting("float64", _arctangents),
-        setting("long double", _arctangents, place.astype(np.longdouble)),
+        setting("long double", _arctangents, positions.astype(np.longdouble)),
     ]
     return Ladder(
         quantity="spheroid",
         unit="1",
         problem=f"attraction and torque of a homogeneous spheroid of flattening 1/298.25 at "
-        f"{len(place)} points from 1.05 to 23,500 equatorial radii; the error is the largest of "
-        "both, relative to their sizes",
+        f"{len(positions)} points from 1.05 to 23,500 equatorial radii; the error is the largest "
+        "of both, relative to their sizes",
         subject="attraction and torque of a spheroid at any distance",
-        reference="the textbook's arctangents (MacMillan) with 80 digits, kept to 32",
+        reference="the textbook formula (MacMillan) with 80 digits, stored with 32",
         reference_error=ROUNDING,
         methods=[
             Method("exact", [setting("", _exact)], 1e-14),
@@ -67,7 +67,7 @@ def ladder(quick: bool) -> Ladder:
                 "zonal series", [setting(f"to degree {n}", partial(_series, n)) for n in degrees]
             ),
             Method("MacCullagh", [setting("", _maccullagh)]),
-            Method("textbook's arctangents", textbook),
+            Method("textbook formula", textbook),
             Method("sum over the body", [setting(f"{n}³ cells", partial(_sum, n)) for n in cells]),
         ],
         useful=0.1,
@@ -76,16 +76,16 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _error(result: Any, true: dict[str, DoubleDouble]) -> float:
-    """Largest relative error of both, over all points."""
+    """Largest relative error of attraction and torque over all points."""
     return max(float(np.max(relative_errors(result, true)[name])) for name in true)
 
 
 def relative_errors(result: Any, true: dict[str, DoubleDouble]) -> dict[str, FloatArray]:
     """Relative errors of attraction and torque at each point."""
     errors = {}
-    for values, (name, of) in zip(result, true.items(), strict=True):
-        off = np.linalg.norm((np.asarray(values) - of).hi, axis=1)
-        errors[name] = np.asarray(off / np.linalg.norm(of.hi, axis=1), dtype=np.float64)
+    for values, (name, exact) in zip(result, true.items(), strict=True):
+        error = np.linalg.norm((np.asarray(values) - exact).hi, axis=1)
+        errors[name] = np.asarray(error / np.linalg.norm(exact.hi, axis=1), dtype=np.float64)
     return errors
 
 
@@ -95,12 +95,12 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the body from a unit mass that it pulls along the axis by `push` too much."""
+    """Torque on the body from a unit mass at r, by the non-radial part `push` of the attraction."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 
 def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
-    """Zonal series by Legendre polynomials and their derivatives."""
+    """Attraction and torque by the zonal series to degree `n_max`."""
     zonals = spheroid_zonals(FLATTENING, n_max)
     distance = np.linalg.norm(r, axis=1)
     u = r[:, 2] / distance
@@ -117,7 +117,7 @@ def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
 
 
 def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
-    """Monopole and C - A alone (I.9.31, I.9.32)."""
+    """Attraction and torque of the monopole and C - A (I.9.31, I.9.32)."""
     bulge = (1 - (1 - FLATTENING) ** 2) / 5
     square = np.sum(r * r, axis=1)
     distance = np.sqrt(square)
@@ -128,7 +128,7 @@ def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _arctangents(r: Any) -> tuple[Any, Any]:
-    """Confocal coordinate by the quadratic, attraction by arctangents (MacMillan 1930)."""
+    """Attraction and torque by the textbook formula with arctangents (MacMillan 1930)."""
     one = r.dtype.type(1)
     c = one - r.dtype.type(FLATTENING)
     e2 = one - c * c
@@ -144,21 +144,21 @@ def _arctangents(r: Any) -> tuple[Any, Any]:
 
 
 def _sum(cells: int, r: FloatArray) -> tuple[Any, Any]:
-    """Sum over Gauss points in the radius and the latitude, even ones in longitude."""
+    """Attraction and torque by a sum over Gauss points in radius and latitude."""
     node, weight = np.polynomial.legendre.leggauss(cells)
     size, size_weight = (1 + node) / 2, weight / 2
-    turn = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)
-    s, u, phi = np.meshgrid(size, node, turn, indexing="ij")
+    longitude = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)
+    s, u, phi = np.meshgrid(size, node, longitude, indexing="ij")
     mass = 3 * s**2 * size_weight[:, np.newaxis, np.newaxis] * weight[:, np.newaxis]
-    mass = (mass / (4 * cells)).ravel()  # they add up to 1
+    mass = (mass / (4 * cells)).ravel()  # the total is 1
     across = s * np.sqrt(1 - u * u)
     body = np.stack(
         [across * np.cos(phi), across * np.sin(phi), s * u * (1 - FLATTENING)], axis=-1
     ).reshape(-1, 3)
     attraction, torque = np.empty_like(r), np.empty_like(r)
     for number, point in enumerate(r):
-        apart = body - point
-        pull = mass / np.sum(apart * apart, axis=1) ** 1.5
-        attraction[number] = pull @ apart
+        separation = body - point
+        pull = mass / np.sum(separation * separation, axis=1) ** 1.5
+        attraction[number] = pull @ separation
         torque[number] = np.cross(pull @ body, point)
     return attraction, torque

@@ -1,4 +1,4 @@
-"""A heavy symmetric top: the closed form against integrators."""
+"""Ladder for a heavy symmetric top: the closed form and numerical integrators."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from earthspin.checks.ladders.turning_bodies import by_hand, ladder_of_rotation, periods
+from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, periods, scipy_methods
 from earthspin.checks.solvers.heavy_top import integrate_heavy_top, state_of_angles
 from earthspin.checks.solvers.stepping import integrate
 from earthspin.checks.stored import load
@@ -14,7 +14,7 @@ from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 
-#: A top that nods in loops; kg m2, N m, rad, rad/s.
+#: A top whose axis draws loops; kg m2, N m, rad, rad/s.
 TOP = {
     "transverse_moment": 1.0,
     "axial_moment": 0.6,
@@ -40,11 +40,11 @@ def ladder(quick: bool) -> Ladder:
         [
             method("closed form", "", partial(_closed_form, t), bound=5e-13),
             method("integrate_heavy_top", "DOP853, rtol {}", partial(_integrated, t), fine, bound),
-            *by_hand("Euler angles, {}", _by_hand, t, tolerances),
+            *scipy_methods("Euler angles, {}", _by_scipy, t, tolerances),
         ],
         span=f"{count} nutations of a heavy top",
-        detail=" that goes in loops",
-        reference="the textbook's closed form (I.7.9 to I.7.17) with 80 digits, kept to 32",
+        detail=" with loops",
+        reference="the textbook's closed form (I.7.9 to I.7.17) with 80 digits, stored with 32",
     )
 
 
@@ -58,8 +58,8 @@ def _integrated(t: FloatArray, rtol: float) -> Result:
     return (motion.omega_body, motion.attitude), motion.evaluations
 
 
-def _by_hand(method: str, t: FloatArray, rtol: float) -> Result:
-    """The textbook's equations in the Euler angles (I.7.5 to I.7.8)."""
+def _by_scipy(method: str, t: FloatArray, rtol: float) -> Result:
+    """Integrate the textbook equations of the Euler angles (I.7.5 to I.7.8) with SciPy."""
     i1, i3, weight = TOP["transverse_moment"], TOP["axial_moment"], TOP["weight_moment"]
     spin = TOP["spin"]
     a = i3 * spin / i1

@@ -1,4 +1,4 @@
-"""Sun and Moon at the true equator of date: nutation from nodes, at each epoch, or none."""
+"""Ladder for Sun and Moon at the true equator of date: nutation interpolated, exact, or none."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FUKUSHIMA_WILLIAMS = (
     (-0.041775, 5038.481484, 1.5584175, -0.00018522, -0.000026452, -0.0000000148),
     (84381.406, -46.836769, -0.0001831, 0.00200340, -0.000000576, -0.0000000434),
 )
-#: What IAU 2006 changes in the nutation of IAU 2000A: scale, and rate of J2 per century
+#: Adjustments of IAU 2000A nutation to IAU 2006: scale, and effect of the J2 rate per century
 #: (Wallace & Capitaine 2006, Astron. Astrophys. 459, 981, eq. 5).
 SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 
@@ -48,10 +48,10 @@ def ladder(quick: bool) -> Ladder:
 
     def from_nodes(model: str, spacing: float) -> Result:
         nutation = iau.Nutation(*ends, model=model, spacing=spacing)
-        return _seen(nutation.true_equator(days), days), days.size
+        return _directions(nutation.true_equator(days), days), days.size
 
     def at_each(name: str, matrices: Callable[[], FloatArray], bound: float = math.inf) -> Method:
-        return method(name, "", lambda: (_seen(matrices(), days), days.size), bound=bound)
+        return method(name, "", lambda: (_directions(matrices(), days), days.size), bound=bound)
 
     nodes_a, nodes_b = partial(from_nodes, "2000A"), partial(from_nodes, "2000B")
     return Ladder(
@@ -75,22 +75,22 @@ def ladder(quick: bool) -> Ladder:
             at_each("mean equator alone", lambda: iau.mean_equator(days)),
             method("Skyfield, radec of date", "", _skyfield(days)),
         ],
-        error=lambda seen: float(np.max(np.linalg.norm(seen - true, axis=-1))),
+        error=lambda vectors: float(np.max(np.linalg.norm(vectors - true, axis=-1))),
         useful=1e3 * MAS,
     )
 
 
 def reference(days: FloatArray) -> LongArray:
     """True directions of Sun and Moon, shape (2, n, 3)."""
-    turn = long_matrix(days)
+    matrix = long_matrix(days)
     result = positions(days)
-    place = np.stack([result[name] for name in CODES]).astype(np.longdouble)
-    seen = np.sum(turn * place[:, :, np.newaxis, :], axis=-1)
-    return np.asarray(seen / np.sqrt(np.sum(seen * seen, axis=-1))[..., np.newaxis])
+    position = np.stack([result[name] for name in CODES]).astype(np.longdouble)
+    vectors = np.sum(matrix * position[:, :, np.newaxis, :], axis=-1)
+    return np.asarray(vectors / np.sqrt(np.sum(vectors * vectors, axis=-1))[..., np.newaxis])
 
 
 def long_matrix(days: FloatArray) -> LongArray:
-    """GCRS to true equator and equinox of date in long double, shape (n, 3, 3)."""
+    """Matrix from GCRS to true equator and equinox of date in long double, shape (n, 3, 3)."""
     t = days.astype(np.longdouble) / DAYS_PER_CENTURY
     gamma, phi, psi, obliquity = (
         np.polynomial.polynomial.polyval(t, np.array(angle, dtype=np.longdouble)) * _arcsec()
@@ -104,7 +104,7 @@ def long_matrix(days: FloatArray) -> LongArray:
 
 
 def long_nutation(t: LongArray) -> tuple[LongArray, LongArray]:
-    """Nutation of IAU 2000A as IAU 2006 adapts it, summed in long double, rad.
+    """Nutation of IAU 2000A adjusted to IAU 2006, summed in long double, rad.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def long_nutation(t: LongArray) -> tuple[LongArray, LongArray]:
     )
     linear = tables.anomaly_coefficient.astype(np.longdouble)[:, np.newaxis] * t
     planets = linear + tables.anomaly_constant.astype(np.longdouble)[:, np.newaxis]
-    planets[-1] *= t  # general precession has no constant, but a square
+    planets[-1] *= t  # general precession has linear and quadratic terms, but no constant
     longitude = np.zeros_like(t)
     obliquity = np.zeros_like(t)
     for first in range(0, t.size, 500):
@@ -132,9 +132,9 @@ def long_nutation(t: LongArray) -> tuple[LongArray, LongArray]:
         a, b = tables.nutation_coefficients_longitude, tables.nutation_coefficients_obliquity
         longitude[part] += a[:, 0] @ sine + a[:, 1] @ cosine
         obliquity[part] += b[:, 0] @ sine + b[:, 1] @ cosine
-    of_j2 = J2_RATE_2006 * t
+    j2_scale = J2_RATE_2006 * t
     unit = np.longdouble(1e-7) * _arcsec()
-    return longitude * (1 + SCALE_2006 + of_j2) * unit, obliquity * (1 + of_j2) * unit
+    return longitude * (1 + SCALE_2006 + j2_scale) * unit, obliquity * (1 + j2_scale) * unit
 
 
 def _arcsec() -> Any:
@@ -143,30 +143,30 @@ def _arcsec() -> Any:
 
 
 def _about(axis: int, angle: LongArray) -> LongArray:
-    """Matrices that turn the axes about one of them, shape (n, 3, 3)."""
+    """Matrices of rotations of the axes about one axis, shape (n, 3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
-    one, two = (axis + 1) % 3, (axis + 2) % 3
+    first, second = (axis + 1) % 3, (axis + 2) % 3
     matrix = np.zeros((angle.size, 3, 3), dtype=np.longdouble)
     matrix[:, axis, axis] = 1
-    matrix[:, one, one] = matrix[:, two, two] = c
-    matrix[:, one, two], matrix[:, two, one] = s, -s
+    matrix[:, first, first] = matrix[:, second, second] = c
+    matrix[:, first, second], matrix[:, second, first] = s, -s
     return matrix
 
 
-def _seen(turn: FloatArray, days: FloatArray) -> FloatArray:
-    """Directions of Sun and Moon, shape (2, n, 3)."""
+def _directions(matrix: FloatArray, days: FloatArray) -> FloatArray:
+    """Directions of Sun and Moon after a rotation, shape (2, n, 3)."""
     result = positions(days)
-    seen = np.stack([rotate(turn, result[name]) for name in CODES])
-    return np.asarray(seen / np.linalg.norm(seen, axis=-1, keepdims=True))
+    vectors = np.stack([rotate(matrix, result[name]) for name in CODES])
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def _skyfield_source(days: FloatArray) -> Callable[[], Result]:
-    """Skyfield as the package reads it."""
+    """Directions from the source "skyfield" of the package."""
     source = Skyfield(kernel())
 
     def run() -> Result:
-        seen = source.radec(CODES, CENTRE, days, iau.true_equator).values()
-        return np.stack([unit_vectors(ra, dec) for ra, dec, _ in seen]), days.size
+        coordinates = source.radec(CODES, CENTRE, days, iau.true_equator).values()
+        return np.stack([unit_vectors(ra, dec) for ra, dec, _ in coordinates]), days.size
 
     return run
 
@@ -177,7 +177,7 @@ def _skyfield_kernel() -> Any:
 
 
 def _skyfield(days: FloatArray) -> Callable[[], Result]:
-    """Skyfield as one uses it, with fresh times."""
+    """Directions from Skyfield's own functions, with new time objects in each run."""
     scale = load.timescale(builtin=True)
 
     def run() -> Result:

@@ -1,7 +1,7 @@
-"""The figure axis by a peer's Taylor integrator, heyoka, where that is installed.
+"""Figure axis by the Taylor integrator heyoka, if it is installed.
 
-Angular momentum and figure axis as in `earthspin.checks.solvers.momentum_and_figure`; Sun and Moon
-are polynomials in pieces of four days, as the kernel has them, whose coefficients are parameters,
+The equations are those of `earthspin.checks.solvers.momentum_and_figure`. The positions of Sun and
+Moon are polynomials over pieces of four days, as in the kernel. Their coefficients are parameters,
 so that the equations are compiled once.
 """
 
@@ -24,7 +24,7 @@ _OF_BODY = 3 * (DEGREE + 1)
 
 
 def is_installed() -> bool:
-    """Whether heyoka can be imported."""
+    """Return True if heyoka can be imported."""
     return find_spec("heyoka") is not None
 
 
@@ -37,7 +37,7 @@ def figure_axis(
     spin_rate: float,
     tolerance: float,
 ) -> tuple[FloatArray, int]:
-    """Figure axis at ascending days from J2000.0, shape (n, 3), and how many steps it took.
+    """Figure axis at ascending days from J2000.0, shape (n, 3), and the number of steps.
 
     Parameters
     ----------
@@ -45,9 +45,9 @@ def figure_axis(
         Angular momentum in units of C Omega and figure axis at J2000.0.
     days : ndarray, shape (n,)
     h, spin_rate : float
-        Of the body; rad/s.
+        Dynamical flattening and spin rate (rad/s) of the body.
     tolerance : float
-        Of a step.
+        Tolerance of a step.
     """
     integrator = _compiled(h, spin_rate, tolerance)
     integrator.time = 0.0
@@ -68,7 +68,7 @@ def figure_axis(
 
 
 def _pieces(end: float) -> FloatArray:
-    """Coefficients of powers of x in [-1, 1], per piece, for Sun and Moon, m."""
+    """Coefficients of powers of x in [-1, 1] for Sun and Moon in each piece, m."""
 
     def sun_and_moon(days: FloatArray) -> FloatArray:
         result = positions(days)
@@ -84,7 +84,7 @@ def _pieces(end: float) -> FloatArray:
 
 @cache
 def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
-    """Compile the equations; coefficients and the middle of the piece are parameters."""
+    """Compile the equations, with the coefficients and the middle of the piece as parameters."""
     import heyoka as hy
 
     state = *_, fx, fy, fz = hy.make_vars("lx", "ly", "lz", "fx", "fy", "fz")
@@ -105,7 +105,7 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
 
 
 def _polynomial(hy: Any, x: Any, first: int) -> Any:
-    """Horner's rule for the coefficients from parameter `first` on."""
+    """Polynomial by Horner's rule, with coefficients from parameter `first` on."""
     value = hy.par[first + DEGREE]
     for n in range(DEGREE - 1, -1, -1):
         value = value * x + hy.par[first + n]

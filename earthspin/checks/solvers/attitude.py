@@ -45,11 +45,11 @@ def attitude_motion(
     spin_rate : float
         Unit of spin, rad/s.
     momentum : ndarray, shape (3,)
-        At the first time, in units of C Omega, in the axes of the sky.
+        Angular momentum at the first time in the axes of the sky, in units of C Omega.
     quaternion : ndarray, shape (4,)
-        At the first time, scalar first, from the axes of the body to those of the sky.
+        Attitude at the first time, scalar first, from the axes of the body to those of the sky.
     times : ndarray, shape (t,)
-        s, in the order of integration.
+        Times in the order of integration, s.
     rtol : float
         Relative tolerance of a step.
 
@@ -63,29 +63,29 @@ def attitude_motion(
     torque_scale = 3 / spin_rate * np.array([c_minus_b, -c_minus_a, triaxiality])
 
     def slope(t: float, state: FloatArray) -> FloatArray:
-        turn = Rotation.from_quat(state[3:], scalar_first=True).as_matrix()
-        spin = spin_per_momentum * (state[:3] @ turn)
-        seen = turn.T @ tide(t) @ turn
-        torque = torque_scale * np.array([seen[1, 2], seen[0, 2], seen[0, 1]])
-        return np.concatenate([turn @ torque, quaternion_rate(state[3:], spin)])
+        matrix = Rotation.from_quat(state[3:], scalar_first=True).as_matrix()
+        spin = spin_per_momentum * (state[:3] @ matrix)
+        tensor = matrix.T @ tide(t) @ matrix
+        torque = torque_scale * np.array([tensor[1, 2], tensor[0, 2], tensor[0, 1]])
+        return np.concatenate([matrix @ torque, quaternion_rate(state[3:], spin)])
 
     start, radian = np.concatenate([momentum, quaternion]), 1 / abs(spin_rate)
     state, _ = integrate(slope, start, times, rtol, begin=times[0], max_step=radian)
     return state[:, :3], state[:, 3:]
 
 
-def attitude_about(axis: FloatArray, turned: float) -> FloatArray:
-    """Quaternion, scalar first, of a body whose third axis is given, turned about it.
+def attitude_about(axis: FloatArray, angle: float) -> FloatArray:
+    """Attitude quaternion, scalar first, from the third axis of the body and an angle about it.
 
     Parameters
     ----------
     axis : ndarray, shape (3,)
-        Unit vector in the axes of the sky.
-    turned : float
-        Angle of the body's first axis from the first of `equatorial_basis`, rad.
+        Third axis of the body, a unit vector in the axes of the sky.
+    angle : float
+        Angle of the body's first axis from the first vector of `equatorial_basis`, rad.
     """
     first, second = equatorial_basis(axis)
-    x = np.cos(turned) * first + np.sin(turned) * second
+    x = np.cos(angle) * first + np.sin(angle) * second
     frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
     return np.asarray(frame.as_quat(scalar_first=True))
 

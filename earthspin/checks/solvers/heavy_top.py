@@ -1,6 +1,6 @@
-"""The motion of a heavy top by numerical integration of Euler's equations (I.4.3).
+"""Motion of a heavy top by numerical integration of Euler's equations (I.4.3).
 
-It shares nothing with the closed form but the start, and so checks it.
+It is an independent check of the closed form, with which it shares only the initial state.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from earthspin.top.start import HeavyTop
 
 
 class IntegratedMotion(NamedTuple):
-    """Motion of one top, integrated.
+    """Numerically integrated motion of one top.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class IntegratedMotion(NamedTuple):
     omega_body : ndarray, shape (n, 3)
         Angular velocity along the principal axes of the body, rad/s.
     evaluations : int
-        How often the equations were evaluated.
+        Number of evaluations of the equations.
     """
 
     attitude: FloatArray
@@ -36,16 +36,16 @@ class IntegratedMotion(NamedTuple):
 def integrate_heavy_top(
     top: HeavyTop, times: ArrayLike, *, relative_tolerance: float = 1e-13
 ) -> IntegratedMotion:
-    """Motion of one top from Euler's equations with the torque of its weight (I.4.3).
+    """Integrate Euler's equations of one top with the torque of its weight (I.4.3).
 
     Parameters
     ----------
     top : HeavyTop
         One top.
     times : ndarray, shape (n,)
-        Ascending from the start at t = 0, s.
+        Ascending times from the start at t = 0, s.
     relative_tolerance : float
-        Of each step of the eighth-order Runge-Kutta method.
+        Relative tolerance of each step of the eighth-order Runge-Kutta method.
 
     Returns
     -------

@@ -1,10 +1,10 @@
-r"""An independent check: angular momentum and figure axis of an axisymmetric body, integrated.
+r"""Angular momentum and figure axis of an axisymmetric body by numerical integration.
 
     l' = N(F, t)/(C Omega),     F' = l x F / \tau,     \tau = A/(C Omega)
 
-with l in units of C Omega is exact at any spin, the free wobble included, but F turns once
-a day, so that the steps must be short (steps near a day resonate with it). It shares
-with `earthspin.motion.axes` the torque's formula and nothing else.
+With l in units of C Omega, these equations are exact at any spin and include the free wobble.
+Because F rotates about once a day, the steps must be short (steps near a day resonate with it). The
+solver shares only the formula of the torque with `earthspin.motion.axes`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def axisymmetric_motion(
     *,
     rtol: float = 1e-13,
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate the equations above with scipy's DOP853.
+    """Integrate angular momentum and figure axis with scipy's DOP853.
 
     Parameters
     ----------
@@ -39,11 +39,11 @@ def axisymmetric_motion(
     h : float
         (C - A)/C.
     spin_rate : float
-        About the figure axis, rad/s.
+        Angular velocity about the figure axis, rad/s.
     momentum, figure : ndarray, shape (3,)
-        At the first time: angular momentum in units of C Omega, and unit figure axis.
+        Angular momentum in units of C Omega and unit figure axis at the first time.
     times : ndarray, shape (t,)
-        s, in the order of integration.
+        Times in the order of integration, s.
     rtol : float
         Relative tolerance of a step.
 
@@ -69,7 +69,7 @@ def slopes(state: Any, pull: Any, h: float, spin_rate: float) -> list[Any]:
     pull : three numbers
         Tidal tensor times the figure axis, s-2.
     h, spin_rate : float
-        As of `axisymmetric_motion`.
+        See `axisymmetric_motion`.
     """
     tau = (1 - h) / spin_rate
     torque_scale = 3 * h / spin_rate

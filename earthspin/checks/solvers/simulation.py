@@ -1,4 +1,4 @@
-"""Simulated polar motion of known truth, to put the methods to the test."""
+"""Simulated polar motion with known parameters, for tests of the methods."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from earthspin.wobble.oscillator import DrivenOscillator
 from earthspin.wobble.record import NEAR, YEAR, Array, Complex, turning
 from earthspin.wobble.resonance import chandler_frequency
 
-#: Memory of the red excitation unless another one is given, d.
+#: Default correlation time of the red excitation, d.
 RED_MEMORY = 500.0
-#: Memories of the slow and the fast background, d, and their sizes over the wobble's.
+#: Correlation times of the slow and the fast background, d, and their sizes relative to the wobble.
 BACKGROUND = ((365.0, 0.08), (15.0, 0.06))
 
 
@@ -26,36 +26,36 @@ def simulate(
     memory: float = RED_MEMORY,
     seed: int | None = None,
 ) -> tuple[Array, Complex]:
-    """A driven wobble with seasons, drift and background, to put the methods to the test.
+    """Simulate a driven free wobble with seasonal terms, drift and background.
 
     Parameters
     ----------
     years : float
-        Of 365.25 d.
+        Length of the series, Julian years.
     period, quality_factor : float
-        Of the free wobble; d.
+        Period (d) and quality factor of the free wobble.
     step : float
-        d.
+        Time step, d.
     amplitude : float
-        Root mean square of the wobble that white noise drives, mas.
+        Root mean square of the wobble that white noise excites, mas.
     red : float
-        Root mean square of a red excitation that drives the wobble as well, mas.
+        Root mean square of an additional red excitation, mas.
     memory : float
-        Time in which the red excitation forgets, d.
+        Correlation time of the red excitation, d.
     seed : int, optional
 
     Returns
     -------
     time : array
-        d.
+        Times, d.
     p : complex array
-        mas. The background's level is that of the observed motion.
+        Polar motion, mas. The level of the background is that of the observed motion.
     """
     generator = np.random.default_rng(seed)
     time = np.arange(0.0, years * 365.25, step)
 
     def process(rate: complex, size: float) -> Complex:
-        """Stationary complex process with covariance size2 exp(rate |lag|)."""
+        """Draw a stationary complex process with covariance size2 exp(rate |lag|)."""
         kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
         keep = np.exp(rate * step)
         kick[1:] *= np.sqrt(1 - abs(keep) ** 2)
@@ -63,8 +63,8 @@ def simulate(
 
     rate = 2 * np.pi / period
     p = process(1j * rate - rate / (2 * quality_factor), amplitude)
-    for forgets, share in BACKGROUND:
-        p += process(-1 / forgets, share * amplitude)
+    for correlation_time, share in BACKGROUND:
+        p += process(-1 / correlation_time, share * amplitude)
     p += 94 * turning(time, YEAR) + 4.5 * turning(time, -YEAR) + 5 * turning(time, YEAR / 2)
     if red:
         driven = DrivenOscillator(chandler_frequency(period, quality_factor), memory, red=red**2)
@@ -75,12 +75,12 @@ def simulate(
 def red_size(
     period: float, quality_factor: float, share: float, memory: float, amplitude: float = 128.0
 ) -> float:
-    """Root mean square of the red excitation with a given share of the power, mas.
+    """Root mean square of a red excitation that has a given share of the power, mas.
 
     Parameters
     ----------
     period, quality_factor, memory, amplitude : float
-        As of `simulate`.
+        See `simulate`.
     share : float
         Share of red noise in the power of the excitation at the frequency of the wobble.
     """

@@ -1,4 +1,4 @@
-"""Step-by-step integration with SciPy, and the rates that several equations of motion share."""
+"""Step-by-step integration with SciPy, and the rate of a quaternion."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ def integrate(
     atol: ArrayLike | None = None,
     max_step: float = np.inf,
 ) -> tuple[FloatArray, int]:
-    """Integrate through the given times with `scipy.integrate.solve_ivp`.
+    """Integrate with `scipy.integrate.solve_ivp` and return the states at given times.
 
     Parameters
     ----------
     slope : callable
-        Time and state to rate of the state.
+        Rate of the state as a function of time and state.
     start : array_like
         State at `begin`.
     times : ndarray, shape (n,)
-        In the order of integration.
+        Times in the order of integration.
     rtol, method, atol, max_step
-        As of `solve_ivp`; the absolute tolerance is the relative one if it is not given, for
+        Arguments of `solve_ivp`. By default the absolute tolerance equals the relative one, for
         states of order 1.
     begin : float
-        Time of the start.
+        Time of the initial state.
 
     Returns
     -------
@@ -52,22 +52,22 @@ def integrate(
     UndefinedError
         If the integration does not reach the last time.
     """
-    done = solve_ivp(
+    solution = solve_ivp(
         slope, (begin, times[-1]), start, method, t_eval=times, rtol=rtol,
         atol=rtol if atol is None else atol, max_step=max_step,
     )  # fmt: skip
-    if not done.success:
-        raise UndefinedError(f"the integration stopped: {done.message}")
-    return done.y.T, int(done.nfev)
+    if not solution.success:
+        raise UndefinedError(f"the integration stopped: {solution.message}")
+    return solution.y.T, int(solution.nfev)
 
 
 def quaternion_rate(quaternion: Iterable[Any], omega: Iterable[Any]) -> list[Any]:
-    """Rate (1/2) q omega of an attitude, scalar first.
+    """Rate (1/2) q omega of an attitude quaternion, scalar first.
 
     Parameters
     ----------
     quaternion : four numbers
-        From the axes of the body to those of the sky.
+        Rotation from the axes of the body to those of the sky.
     omega : three numbers
         Angular velocity along the axes of the body.
     """

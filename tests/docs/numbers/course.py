@@ -37,7 +37,7 @@ MOTION, AXES, ROTOR, OBLATE, OBSERVED, LONG = map(
 )
 
 
-def turn_of_the_node() -> float:
+def node_period() -> float:
     """Years."""
     return float(MOON.cycle / JULIAN_YEAR)
 
@@ -76,7 +76,7 @@ def standstills() -> list[float]:
     return [
         obliquity,
         inclination,
-        turn_of_the_node(),
+        node_period(),
         obliquity + inclination,
         obliquity - inclination,
     ]
@@ -130,8 +130,8 @@ MEASURED = [
     ),
     Sentence(OBLATE, "inclination itself swing between {}° and {}°", inclinations),
     Sentence(OBSERVED, "observed to\ntake {}. What came after", lambda: of_c04("burg")[0], 5.0),
-    Sentence(OBSERVED, "the {} years of the Moon's node, makes the axis nod", turn_of_the_node),
-    Sentence(OBSERVED, "an ellipse in the {} years of the Moon's node", turn_of_the_node),
+    Sentence(OBSERVED, "the {} years of the Moon's node, makes the axis nod", node_period),
+    Sentence(OBSERVED, "an ellipse in the {} years of the Moon's node", node_period),
     Sentence(OBSERVED, "equilibrium that would be {} days; {} are observed", cores),
     Sentence(
         LONG,

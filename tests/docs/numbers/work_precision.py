@@ -169,7 +169,7 @@ MEASURED = [
         lambda: [
             *(
                 slower_than("pole", method, ("Picard, 8 d", "20 nodes"), "DOP853")
-                for method in ("momentum and figure axis", "whole attitude")
+                for method in ("momentum and figure axis", "full attitude")
             ),
             8,
             20,
@@ -205,7 +205,7 @@ MEASURED = [
         "is within ${}$ after\nthree turns of the node at {} times the run time",
         lambda: [
             row("mean-orbit", "sin4 window", "3 turns, 4 d").error,
-            slower_than("mean-orbit", "sin4 window", ("closed mean", ""), "3 turns, 4 d"),
+            slower_than("mean-orbit", "sin4 window", ("closed form", ""), "3 turns, 4 d"),
         ],
         factor=RUN_TIMES,
     ),
@@ -255,7 +255,7 @@ MEASURED = [
     Sentence(
         PAGE,
         "are off by ${}/n$ instead",
-        lambda: 1000 * row("ensemble", "members spread evenly", "1,000 members").error,
+        lambda: 1000 * row("ensemble", "evenly spaced members", "1,000 members").error,
     ),
     Sentence(
         PAGE,
@@ -275,7 +275,8 @@ MEASURED = [
         PAGE,
         "leaves {}″ at a relative $10^{-9}$ and {}″ at $10^{-10}$",
         lambda: [
-            row("long-term", "DOP853 on a lean one (other)", f"rtol 1e-{k}").error for k in (9, 10)
+            row("long-term", "DOP853, fitted equation (other)", f"rtol 1e-{k}").error
+            for k in (9, 10)
         ],
     ),
 ]

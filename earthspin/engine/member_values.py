@@ -1,6 +1,6 @@
-"""Values that are given member by member: in a Dataset, a file, or the text of a scene.
+"""Read one value for each member of an ensemble from a Dataset, a file or a scene.
 
-Numbers that are finite, or words that are all there.
+The values are finite numbers, or names without gaps.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from earthspin.units import unpack
 if TYPE_CHECKING:
     import xarray as xr
 
-#: The dimension of an ensemble.
+#: Name of the dimension of an ensemble.
 MEMBER = "member"
 
 
 def read_file(path: Path) -> xr.Dataset:
-    """Read values of members from a file: a table with a line of names, or netCDF or Zarr.
+    """Read values of members from a file: a CSV table with a line of names, netCDF or Zarr.
 
     Parameters
     ----------
     path : Path
-        Ends in ``.csv``, ``.nc`` or ``.zarr``.
+        Path that ends in ``.csv``, ``.nc`` or ``.zarr``.
 
     Raises
     ------
     OutputError, SceneError
-        If it cannot be read.
+        If the file cannot be read.
     """
     import xarray as xr
 
@@ -51,55 +51,56 @@ def read_file(path: Path) -> xr.Dataset:
         if path.suffix in (".nc", ".zarr"):
             with xr.open_dataset(path, **({} if path.suffix == ".nc" else _ZARR)) as dataset:
                 return dataset.load()
-    except Exception as error:  # whatever the libraries say of a file that is none
+    except Exception as error:  # pandas and xarray raise many types for damaged files
         raise OutputError(path, f"it cannot be read: {error}") from None
-    raise OutputError(path, "it is no file of members", "its name ends in .csv, .nc or .zarr")
+    raise OutputError(
+        path, "it is not a file of members", "its name must end in .csv, .nc or .zarr"
+    )
 
 
 _ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
 
 
-def of_dataset(given: Any, where: Where) -> dict[str, NDArray[Any]]:
-    """Values by name, from a Dataset along `member`; those of an ensemble that was made, too."""
+def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
+    """Values by name from a Dataset along `member`, which may be the answer of an ensemble."""
     values: dict[str, NDArray[Any]] = {}
-    for name, array in {**given.data_vars, **given.coords}.items():
-        if name == MEMBER or (name in given.coords and "input" not in array.attrs):
+    for name, array in {**dataset.data_vars, **dataset.coords}.items():
+        if name == MEMBER or (name in dataset.coords and "input" not in array.attrs):
             continue
-        if name in given.data_vars and any("input" in c.attrs for c in given.coords.values()):
-            continue  # an answer: its inputs are what is asked again
+        if name in dataset.data_vars and any("input" in c.attrs for c in dataset.coords.values()):
+            continue  # an answer of an ensemble: take its inputs, not its results
         inner = where.at(str(array.attrs.get("input", name)))
         if not array.dims or array.dims[0] != MEMBER:
-            words = f"its first dimension is '{MEMBER}'"
-            raise inner.error(f"dimensions {', '.join(map(str, array.dims)) or 'none'}", words)
+            problem = f"the first dimension must be '{MEMBER}'"
+            raise inner.error(f"dimensions {', '.join(map(str, array.dims)) or 'none'}", problem)
         values[str(array.attrs.get("input", name))] = _checked(array.values, inner)
     if not values or not all(len(array) for array in values.values()):
-        raise where.error("a Dataset", f"it holds no member; give variables along '{MEMBER}'")
+        raise where.error("a Dataset", f"it has no members; give variables along '{MEMBER}'")
     return values
 
 
-def from_scene(values: Any, where: Where) -> NDArray[Any]:
-    """Values of one input as `Members.write` gives them: bytes of numbers, or a list of words."""
+def values_from_scene(values: Any, where: Where) -> NDArray[Any]:
+    """Read values of one input, packed numbers or names, as `Members.write` writes them."""
     if isinstance(values, Mapping):
         return unpack(values, where)
-    return _words(np.array(values, dtype=object), where)
+    return _names(np.array(values, dtype=object), where)
 
 
 def _checked(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Numbers that are finite, or words that are all there."""
+    """Check that values are finite numbers, or a name for each member."""
     if values.dtype.kind not in "fiu":
-        return _words(values.astype(object), where)
+        return _names(values.astype(object), where)
     if not np.isfinite(values).all():
         whole = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
         raise where.error(f"member {int(np.argmin(whole))}", "give finite numbers")
     return values.astype(float)
 
 
-def _words(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Words along `member`, all of one width, as a store keeps them."""
+def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
+    """Return names along `member` as an array of text, as a store holds them."""
     if values.ndim != 1 or not values.size:
-        raise where.error(f"shape {values.shape}", "give one word for each member")
-    for place, word in enumerate(values):
-        if not isinstance(word, str):
-            words = "give finite numbers, or a word for each member"
-            raise where.error(f"member {place}", words)
+        raise where.error(f"shape {values.shape}", "give one name for each member")
+    for index, name in enumerate(values):
+        if not isinstance(name, str):
+            raise where.error(f"member {index}", "give finite numbers, or a name for each member")
     return values.astype(str)

@@ -1,4 +1,4 @@
-"""A torque of one's own: a function that is given in Python."""
+"""Custom torques: Python functions of time, attitude and angular velocity."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from numpy.typing import ArrayLike
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
 from earthspin.units import FloatArray, Plain, real_numbers
 
-#: Word for what a scene cannot hold.
-_LIVE = "live"
+#: Key in a scene for a function, which a scene cannot hold.
+_FUNCTION = "live"
 
 
 @dataclass(frozen=True)
-class OwnTorque:
-    """A torque of one's own.
+class CustomTorque:
+    """A custom torque.
 
     Attributes
     ----------
     law : callable
-        ``torque(t, q, omega)`` of times from the start (s), shape (n,), attitudes (n, 4) and
-        angular velocities along the body's axes (rad/s), shape (n, 3), to N m along the body's
-        axes, shape (n, 3).
+        ``torque(t, q, omega)`` that takes times from the start (s), shape (n,), attitudes, shape
+        (n, 4), and angular velocities along the body's axes (rad/s), shape (n, 3), and returns the
+        torque along the body's axes (N m), shape (n, 3).
     """
 
     law: Callable[[FloatArray, FloatArray, FloatArray], ArrayLike]
@@ -35,27 +35,28 @@ class OwnTorque:
     hint = "Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike]"
 
     @classmethod
-    def read(cls, value: object, where: Where) -> OwnTorque:
-        """Take a function; whether it gives a torque shows when it is called."""
-        if isinstance(value, OwnTorque):
+    def read(cls, value: object, where: Where) -> CustomTorque:
+        """Accept a function; its result is checked when it is called."""
+        if isinstance(value, CustomTorque):
             return value
-        if isinstance(value, Mapping) and _LIVE in value:
+        if isinstance(value, Mapping) and _FUNCTION in value:
             raise where.error(
-                value[_LIVE], "it was a function, which no scene can hold; give it again in Python"
+                value[_FUNCTION],
+                "it was a function, which no scene can hold; give it again in Python",
             )
         if not callable(value):
             raise where.error(value, f"give {cls.words}")
         return cls(value)
 
     def write(self) -> Plain:
-        """Say which function it was."""
+        """Return the name of the function, in place of the function itself."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
-        return {_LIVE: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
+        return {_FUNCTION: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """Torque divided by C, checked whenever it is called.
+        """Return a function for the torque divided by C, which checks every result.
 
         Parameters
         ----------
@@ -65,7 +66,7 @@ class OwnTorque:
         Raises
         ------
         UndefinedError
-            If it fails, or gives something else than a finite torque for each time.
+            If the function fails, or does not return a finite torque for each time.
         """
 
         def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
@@ -76,19 +77,18 @@ class OwnTorque:
                 values = np.broadcast_to(real_numbers(returned), omega.shape)
             except EarthspinError:
                 raise
-            except Exception as error:  # whatever somebody's function meets
-                words = one_line(error) or type(error).__name__
+            except Exception as error:  # any error of the user's function
+                reason = one_line(error) or type(error).__name__
                 raise UndefinedError(
-                    f"the torque of your own cannot be used at {times.size} times: {words}; it "
-                    f"takes arrays of shapes ({times.size},), ({times.size}, 4) and "
-                    f"({times.size}, 3) and gives N m of the last shape"
+                    f"the custom torque failed for {times.size} times: {reason}; it must take "
+                    f"arrays of shapes ({times.size},), ({times.size}, 4) and ({times.size}, 3) "
+                    "and return N m with the last shape"
                 ) from None
             finite = np.isfinite(values).all(axis=1)
             if not finite.all():
                 raise UndefinedError(
-                    "the torque of your own is not finite "
-                    f"{float(times[~finite][0]):.6g} s from the "
-                    "start; give N m for each time"
+                    f"the custom torque is not finite {float(times[~finite][0]):.6g} s from the "
+                    "start; return a finite torque for each time"
                 )
             return np.asarray(values / polar_moment)
 

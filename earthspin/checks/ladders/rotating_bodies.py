@@ -1,4 +1,4 @@
-"""What the ladders of rotations share: free rotor, top and tumbling moon."""
+"""Common functions of the ladders for rotations: free rotor, top and tumbling moon."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from earthspin.checks.stored import rotation_error
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.numerics.double_double import DoubleDouble
 
-#: Periods that are followed. Half of the stored times lie within the first few.
+#: Number of periods in a full and in a quick run, which uses the first half of the stored times.
 PERIODS, FEW_PERIODS = 100.0, 5.0
 TIMES = 40
-#: Of a reference that is kept to 32 digits.
+#: Rounding error of a reference with 32 digits.
 ROUNDING = 1e-28
 #: Relative tolerances of solvers of high order, and a bound on the error with the last one.
 FINE, BOUND = (1e-4, 1e-6, 1e-8, 1e-10, 1e-13), 1e-9
@@ -38,10 +38,10 @@ def ladder_of_rotation(
     true : mapping
         The stored reference.
     t : ndarray
-        Its times, or the first of them, s.
+        Times of the reference, or the first of them, s.
     methods : sequence of Method
     span, detail : str
-        What is followed, and the rest of the problem's description.
+        Description of the motion, and the rest of the problem's description.
     reference : str
         Source of the true values.
     reference_error : float
@@ -64,42 +64,42 @@ def ladder_of_rotation(
 def periods(
     true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
-    """Extent of a ladder whose reference is stored over a hundred periods.
+    """Times, tolerances and bound of a ladder whose reference covers a hundred periods.
 
     Returns
     -------
     times : ndarray
-        s.
+        Times, s.
     count : str
-        Number of periods in words.
+        Number of periods as text.
     tolerances : tuple of float
-        Of solvers of high order.
+        Tolerances of high-order integrators.
     bound : float
-        On the error with the last tolerance.
+        Bound on the error with the last tolerance.
     """
     if quick:
         return true["times"].hi[: TIMES // 2], f"{FEW_PERIODS:g}", FEW_FINE, FEW_BOUND
     return true["times"].hi, f"{PERIODS:g}", FINE, BOUND
 
 
-def by_hand(
+def scipy_methods(
     words: str,
     run: Callable[[str, FloatArray, float], Result],
     t: FloatArray,
     tolerances: Mapping[str, Sequence[float]],
 ) -> list[Method]:
-    """Return methods of SciPy set by hand, with their relative tolerances.
+    """Make a `Method` for each SciPy integrator with its relative tolerances.
 
     Parameters
     ----------
     words : str
-        With braces in the place of the method's name.
+        Label with braces for the name of the integrator.
     run : callable
-        From the method, times and a relative tolerance.
+        Function of the name, times and a relative tolerance.
     t : ndarray
-        s.
+        Times, s.
     tolerances : mapping
-        By method.
+        Relative tolerances by name of the integrator.
     """
     return [
         method(words.format(name), "rtol {}", partial(run, name, t), steps)
