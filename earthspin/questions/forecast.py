@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -26,16 +26,13 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.errors import SceneError, Where
+from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
 from earthspin.parts.reasons import no_iau_model
-from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
+from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion, read_pole_offsets
 from earthspin.units import FloatArray, Number, Plain, pack, unpack
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
-
-if TYPE_CHECKING:
-    pass
 
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
@@ -90,8 +87,9 @@ class Forecast(
     Dataset
         Over `time`, from the day after the origin: `x`, `y` (arcsec) with their 95 % half-widths,
         and `correlation_xy`, the correlation of the errors. `earthspin.run_tree` adds `components`
-        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon, and
-        `bulletin_a`, the prediction of Bulletin A from the same table if it has one.
+        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon,
+        `bulletin_a`, the prediction of Bulletin A from the same table if it has one, and
+        `pole_offsets`, the forecast of the celestial pole offsets from the same table.
 
     Raises
     ------
@@ -341,12 +339,14 @@ class BulletinA(AheadOfOrigin):
     bulletin_a_y: Pair = measured("arcsec", "y as Bulletin A predicts it")
 
 
-def not_in_file(file: Any, origin: float | None) -> str | None:
-    """Leave Bulletin A out where the table has no prediction from the same origin."""
+def not_in_file(file: Any, origin: float | None, days: float) -> str | None:
+    """Leave Bulletin A out where the table has no prediction from the same origin as far ahead."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
-    if isinstance(file, GivenPole) or read_bulletin_a(file) is None:
+    if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
         return "the table holds no predictions of Bulletin A"
+    if table.mjd.size < days:
+        return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
     return None
 
 
@@ -355,13 +355,64 @@ def bulletin_a(file: Any, record: Record, days: float, step: float) -> BulletinA
     """Prediction of Bulletin A in the same table, with 1.96 times its standard deviations."""
     table = read_bulletin_a(file)
     assert isinstance(table, PoleSeries)
-    shown = (table.mjd - _MJD - record.time[-1]) <= days
-    rows = np.flatnonzero(shown)[_shown(days, step)]
+    rows = _shown(days, step)
     return BulletinA(
         time=datetime64(table.mjd[rows] - _MJD),
         bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
         bulletin_a_y=(table.y[rows], NORMAL_95 * table.y_error[rows]),
     )
+
+
+class AheadOffsets(AheadOfOrigin):
+    """Forecast of the celestial pole offsets."""
+
+    dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
+    dY: Pair = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
+
+
+def offsets_until(file: Any, last: float | None) -> PoleSeries:
+    """Observed celestial pole offsets of a table up to a day from J2000.0, all if None."""
+    table = read_pole_offsets(file)
+    return table if last is None else table.between(table.mjd[0], last + _MJD)
+
+
+def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Celestial pole offsets after the last observed ones and their half-widths, shape (n, 2)."""
+    from earthspin.nutation.offset_prediction import predict
+
+    return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
+
+
+def no_offsets(file: Any, origin: float | None, days: float) -> str | None:
+    """Leave the offsets out where the table holds too few of them up to the origin."""
+    from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
+    from earthspin.nutation.offset_prediction import too_short
+
+    if isinstance(file, GivenPole):
+        return "polar_motion holds no celestial pole offsets; name a table"
+    try:
+        table = offsets_until(file, origin)
+        newest = read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + _MJD)
+    except SeriesError as error:
+        return str(error)
+    if "bridged" in table.repairs:
+        return "the table lacks days of celestial pole offsets"
+    longest = newest + int(days) - table.mjd[-1]
+    if longest > FARTHEST:
+        return f"the last offset is {newest - table.mjd[-1]:.0f} d older than the origin"
+    return too_short(table.mjd.size, longest)
+
+
+@part(unless=no_offsets)
+def pole_offsets(file: Any, record: Record, days: float, step: float) -> AheadOffsets:
+    """Forecast of the celestial pole offsets, from observed ones up to the origin."""
+    table = offsets_until(file, float(record.time[-1]))
+    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + _MJD
+    value, error = (pair.T for pair in predicted_offsets(table, mjd))
+    source = {"references": f"IERS {table.name}", "newest_row": _day(table.mjd[-1] - _MJD)}
+    return AheadOffsets(
+        time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
+    ).with_attributes(dX=source, dY=source)
 
 
 @part
@@ -380,6 +431,7 @@ define_parts(
         "components": components,
         "skill": skill,
         "bulletin_a": bulletin_a,
+        "pole_offsets": pole_offsets,
         "neglected": neglected,
     },
     parts=(record, predicted),
