@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
@@ -124,6 +123,8 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
     weight : ndarray, shape (t,)
         Weight of each day by its error, before it fades.
     """
+    from scipy.signal import lfilter
+
     turned = circle(time)
 
     def total(values: ComplexArray | FloatArray, fall: float) -> ComplexArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from earthspin.dates import Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
+from earthspin.engine.plan import plan_parts
 from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.run import run_parts
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -29,10 +31,20 @@ from earthspin.engine.variables import (
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
 from earthspin.parts.reasons import no_iau_model
-from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion, read_pole_offsets
+from earthspin.sky.eop import (
+    PoleSeries,
+    file_of,
+    finals_path,
+    read_bulletin_a,
+    read_polar_motion,
+    read_pole_offsets,
+)
 from earthspin.units import FloatArray, Number, Plain, pack, unpack
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
+
+if TYPE_CHECKING:
+    from earthspin.sky.iers_table import PoleTable
 
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
@@ -438,3 +450,35 @@ define_parts(
 )
 
 forecast = public_call(Forecast)
+
+
+def iers_table(question: Forecast) -> PoleTable:
+    """Table of Earth orientation for astropy, with this forecast after the origin.
+
+    Raises
+    ------
+    SceneError
+        If polar motion was given without a table, or finals2000A has no UT1 - UTC as far ahead.
+    """
+    from earthspin.sky.iers_table import last_ut1, with_pole
+
+    results = run_parts(plan_parts(question, ["pole_offsets"])).results
+    seen: Record = results["record"]
+    mjd, horizon = seen.time + _MJD, int(question.days)
+    offsets = offsets_until(question.file, float(seen.time[-1]))
+    rapid = file_of(question.file) if offsets.name == "finals2000A" else finals_path()
+    if (reach := last_ut1(rapid) - mjd[-1]) < horizon:
+        problem = f"{rapid.name} has UT1-UTC for {reach:.0f} d after the origin; take no more days"
+        raise SceneError("days", f"{question.days:g} d", problem)
+    p = np.concatenate([seen.p, results["predicted"].pole]) * MAS
+    pole = np.array([_continued(mjd, mjd[-1] + horizon), p.real, -p.imag])
+    days = _continued(offsets.mjd, mjd[-1] + horizon)
+    later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])
+    observed = np.stack([offsets.x, offsets.y], axis=1)
+    last = (float(mjd[-1]), float(offsets.mjd[-1]))
+    return with_pole(rapid, pole, np.array([days, *np.concatenate([observed, later]).T]), last)
+
+
+def _continued(mjd: FloatArray, last: float) -> FloatArray:
+    """Daily dates continued to a last one."""
+    return np.concatenate([mjd, np.arange(mjd[-1] + 1, last + 0.5)])

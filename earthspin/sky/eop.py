@@ -200,7 +200,7 @@ def finals_path() -> Path:
 CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
-def _file(path: str | Path) -> Path:
+def file_of(path: str | Path) -> Path:
     """File of a path, or of a word for one that astropy includes."""
     return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
 
@@ -244,7 +244,7 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
     """Read two coordinates; a file that has not changed since the last time is not parsed again."""
-    file = _file(path)
+    file = file_of(path)
     lines_of(file)  # refuses what cannot be read
     return _parsed(file, checksum(file), kind, pair.name)
 
@@ -341,7 +341,7 @@ def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
     PoleSeries or None
         None if the table has no predictions.
     """
-    file = _file(path)
+    file = file_of(path)
     lines = lines_of(file)
     if _kind(file, lines) != "finals2000A":
         return None

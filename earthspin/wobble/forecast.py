@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
 
 from earthspin.errors import UndefinedError
 from earthspin.wobble.burg import burg
@@ -250,6 +249,8 @@ def fit(p: Complex) -> FastExcitation:
     p : complex array, shape (n,)
         As of `forecast`.
     """
+    from scipy.optimize import minimize
+
     record = last_of(p)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
 

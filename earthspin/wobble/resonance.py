@@ -14,7 +14,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from earthspin.errors import UndefinedError
 
@@ -121,6 +120,8 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
     complex array, shape (n + 1,)
         Polar motion at the ends of the steps, the start included.
     """
+    from scipy.signal import lfilter
+
     decay, rise = _response(step, s)
     driven = lfilter([rise], [1.0, -decay], chi, zi=np.array([decay * start]))[0]
     return np.concatenate([[start], driven])
@@ -153,6 +154,8 @@ def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
 
 def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
     """Polar motion by explicit Euler steps, shape (n + 1,); its amplitude grows without cause."""
+    from scipy.signal import lfilter
+
     growth = 1 + 1j * s * step
     driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
     return np.concatenate([[start], driven])

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -67,6 +66,8 @@ class StateSpace:
         error : array, shape (2, 2)
         start : array, shape (2 n, 2 n)
         """
+        from scipy.linalg import expm
+
         matrix = side_by_side(rates)
         size = len(matrix)
         block = np.block([[-matrix, density], [np.zeros_like(matrix), matrix.T]])
