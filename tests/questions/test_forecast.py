@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import earthspin
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 from earthspin.views import forecast as views
+from earthspin.wobble.forecast import SKILL
 
 ORIGIN = "2018-06-01"
 
@@ -208,6 +210,19 @@ def test_the_ellipse_holds_as_many_draws_as_it_claims(ahead: xr.Dataset) -> None
     along = (draws - centre) @ [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
     inside = (2 * along / [ellipse.width, ellipse.height]) ** 2
     assert abs(np.mean(inside.sum(axis=1) <= 1) - 0.95) < 0.006
+
+
+def test_figures_of_a_hindcast_and_skill_as_measured(ahead: xr.Dataset) -> None:
+    assert len(ahead.earthspin.plot()) == 3
+    table = json.loads(SKILL.read_text(encoding="utf-8"))
+    released = [row for row in table if row["set"] == "releases"]
+    errors, shares = views.plot_skill(ahead).axes
+    drawn = {line.get_label(): line for line in errors.lines}["Bulletin A, releases"]
+    assert list(drawn.get_xdata()) == [row["horizon"] for row in released]
+    other = [np.mean(row["other_mae"]) for row in released]
+    assert np.allclose(np.asarray(drawn.get_ydata()), other, rtol=0, atol=1e-12)
+    lowest = min(np.mean(row["coverage"]) for row in table)
+    assert shares.get_ylim()[0] < 100 * lowest
 
 
 def test_days_that_repeat_are_refused() -> None:
