@@ -42,7 +42,8 @@ Result = tuple[Any, int]
 #: Quantities, each with a module of `earthspin.checks.ladders`.
 QUANTITIES = (
     "precession", "torque", "pole", "long-term", "elements", "mean-orbit", "rotation",
-    "free-rotor", "top", "spheroid", "excitation", "chandler", "compliances", "ensemble",
+    "free-rotor", "top", "spheroid", "excitation", "chandler", "forecast", "compliances",
+    "ensemble",
 )  # fmt: skip
 
 #: A sample lasts at least so long, s; there are so many, or fewer of runs above `LONG_RUN`.
@@ -296,7 +297,8 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     quantity : str
         ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"elements"``,
         ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
-        ``"excitation"``, ``"chandler"``, ``"compliances"`` or ``"ensemble"``.
+        ``"excitation"``, ``"chandler"``, ``"forecast"``, ``"compliances"`` or
+        ``"ensemble"``.
     quick : bool
         A short problem with few settings, in a second or two.
 
