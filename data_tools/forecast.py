@@ -22,38 +22,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.checks.ladders.of_forecast import usual
 from earthspin.constants import MAS, NORMAL_95
 from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
-from earthspin.wobble.burg import burg
-from earthspin.wobble.forecast import PERIOD, SKILL, forecast
-from earthspin.wobble.record import YEAR
+from earthspin.wobble.forecast import SKILL, forecast
 
 Array = NDArray[np.float64]
 HORIZONS = (1, 3, 5, 10, 30, 90, 180, 365, 730)
 #: Modified Julian dates of 2005-01-01, 2014-01-01 and 2026-01-01, and days between origins.
 FIRST, MIDDLE, LAST, EVERY = 53371, 56658, 61041, 30
-#: The usual way: years of the least squares, and order of the autoregression.
-USUAL_YEARS, USUAL_ORDER = 8, 40
+#: Years of the least squares of the usual way.
+USUAL_YEARS = 8.0
 #: Name of the set of releases.
 RELEASED = "releases"
 PACKAGE = "astropy-iers-data"
 RELEASES = Path.home() / ".cache" / "earthspin" / PACKAGE
 PAGE = Path(__file__).parent.parent / "docs" / "measured" / "forecast-skill.inc"
-
-
-def usual(p: Any, days: int) -> Any:
-    """Least squares with a free wobble, seasons and a line, and autoregression of the residual."""
-    count = round(USUAL_YEARS * YEAR)
-    t = np.arange(-count + 1, days + 1) / YEAR
-    rates = 2j * np.pi * np.array([1, -1, 2, -2, YEAR / PERIOD])
-    columns = np.column_stack([np.exp(np.outer(t, rates)), np.ones_like(t), t])
-    past, future = columns[:count], columns[count:]
-    fitted = np.linalg.lstsq(past, p[-count:], rcond=None)[0]
-    residual = list(p[-count:] - past @ fitted)
-    filter_ = burg(np.array(residual), USUAL_ORDER)
-    for _ in range(days):
-        residual.append(-np.dot(filter_[1:], residual[: -USUAL_ORDER - 1 : -1]))
-    return future @ fitted + np.array(residual[count:])
 
 
 def pole(table: PoleSeries) -> Any:
@@ -88,7 +72,7 @@ def hindcasts() -> tuple[Array, Array, Array, Array]:
         ahead = forecast(p[:after], HORIZONS[-1])
         errors.append(at_horizons(ahead.pole) - truth)
         widths.append(half_widths(ahead.covariance))
-        others.append(at_horizons(usual(p[:after], HORIZONS[-1])) - truth)
+        others.append(at_horizons(usual(p[:after], HORIZONS[-1], USUAL_YEARS)) - truth)
     return origins.astype(float), np.array(errors), np.array(widths), np.array(others)
 
 

@@ -42,7 +42,8 @@ Result = tuple[Any, int]
 #: Quantities, each with a module of `earthspin.checks.ladders`.
 QUANTITIES = (
     "precession", "torque", "pole", "long-term", "elements", "mean-orbit", "rotation",
-    "free-rotor", "top", "spheroid", "excitation", "chandler", "compliances", "ensemble",
+    "free-rotor", "top", "spheroid", "excitation", "chandler", "forecast", "compliances",
+    "ensemble",
 )  # fmt: skip
 
 #: Shortest sample, s; number of samples, and of samples for runs longer than `LONG_RUN`, s.
@@ -65,7 +66,7 @@ class Setting:
     run : callable
         Function that is timed; it returns values and the number of evaluations of the costly
         function.
-    judged : callable or None
+    error_values : callable or None
         Values that the error is taken from, where those of one run are too few (many epochs,
         many records); it is not timed.
     """
@@ -300,7 +301,8 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
     quantity : str
         ``"precession"``, ``"torque"``, ``"pole"``, ``"long-term"``, ``"elements"``,
         ``"mean-orbit"``, ``"rotation"``, ``"free-rotor"``, ``"top"``, ``"spheroid"``,
-        ``"excitation"``, ``"chandler"``, ``"compliances"`` or ``"ensemble"``.
+        ``"excitation"``, ``"chandler"``, ``"forecast"``, ``"compliances"`` or
+        ``"ensemble"``.
     quick : bool
         Use a short problem with few settings, which takes a second or two.
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
     from astropy.coordinates import SkyCoord
+    from astropy.utils.iers import IERS_A
 
     from earthspin.engine.question import Question
 
@@ -146,6 +147,38 @@ class Answer:
         )
         coordinates.representation_type = "unitspherical"
         return coordinates
+
+    def to_iers_table(self) -> IERS_A:
+        """Give a table of Earth orientation of astropy from an answer of `forecast`.
+
+        Polar motion and celestial pole offsets are observed up to the origin and forecast after
+        it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
+        are refused, also where astropy only warns.
+
+        Returns
+        -------
+        astropy.utils.iers.IERS_A
+
+        Raises
+        ------
+        SceneError
+            If it is another answer, if the forecast used polar motion without a table, or if it
+            reaches farther than the UT1 - UTC of finals2000A.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> from astropy.utils import iers
+        >>> table = earthspin.forecast(90).earthspin.to_iers_table()
+        >>> with iers.earth_orientation_table.set(table):
+        ...     pass  # transformations of astropy.coordinates
+        """
+        question = self.scene
+        if question.word != "forecast":
+            problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
+            raise SceneError("to_iers_table", question.word, problem)
+        forecast = import_module("earthspin.questions.forecast")  # which stands above the engine
+        return forecast.iers_table(question)
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
         """Quantiles of an ensemble.

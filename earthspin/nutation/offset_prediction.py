@@ -1,4 +1,4 @@
-"""Celestial pole offsets predicted up to a year ahead from observed ones.
+"""Celestial pole offsets predicted up to two years ahead from observed ones.
 
 A constant and the free core nutation are fitted with weights that halve in half a year, so that
 both follow the last observations. What the fit leaves of the last days fades: its mean slowly, and
@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
@@ -29,8 +28,8 @@ RECENT = 10.0
 SLOW_FADE, FAST_FADE = 40.0, 4.0
 #: Part of the variance of an offset that its stated error does not hold, rad^2: (0.2 mas)^2.
 FLOOR = (0.2e-3 / 3600 * np.pi / 180) ** 2
-#: Longest prediction, d.
-LONGEST = 366
+#: Longest prediction, d: two years after the last observed pole, weeks after the last offset.
+LONGEST = 800
 #: Days before the origin whose predictions measure the half-widths, and the fewest of them.
 JUDGED, FEWEST = round(8 * 365.25), 2 * 365
 #: Days in which the fit comes to rest, before its predictions count.
@@ -124,6 +123,8 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
     weight : ndarray, shape (t,)
         Weight of each day by its error, before it fades.
     """
+    from scipy.signal import lfilter
+
     turned = circle(time)
 
     def total(values: ComplexArray | FloatArray, fall: float) -> ComplexArray:
@@ -167,8 +168,13 @@ def _check(mjd: FloatArray, values: FloatArray, horizon: FloatArray) -> None:
             f"a date {float(horizon[np.argmax(abs(horizon))]):.0f} d after the last offset cannot "
             f"be predicted; dates from 1 to {LONGEST} d after it can"
         )
+    if problem := too_short(mjd.size, longest):
+        raise UndefinedError(problem)
+
+
+def too_short(size: int, longest: float) -> str | None:
+    """Return why so many days of offsets are too few for a prediction, or None if they suffice."""
     needed = STARTING + FEWEST + int(np.ceil(longest))
-    if mjd.size < needed:
-        raise UndefinedError(
-            f"{mjd.size} days of offsets are too few for {longest:.0f} d ahead; give {needed}"
-        )
+    if size >= needed:
+        return None
+    return f"{size} days of offsets are too few for {longest:.0f} d ahead; give {needed}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from earthspin.dates import Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
+from earthspin.engine.plan import plan_parts
 from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.run import run_parts
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -27,13 +29,23 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.errors import SceneError, Where
+from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
 from earthspin.parts.reasons import no_iau_model
-from earthspin.sky.eop import read_bulletin_a, read_polar_motion
+from earthspin.sky.eop import (
+    PoleSeries,
+    file_of,
+    finals_path,
+    read_bulletin_a,
+    read_polar_motion,
+    read_pole_offsets,
+)
 from earthspin.units import FloatArray, Number, Plain, pack, unpack
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
+
+if TYPE_CHECKING:
+    from earthspin.sky.iers_table import PoleTable
 
 #: Day of the modified Julian date 0 from J2000.0.
 _MJD = 51544.5
@@ -88,8 +100,9 @@ class Forecast(
     Dataset
         Over `time`, from the day after the origin: `x`, `y` (arcsec) with their 95 % half-widths,
         and `correlation_xy`, the correlation of the errors. `earthspin.run_tree` adds `components`
-        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon, and
-        `bulletin_a`, the prediction of Bulletin A from the same table if it has one.
+        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon,
+        `bulletin_a`, the prediction of Bulletin A from the same table if it has one, and
+        `pole_offsets`, the forecast of the celestial pole offsets from the same table.
 
     Raises
     ------
@@ -340,12 +353,14 @@ class BulletinA(AheadOfOrigin):
     bulletin_a_y: Pair = measured("arcsec", "y as Bulletin A predicts it")
 
 
-def not_in_file(file: str | Path | GivenPole, origin: float | None) -> str | None:
-    """Leave Bulletin A out where the table has no prediction from the same origin."""
+def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
+    """Leave Bulletin A out where the table has no prediction from the same origin as far ahead."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
-    if isinstance(file, GivenPole) or read_bulletin_a(file) is None:
+    if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
         return "the table holds no predictions of Bulletin A"
+    if table.mjd.size < days:
+        return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
     return None
 
 
@@ -354,13 +369,67 @@ def bulletin_a(file: str | Path | GivenPole, record: Record, days: float, step: 
     """Prediction of Bulletin A in the same table, with 1.96 times its standard deviations."""
     table = None if isinstance(file, GivenPole) else read_bulletin_a(file)
     assert table is not None
-    shown = (table.mjd - _MJD - record.time[-1]) <= days
-    rows = np.flatnonzero(shown)[_shown(days, step)]
+    rows = _shown(days, step)
     return BulletinA(
         time=datetime64(table.mjd[rows] - _MJD),
         bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
         bulletin_a_y=(table.y[rows], NORMAL_95 * table.y_error[rows]),
     )
+
+
+class AheadOffsets(AheadOfOrigin):
+    """Forecast of the celestial pole offsets."""
+
+    dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
+    dY: Pair = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
+
+
+def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
+    """Observed celestial pole offsets of a table up to a day from J2000.0, all if None."""
+    table = read_pole_offsets(file)
+    return table if last is None else table.between(table.mjd[0], last + _MJD)
+
+
+def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Celestial pole offsets after the last observed ones and their half-widths, shape (n, 2)."""
+    from earthspin.nutation.offset_prediction import predict
+
+    return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
+
+
+def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
+    """Leave the offsets out where the table holds too few of them up to the origin."""
+    from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
+    from earthspin.nutation.offset_prediction import too_short
+
+    if isinstance(file, GivenPole):
+        return "polar_motion holds no celestial pole offsets; name a table"
+    try:
+        table = offsets_until(file, origin)
+        newest = read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + _MJD)
+    except SeriesError as error:
+        return str(error)
+    if "bridged" in table.repairs:
+        return "the table lacks days of celestial pole offsets"
+    longest = newest + int(days) - table.mjd[-1]
+    if longest > FARTHEST:
+        return f"the last offset is {newest - table.mjd[-1]:.0f} d older than the origin"
+    return too_short(table.mjd.size, longest)
+
+
+@part(unless=no_offsets)
+def pole_offsets(
+    file: str | Path | GivenPole, record: Record, days: float, step: float
+) -> AheadOffsets:
+    """Forecast of the celestial pole offsets, from observed ones up to the origin."""
+    assert not isinstance(file, GivenPole)
+    table = offsets_until(file, float(record.time[-1]))
+    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + _MJD
+    value, error = (pair.T for pair in predicted_offsets(table, mjd))
+    source = {"references": f"IERS {table.name}", "newest_row": _day(table.mjd[-1] - _MJD)}
+    return AheadOffsets(
+        time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
+    ).with_attributes(dX=source, dY=source)
 
 
 @part
@@ -379,9 +448,45 @@ define_parts(
         "components": components,
         "skill": skill,
         "bulletin_a": bulletin_a,
+        "pole_offsets": pole_offsets,
         "neglected": neglected,
     },
     parts=(record, predicted),
 )
 
 forecast = public_call(Forecast)
+
+
+def iers_table(question: Forecast) -> PoleTable:
+    """Table of Earth orientation for astropy, with this forecast after the origin.
+
+    Raises
+    ------
+    SceneError
+        If polar motion was given without a table, or finals2000A has no UT1 - UTC as far ahead.
+    """
+    from earthspin.sky.iers_table import last_ut1, with_pole
+
+    results = run_parts(plan_parts(question, ["pole_offsets"])).results
+    file = question.file
+    if isinstance(file, GivenPole):
+        raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
+    seen: Record = results["record"]
+    mjd, horizon = seen.time + _MJD, int(question.days)
+    offsets = offsets_until(file, float(seen.time[-1]))
+    rapid = file_of(file) if offsets.name == "finals2000A" else finals_path()
+    if (reach := last_ut1(rapid) - mjd[-1]) < horizon:
+        problem = f"{rapid.name} has UT1-UTC for {reach:.0f} d after the origin; take no more days"
+        raise SceneError("days", f"{question.days:g} d", problem)
+    p = np.concatenate([seen.p, results["predicted"].pole]) * MAS
+    pole = np.array([_continued(mjd, mjd[-1] + horizon), p.real, -p.imag])
+    days = _continued(offsets.mjd, mjd[-1] + horizon)
+    later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])
+    observed = np.stack([offsets.x, offsets.y], axis=1)
+    last = (float(mjd[-1]), float(offsets.mjd[-1]))
+    return with_pole(rapid, pole, np.array([days, *np.concatenate([observed, later]).T]), last)
+
+
+def _continued(mjd: FloatArray, last: float) -> FloatArray:
+    """Daily dates continued to a last one."""
+    return np.concatenate([mjd, np.arange(mjd[-1] + 1, last + 0.5)])

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -199,7 +200,7 @@ def finals_path() -> Path:
 CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
-def _file(path: str | Path) -> Path:
+def file_of(path: str | Path) -> Path:
     """File of a path, or of a word for one that astropy includes."""
     return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
 
@@ -242,8 +243,16 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
-    """Read two coordinates, and refuse or repair what is wrong."""
-    file = _file(path)
+    """Read two coordinates; a file that has not changed since the last time is not parsed again."""
+    file = file_of(path)
+    lines_of(file)  # refuses what cannot be read
+    return _parsed(file, checksum(file), kind, pair.name)
+
+
+@lru_cache(maxsize=8)
+def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
+    """Parse a file, and refuse or repair what is wrong; the arrays are read-only."""
+    pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
     if kind not in _READERS:
@@ -259,7 +268,10 @@ def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
     _check_size(file, rows, pair)
     rows = _in_order(file, rows, repairs)
     _check_jumps(file, rows, pair)
-    return replace(_even(file, rows, kind, repairs), sha256=checksum(file))
+    series = replace(_even(file, rows, kind, repairs), sha256=sha256)
+    for column in ("mjd", "x", "y", *_ERRORS):
+        getattr(series, column).setflags(write=False)
+    return series
 
 
 # --- the kinds of table --------------------------------------------------------------------------
@@ -329,7 +341,7 @@ def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
     PoleSeries or None
         None if the table has no predictions.
     """
-    file = _file(path)
+    file = file_of(path)
     lines = lines_of(file)
     if _kind(file, lines) != "finals2000A":
         return None

@@ -1,6 +1,8 @@
-"""Forecast of polar motion: bands in time, and the path of the pole."""
+"""Forecast of polar motion: bands in time, the path of the pole, and measured skill."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,6 +17,12 @@ from earthspin.views.table import Table, along, date, measured
 ROWS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
 #: Half-width of an interval over the standard deviation, and the same of an ellipse of 95 %.
 ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
+#: Sets of origins whose skill is drawn, with their colours and the forecast beside ours: those that
+#: no parameter was chosen on.
+DRAWN = {
+    "C04 2014-2025": (drawing.BLUE, "least squares with autoregression"),
+    "releases": (drawing.RED, "Bulletin A"),
+}
 
 
 def at_horizons(tree: Result) -> Table:
@@ -55,7 +63,27 @@ def skill(tree: Result) -> Table:
     return Table("Measured skill", headers, rows, words)
 
 
-TABLES = [("", at_horizons), ("skill", skill)]
+def offsets(tree: Result) -> Table:
+    """Celestial pole offsets at a few horizons."""
+    data = needed(tree, "pole_offsets")
+    rows = [
+        (f"{day:.0f}", date(row.time), measured(row, "dX"), measured(row, "dY"))
+        for day, (_, row) in zip(_days(answer_of(tree)), along(data, "time"), strict=True)
+        if round(day) in ROWS
+    ]
+    words = (
+        f"Observations: {data.dX.attrs['references']} up to {data.dX.attrs['newest_row']}. "
+        "Offsets from IAU 2006/2000A. Half-widths are 95 %."
+    )
+    return Table(
+        "Forecast of the celestial pole offsets",
+        ("days ahead", "date", "dX, mas", "dY, mas"),
+        rows,
+        words,
+    )
+
+
+TABLES = [("", at_horizons), ("pole_offsets", offsets), ("skill", skill)]
 
 
 def _days(answer: xr.Dataset) -> FloatArray:
@@ -104,6 +132,8 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
     ax.plot(y, x, color=drawing.BLUE, lw=1.4)
+    ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
+    note(ax, date(answer.time[0]), (y[0], x[0]), (5, 4), color=drawing.BLUE)
     for day in ELLIPSES:
         near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
         if near.size == 0:
@@ -117,22 +147,61 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
         centre = float(row.y) * 1e3, float(row.x) * 1e3
         ax.add_patch(Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, lw=1))
         ax.plot(*centre, "o", color=drawing.RED, ms=4)
-        note(ax, f"{day} d", centre, (5, 4), color=drawing.RED)
+        clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
+        note(ax, f"{day} d", centre, (6, 5), color=drawing.RED, bbox=clear)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     return ax
 
 
+def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Error and coverage by horizon, from origins on which no parameter was chosen.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    figure : Figure, optional
+    """
+    data = needed(result, "skill").mean("coordinate")
+    figure, (errors, shares) = drawing.stacked(2, 5.6, figure, width=7.0, height_ratios=(2, 1))
+    for name, (colour, other) in DRAWN.items():
+        rows = data.sel(case=data.skill_set == name)
+        days = rows.horizon.values
+        how: dict[str, Any] = {"color": colour, "lw": 1.4, "marker": "o", "ms": 4}
+        errors.plot(days, rows.mean_absolute_error, label=f"forecast, {name}", **how)
+        beside = how | {"ls": "--", "mfc": "white"}
+        errors.plot(days, rows.other_mean_absolute_error, label=f"{other}, {name}", **beside)
+        shares.plot(days, 100 * rows.coverage, **how)
+    shares.axhline(95, color=drawing.GREY, lw=1, ls=":")
+    errors.set(xscale="log", yscale="log", ylabel="mean absolute error (mas)")
+    errors.set_yticks([0.1, 1, 10], ["0.1", "1", "10"])
+    errors.legend(loc="lower right")
+    shares.set(xlabel="days ahead", ylabel="coverage (%)", ylim=(80, 101))
+    shares.set_xticks(ROWS, [str(day) for day in ROWS])
+    shares.minorticks_off()
+    return figure
+
+
 FIGURES = [
     PageFigure(
         "Forecast of both coordinates",
-        "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A.",
+        "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A where the "
+        "table has one from the same day.",
         plot_coordinates,
-        section="bulletin_a",
+        uses=("bulletin_a",),
     ),
     PageFigure(
         "Path of the pole",
         "Forecast path of the pole over the ground; ellipses hold it in 95 % of cases.",
         plot_path,
+    ),
+    PageFigure(
+        "Measured skill",
+        "Mean absolute error of one coordinate and share of 95 % intervals that hold the observed "
+        "pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other forecast "
+        "from the same origins.",
+        plot_skill,
+        section="skill",
     ),
 ]

@@ -139,9 +139,9 @@ def model(fast: FastExcitation = SHIPPED) -> StateSpace:
 
 
 @cache
-def _filter(fast: FastExcitation) -> Filter:
-    """Kalman filter for a whole record."""
-    return Filter.of(model(fast), RECORD)
+def _filter(fast: FastExcitation, count: int) -> Filter:
+    """Kalman filter for a record of a number of days."""
+    return Filter.of(model(fast), count)
 
 
 @dataclass(frozen=True)
@@ -169,24 +169,26 @@ class Forecast:
     fast: FastExcitation
 
 
-def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED) -> Forecast:
+def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = RECORD) -> Forecast:
     """Forecast of the pole from its past.
 
     Parameters
     ----------
     p : complex array, shape (n,)
-        x - i y, mas, daily; the last `RECORD` days are used.
+        x - i y, mas, daily.
     days : int
         How many days ahead.
     fast : FastExcitation
+    used : int
+        How many days of the record are used, the last ones.
 
     Raises
     ------
     UndefinedError
         If the record is too short.
     """
-    record = last_of(p)
-    kalman = _filter(fast)
+    record = last_of(p, used)
+    kalman = _filter(fast, used)
     state, innovations = kalman.run(np.column_stack([record.real, record.imag]))
     future = _extrapolated(innovations @ np.array([1, 1j]), min(days, EXTRAPOLATED))
     system, gain, covariance = kalman.model, kalman.gains[-1], kalman.covariance
@@ -209,19 +211,20 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED) -> Forecast:
     return Forecast(pole @ np.array([1, 1j]), spread, complex_parts, variances, fast)
 
 
-def last_of(p: Complex) -> Complex:
-    """Select the last `RECORD` days of a record.
+def last_of(p: Complex, used: int = RECORD) -> Complex:
+    """Select the last days of a record.
 
     Raises
     ------
     UndefinedError
         If it is shorter.
     """
-    if p.size < RECORD:
+    if p.size < used:
         raise UndefinedError(
-            f"the record up to the origin has {p.size} days; a forecast needs {RECORD} (15 years)"
+            f"the record up to the origin has {p.size} days; a forecast needs {used} "
+            f"({used / YEAR:.0f} years)"
         )
-    return p[-RECORD:]
+    return p[-used:]
 
 
 def _rows(states: list[int]) -> Array:
@@ -249,10 +252,10 @@ def fit(p: Complex) -> FastExcitation:
     p : complex array, shape (n,)
         As of `forecast`.
     """
+    from scipy.optimize import minimize
+
     record = last_of(p)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
-
-    from scipy.optimize import minimize
 
     def height(free: Array) -> float:
         system = model(FastExcitation.from_free(free)).every(THINNED)

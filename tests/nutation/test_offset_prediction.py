@@ -96,8 +96,8 @@ def test_intervals_on_simulated_offsets() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"target": [0.0]}, "dates from 1 to 366 d"),
-        ({"target": [LONGEST + 1.0]}, "367 d after the last offset cannot be predicted"),
+        ({"target": [0.0]}, f"dates from 1 to {LONGEST} d"),
+        ({"target": [LONGEST + 1.0]}, f"{LONGEST + 1} d after the last offset cannot be predicted"),
         ({"rows": 1000}, r"1000 days of offsets are too few for 10 d ahead; give 1470"),
         ({"gap": True}, "days are missing between the offsets"),
         ({"nan": True}, "offsets or errors are not finite"),

@@ -8,7 +8,7 @@ A forecast over a year with its errors, beside the pole that was observed later.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.forecast import plot_coordinates, plot_path
+from earthspin.views.forecast import plot_coordinates, plot_path, plot_skill
 
 # %%
 # Coordinates of the pole, with error bands
@@ -37,3 +37,13 @@ for ax, name in zip(figure.axes, ("x", "y"), strict=True):
 fig, ax = plt.subplots(figsize=(6, 6))
 plot_path(ahead, ax=ax)
 ax.plot(seen.y * 1e3, seen.x * 1e3, color="black", lw=1)
+
+# %%
+# Error by horizon
+# ----------------
+# Mean absolute error of forecasts of the driven oscillator (I.6.7) from many origins by horizon,
+# beside least squares with autoregression, the usual method, and Bulletin A of the IERS.
+#
+# *Next:* ``earthspin.run_tree("forecast")["skill"]`` has the numbers.
+
+plot_skill(ahead)

@@ -1,0 +1,82 @@
+"""Tables of Earth orientation for astropy, with a pole of our own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import astropy.units as u
+import numpy as np
+from astropy.utils import iers
+from numpy.typing import NDArray
+
+from earthspin.errors import UndefinedError
+from earthspin.sky.eop import day_of
+
+FloatArray = NDArray[np.float64]
+
+
+class PoleTable(iers.IERS_A):  # type: ignore[misc]
+    """Table of Earth orientation that refuses dates outside it.
+
+    The tables of astropy warn and take the mean pole, or zero, in some transformations.
+    """
+
+    iers_table = None
+
+    def ut1_utc(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
+        """UT1 - UTC, as of `astropy.utils.iers.IERS`."""
+        self._require(jd1, jd2)
+        return super().ut1_utc(jd1, jd2, return_status)
+
+    def dcip_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
+        """Celestial pole offsets, as of `astropy.utils.iers.IERS`."""
+        self._require(jd1, jd2)
+        return super().dcip_xy(jd1, jd2, return_status)
+
+    def pm_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
+        """Polar motion, as of `astropy.utils.iers.IERS`."""
+        self._require(jd1, jd2)
+        return super().pm_xy(jd1, jd2, return_status)
+
+    def _require(self, jd1: Any, jd2: Any) -> None:
+        mjd = np.ravel(np.sum(self.mjd_utc(jd1, jd2), axis=0))
+        first, last = self["MJD"][[0, -1]].value
+        outside = mjd[(mjd < first) | (mjd >= last)]  # as astropy interpolates
+        if outside.size:
+            raise UndefinedError(
+                f"{day_of(outside[0])} is outside the table of Earth orientation, which begins on "
+                f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it"
+            )
+
+
+def last_ut1(finals: Path) -> float:
+    """Last modified Julian date for which a file has UT1 - UTC, observed or predicted."""
+    return float(PoleTable.read(finals)["MJD"][-1].value)
+
+
+def with_pole(
+    finals: Path, pole: FloatArray, offsets: FloatArray, observed: tuple[float, float]
+) -> PoleTable:
+    """Table of finals2000A, with polar motion and celestial pole offsets replaced.
+
+    Parameters
+    ----------
+    finals : Path
+        File of that layout; UT1 - UTC is taken from it, observed or predicted.
+    pole, offsets : array, shape (3, n)
+        Modified Julian dates, daily, and x and y or dX and dY, rad. The table ends with the first
+        to end, and rows before they begin stay as they are.
+    observed : tuple of float
+        Modified Julian dates of the last observed row of each.
+    """
+    whole = PoleTable.read(finals)
+    table: PoleTable = whole[whole["MJD"].value <= min(pole[0, -1], offsets[0, -1])]
+    mjd = table["MJD"].value
+    columns = (("PM_x", "PM_y", "PolPMFlag"), ("dX_2000A", "dY_2000A", "NutFlag"))
+    for (x, y, flag), series, last in zip(columns, (pole, offsets), observed, strict=True):
+        rows = mjd >= series[0, 0]
+        places = np.searchsorted(series[0], mjd[rows])
+        table[x][rows], table[y][rows] = series[1:, places] * u.rad
+        table[flag][rows] = np.where(mjd[rows] <= last, "I", "P")
+    return table
