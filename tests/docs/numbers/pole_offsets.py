@@ -72,5 +72,6 @@ TOLD = [
     ),
     Told(PAGE, "noise alone exceeds in {} % of the windows", "given: the test"),
     Told(PAGE, "in radians, with {} %\nhalf-widths", "given: the claim"),
+    Told(PAGE, "dX, dY up to {} days after", "given: `LONGEST` of offset_prediction"),
     Told(PAGE, "fades in {} days", "given: a constant of the prediction"),
 ]
