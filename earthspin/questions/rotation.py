@@ -24,7 +24,7 @@ from earthspin.mass.inertia import polar_moment
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
-from earthspin.motion.march import FINEST, Above
+from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import (
     KINDS,
     Motion,
@@ -189,7 +189,7 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Forces of all that pulls, effects switched on."""
-    from earthspin.motion.neighbours import doubt_of_pull
+    from earthspin.motion.neighbours import relative_tide_error
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
@@ -202,7 +202,7 @@ def pulling(
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
-        doubts.append(doubt_of_pull(float(np.linalg.norm(positions[name])), far, angle))
+        doubts.append(relative_tide_error(float(np.linalg.norm(positions[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
     return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
@@ -228,7 +228,7 @@ class Rotor:
 
     body: Rigid
     changed: tuple[str, ...]
-    above: Above
+    masses: Masses
     start: State
     begin: float
     end: float
@@ -242,7 +242,7 @@ class Rotor:
 
     def motion(self, tolerance: float) -> Motion:
         """Motion of the body with a tolerance per window."""
-        return Motion(self.body, self.above, self.start, self.duration, tolerance=tolerance)
+        return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
         """Turns of the body in a time, s, at the speed of the start."""
@@ -312,7 +312,7 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.above(pulling.forces, epoch),
+        neighbours.masses(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,
@@ -493,7 +493,7 @@ def parting(rotor: Rotor) -> Divergence:
     from earthspin.motion.divergence import divergence
 
     rotor.refuse_many_turns(0.0, rotor.duration)
-    return divergence(rotor.body, rotor.above, rotor.start, rotor.duration)
+    return divergence(rotor.body, rotor.masses, rotor.start, rotor.duration)
 
 
 @part(unless=one_date)

@@ -23,7 +23,7 @@ from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import AccuracyError, UndefinedError
 from earthspin.motion.axes import AXES, axis_path
 from earthspin.parts.averages import mean_rates, mean_torques, torque_samples, window_means
-from earthspin.parts.choices import chosen_average, available_windows
+from earthspin.parts.choices import available_windows, chosen_average
 from earthspin.parts.pulls import Pulls, forces_of, pulls, start_of
 from earthspin.parts.sky import PerturbedBody, Sky, places, sky, stretch
 from earthspin.parts.times import epochs
