@@ -27,7 +27,7 @@ from earthspin.questions import long_term as question
 from earthspin.scenes import load_scene, run_tree
 from earthspin.secular.angles import seasons
 from earthspin.secular.budget import Setting, Solved
-from earthspin.secular.orbit import Changed, Orbit, Shape
+from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape
 from earthspin.secular.strength import Tides
 from earthspin.secular.trajectory import solve
 
@@ -61,7 +61,7 @@ def _round(orbit: Orbit) -> Orbit:
         normal, vector, turning = shape
         return normal, vector * (now / np.linalg.norm(vector, axis=0)), turning
 
-    return Changed(orbit, change)
+    return ModifiedOrbit(orbit, change)
 
 
 def solution(body: Body, times: FloatArray) -> Solved:

@@ -12,7 +12,7 @@ from earthspin.choosing.choice import Choice, models
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.motion.axes import window_count
 from earthspin.motion.forces import Figure
-from earthspin.motion.sampling import turn_by_mean, turn_by_sampling
+from earthspin.motion.sampling import angle_from_sampling, longest_path
 from earthspin.units import FloatArray
 
 
@@ -77,8 +77,8 @@ def window_choices(
 
     mean = sum(mass * 10.0 ** rows[str(puller)]["mean"] for puller, mass in gm.items())
     integral, value, derivative = map(total, ("integral", "value", "derivative"))
-    rotation = turn_by_mean(figure, mean, reach)
-    error = turn_by_sampling(figure, integral, value, derivative, rotation)
+    rotation = longest_path(figure, mean, reach)
+    error = angle_from_sampling(figure, integral, value, derivative, rotation)
     if geodesic:
         error = error + geodesic * _in_reach(table["geodesic"][str(code)], table["reach"], reach)
     return [

@@ -1,1 +1,1 @@
-"""What the axis then does: its path in time under the torques."""
+"""Motion of the axes and of the attitude of a body in time, under torques."""

@@ -1,12 +1,12 @@
-r"""Angular-momentum, rotation and figure axes in time, segment by segment.
+r"""Paths of the angular momentum, rotation and figure axes in time, in segments.
 
 In units of C Omega, with the figure axis F of an axisymmetric body,
 
     l' = N(F, t)/(C Omega),     F = l - \tau F x F',     \omega/\Omega = F + F x F'/\Omega
 
-Spans are cut into segments in which the axis turns little, each of which is solved at once
-(`earthspin.motion.segment`), so that time and memory grow linearly with the span; the mean rate of
-a segment leads the guess of the next.
+A span is divided into segments in which the axis moves little. Each segment is solved as a whole
+(`earthspin.motion.segment`), so that time and memory grow linearly with the span. The mean rate of
+a segment gives the first estimate of the next.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ AXES = ("angular_momentum", "rotation", "figure")
 
 WINDOW = 8 * DAY
 ORDER = 14
-#: A segment has so many windows at most (its arrays stay in the processor's cache), and in it
-#: the axis turns by so much at most (rad), that the iteration converges fast.
+#: Largest number of windows in a segment, so that its arrays stay in the processor's cache, and the
+#: largest motion of the axis in it (rad), for which the iteration converges fast.
 SEGMENT_WINDOWS = 512
 SEGMENT_TURN = 0.2
 
 
 @dataclass(frozen=True)
 class AxisPath:
-    """The axes of a body over a span, to be asked at any time in it.
+    """Axes of a body over a span, which can be evaluated at any time in it.
 
     Attributes
     ----------
@@ -51,17 +51,18 @@ class AxisPath:
     fast : ndarray, shape (3, w, n), complex, or None
         Legendre series of the semidiurnal amplitudes of `AXES`, for a triaxial body.
     spin_rate : float
-        rad/s.
+        Spin rate, rad/s.
     a_over_c : float
+        Equatorial over polar moment of inertia.
     meridian : float
         Angle of the axis of least moment at J2000.0, rad.
     interpolation_error : float
-        What the sky between the nodes may displace the axes by, rad.
+        Error from interpolating the torques between nodes, rad.
     floor : float
-        What is left of the slow manifold, of the semidiurnal amplitudes and of the iteration, and
-        rounding, rad.
+        Sum of the errors of the slow manifold, of the semidiurnal amplitudes, of the iteration and
+        of rounding, rad.
     rounds : int
-        Most Picard iterations that a segment took.
+        Largest number of Picard iterations in a segment.
     """
 
     windows: Windows
@@ -82,7 +83,7 @@ class AxisPath:
 
     @property
     def evaluations(self) -> int:
-        """How many epochs the sky was evaluated at."""
+        """Number of epochs at which positions were evaluated."""
         return int(self.windows.times.size)
 
     @property
@@ -91,9 +92,9 @@ class AxisPath:
         return float(self.windows.edges[0]), float(self.windows.edges[-1])
 
     def at_starts(self) -> FloatArray:
-        """Unit vectors of the angular momentum where each window begins, shape (w, 3)."""
-        found = (self.momentum @ signs(self.momentum.shape[-1])).T
-        return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+        """Unit vectors of the angular momentum at the start of each window, shape (w, 3)."""
+        momentum = (self.momentum @ signs(self.momentum.shape[-1])).T
+        return np.asarray(momentum / np.linalg.norm(momentum, axis=1, keepdims=True))
 
     def at(self, times: FloatArray, *, semidiurnal: bool = True) -> dict[str, FloatArray]:
         """Unit vectors of the three axes.
@@ -101,25 +102,25 @@ class AxisPath:
         Parameters
         ----------
         times : ndarray, shape (t,)
-            s from J2000.0 TDB, in any order, within the span.
+            Times in any order within the span, s from J2000.0 TDB.
         semidiurnal : bool
-            Without it, the motion of a triaxial body at half a day is left out, as it is in
-            the celestial intermediate pole.
+            Include the semidiurnal motion of a triaxial body, which is not part of the celestial
+            intermediate pole.
 
         Returns
         -------
         dict of str to ndarray, shape (t, 3)
-            By `AXES`. All point to the side of the figure axis; the spin of a retrograde body
-            points the other way.
+            Unit vectors by `AXES`. All point to the side of the figure axis; the angular velocity
+            of a retrograde body has the opposite direction.
         """
         momentum = self.windows.evaluate(self.momentum, times)
         tilt = self.windows.evaluate(self.tilt, times)
         figure = momentum - tilt
-        found = np.stack([momentum, figure + tilt / self.a_over_c, figure])
+        axes = np.stack([momentum, figure + tilt / self.a_over_c, figure])
         if semidiurnal and self.fast is not None:
-            found += self._fast_at(times, figure)
-        found /= np.sqrt(np.sum(found * found, axis=1, keepdims=True))
-        return dict(zip(AXES, np.moveaxis(found, 1, 2), strict=True))
+            axes += self._fast_at(times, figure)
+        axes /= np.sqrt(np.sum(axes * axes, axis=1, keepdims=True))
+        return dict(zip(AXES, np.moveaxis(axes, 1, 2), strict=True))
 
     def _fast_at(self, times: FloatArray, figure: FloatArray) -> FloatArray:
         """Semidiurnal displacement of the three axes, shape (3, 3, t)."""
@@ -141,7 +142,7 @@ def axis_path(
     order: int = ORDER,
     advance: Callable[[int], None] | None = None,
 ) -> AxisPath:
-    """Follow the axes of a body from an epoch to a span, before or after it.
+    """Integrate the axes of a body from an epoch over a span before or after it.
 
     Parameters
     ----------
@@ -149,17 +150,17 @@ def axis_path(
     start_axis : ndarray, shape (3,)
         Unit vector of the figure axis at the epoch.
     epoch : float
-        s from J2000.0 TDB.
+        Epoch, s from J2000.0 TDB.
     span : tuple of float
-        First and last time wanted, s; windows reach from the epoch to beyond it.
+        First and last time, s; windows extend from the epoch to beyond the span.
     limits : tuple of float
-        Times that the sky is known for, s.
+        First and last time with positions, s.
     window : float
         Length of a window, s.
     order : int
-        Nodes in a window.
+        Number of nodes in a window.
     advance : callable, optional
-        Told how many windows are done.
+        Function that is called with the number of windows of each solved segment.
 
     Returns
     -------
@@ -171,45 +172,46 @@ def axis_path(
         If the body spins too slowly for its axis to stay near the angular momentum.
     """
     figure = forces.figure
-    done: list[Segment] = []
+    segments: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
-        here = Start(start_axis, np.zeros(3), is_figure=True)
+        start = Start(start_axis, np.zeros(3), is_figure=True)
         first = 0
         while first < len(edges) - 1:
-            count = _segment_length(done, len(edges) - 1 - first, window)
+            count = _segment_length(segments, len(edges) - 1 - first, window)
             part = edges[first : first + count + 1]
-            segment = solve(forces, Windows(np.sort(part), order), here, forward)
-            done.append(segment)
-            here = Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
+            segment = solve(forces, Windows(np.sort(part), order), start, forward)
+            segments.append(segment)
+            start = Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
             first += count
             if advance is not None:
                 advance(count)
-    done.sort(key=lambda segment: segment.windows.edges[0])
-    edges = np.concatenate([done[0].windows.edges[:1], *(s.windows.edges[1:] for s in done)])
+    segments.sort(key=lambda segment: segment.windows.edges[0])
+    pieces = [segment.windows.edges[1:] for segment in segments]
+    edges = np.concatenate([segments[0].windows.edges[:1], *pieces])
     return AxisPath(
         windows=Windows(edges, order),
-        momentum=np.concatenate([s.momentum for s in done], axis=1),
-        tilt=np.concatenate([s.tilt for s in done], axis=1),
-        fast=_joined([s.fast for s in done if s.fast is not None]),
+        momentum=np.concatenate([s.momentum for s in segments], axis=1),
+        tilt=np.concatenate([s.tilt for s in segments], axis=1),
+        fast=_concatenated([s.fast for s in segments if s.fast is not None]),
         spin_rate=figure.spin_rate,
         a_over_c=1 - figure.h,
         meridian=figure.meridian,
-        interpolation_error=max(s.tail for s in done),
-        floor=max(s.floor for s in done) + sum(s.left for s in done) + _rounding(done),
-        rounds=max(s.rounds for s in done),
+        interpolation_error=max(s.tail for s in segments),
+        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + _rounding(segments),
+        rounds=max(s.rounds for s in segments),
     )
 
 
 def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW) -> int:
-    """How many windows lead from an epoch to a span, both in s."""
+    """Number of windows from an epoch over a span, both in s."""
     forward, backward = (max(0.0, d) for d in (span[1] - epoch, epoch - span[0]))
     return int(np.ceil(forward / window) + np.ceil(backward / window)) or 1
 
 
 def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
-    """95 % half-width of a direction from the uncertainty of H, rad, shape (t,).
+    """95 % half-width of a direction due to the uncertainty of H, rad, shape (t,).
 
-    Whatever the axis has moved since the epoch grows with H.
+    The displacement of the axis since the epoch is proportional to H.
 
     Parameters
     ----------
@@ -219,15 +221,15 @@ def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray
     u_h : float
         Relative standard uncertainty of H.
     """
-    return np.asarray(NORMAL_95 * u_h * _swept(path, figure))
+    return np.asarray(NORMAL_95 * u_h * _displacement(path, figure))
 
 
 def error_of_sky(
     path: AxisPath, figure: FloatArray, drift: float, speed: float, begin: float
 ) -> FloatArray:
-    """95 % half-width of a direction from where the sky may be off, rad, shape (t,).
+    """95 % half-width of a direction due to errors of positions, rad, shape (t,).
 
-    It grows with what the axis has swept, from what short periods add at once.
+    It is proportional to the displacement of the axis, plus a constant for short periods.
 
     Parameters
     ----------
@@ -235,17 +237,17 @@ def error_of_sky(
     figure : ndarray, shape (t, 3)
         Figure axis.
     drift : float
-        By what the pull may turn the axis aside, over the angle that it sweeps.
+        Relative error of the displacement.
     speed : float
-        At which the axis sweeps, rad/s.
+        Speed of the axis, rad/s.
     begin : float
-        Time in which it sweeps as much as short periods add, s.
+        Time in which the axis moves by the amplitude of the short periods, s.
     """
-    return np.asarray(drift * (_swept(path, figure) + speed * begin))
+    return np.asarray(drift * (_displacement(path, figure) + speed * begin))
 
 
-def _swept(path: AxisPath, figure: FloatArray) -> FloatArray:
-    """Angle between a figure axis and that of the epoch, rad, shape (t,)."""
+def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
+    """Angle between a figure axis and the figure axis at the epoch, rad, shape (t,)."""
     epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
     return np.asarray(np.linalg.norm(figure - path.at(epoch)["figure"], axis=1))
 
@@ -253,19 +255,19 @@ def _swept(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Edges of windows from the epoch outward, and whether they lead forward."""
-    found: list[tuple[FloatArray, bool]] = []
+    """Edges of windows from the epoch outward; True for windows after the epoch."""
+    directions: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))
         if count > 0:
             edges = np.asarray(epoch + sign * window * np.arange(count + 1.0))
             edges[-1] = sign * min(sign * edges[-1], sign * limit)
             if count > 1 and abs(edges[-1] - edges[-2]) < window / 2:
-                # where the sky ends, two equal windows instead of a sliver
+                # At the end of the positions, two equal windows replace a very short one.
                 edges[-2] = (edges[-3] + edges[-1]) / 2
-            found.append((edges, sign > 0))
-    # A span that is nothing but the epoch still needs a window.
-    return found or [_one_window(epoch, limits, window)]
+            directions.append((edges, sign > 0))
+    # A span that contains only the epoch still needs a window.
+    return directions or [_one_window(epoch, limits, window)]
 
 
 def _one_window(
@@ -276,20 +278,20 @@ def _one_window(
     return np.array([epoch, max(epoch - window, limits[0])]), False
 
 
-def _segment_length(done: list[Segment], left: int, window: float) -> int:
-    """How many windows to take next: few at first, to learn how fast the axis turns."""
-    if not done:
+def _segment_length(segments: list[Segment], left: int, window: float) -> int:
+    """Number of windows in the next segment: few at first, then from the speed of the axis."""
+    if not segments:
         return min(left, 32)
-    last = done[-1]
+    last = segments[-1]
     per_window = last.turn / len(last.windows.half)
     allowed = SEGMENT_WINDOWS if per_window == 0 else int(SEGMENT_TURN / per_window)
     return max(1, min(left, allowed, SEGMENT_WINDOWS))
 
 
-def _joined(pieces: list[ComplexArray]) -> ComplexArray | None:
+def _concatenated(pieces: list[ComplexArray]) -> ComplexArray | None:
     return np.concatenate(pieces, axis=1) if pieces else None
 
 
 def _rounding(segments: list[Segment]) -> float:
-    """What rounding adds, rad: it grows with the number of windows as a random walk does."""
+    """Rounding error, rad; it grows like a random walk with the number of windows."""
     return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

@@ -1,9 +1,9 @@
-r"""How fast neighbouring rotations part: growth, Lyapunov time, and whether there is one.
+r"""Divergence of neighbouring rotations: growth, Lyapunov exponent, and test for chaos.
 
-A neighbour is started a little aside and brought back to that distance, along the direction it has
-taken, at the end of each batch of windows (Benettin et al. 1976, 1980). The logarithm of what it
-was divided by grows as lambda t where the motion is chaotic, and as log t where it is regular. The
-rate is the mean over stretches of the span; their scatter tells how well it is known.
+A neighbour starts at a small distance and is moved back to this distance, in its current direction,
+at the end of each batch of windows (Benettin et al. 1976, 1980). The sum of the logarithms of the
+factors grows as lambda t for a chaotic motion, and as log t for a regular motion. The rate is the
+mean over equal parts of the span; their scatter gives its uncertainty.
 """
 
 from __future__ import annotations
@@ -15,36 +15,36 @@ from numpy.typing import NDArray
 from scipy.stats import t as students_t
 
 from earthspin.motion.equations import Rigid
-from earthspin.motion.march import Above, Solver
+from earthspin.motion.march import Masses, Solver
 from earthspin.motion.solution import State
-from earthspin.numerics import turns
+from earthspin.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 
-#: How far aside a neighbour is kept, rad; what is not linear is smaller by as much.
+#: Distance of the neighbour, rad; nonlinear terms are smaller by this factor.
 ASIDE = 1e-7
-#: Tolerance of a window: a rate is wanted, not a phase.
+#: Tolerance of a window; it may be larger for a rate than for a phase.
 TOLERANCE = 1e-11
-#: Windows between two times of being brought back.
+#: Number of windows between rescalings of the neighbour.
 WINDOWS = 4
-#: Equal stretches whose rates are compared; the first, in which the neighbour finds the direction
-#: that grows fastest, is left out.
+#: Number of equal parts of the span whose rates are compared. The first part, in which the
+#: neighbour approaches the fastest growing direction, is not used.
 STRETCHES = 9
-#: Growth in the last half of the span, in powers of e, that only chaos gives: where neighbours part
-#: as t, or as t^2, it is 0.7 or 1.4.
+#: Growth in the second half of the span, as a natural logarithm, above which the motion is chaotic;
+#: for distances that grow as t or t^2 it is 0.7 or 1.4.
 CHAOTIC = 4.0
 
 
 @dataclass(frozen=True)
 class Divergence:
-    """How neighbours part.
+    """Growth of the distance between neighbouring rotations.
 
     Attributes
     ----------
     times : ndarray, shape (n,)
-        From the start, s.
+        Times from the start, s.
     growth : ndarray, shape (n,)
-        Natural logarithm of the distance over that at the start.
+        Natural logarithm of the distance divided by the initial distance.
     """
 
     times: FloatArray
@@ -52,7 +52,7 @@ class Divergence:
 
     @property
     def rate(self) -> tuple[float, float]:
-        """Mean rate of growth over the stretches and its 95 % half-width, 1/s."""
+        """Mean rate of growth over the parts of the span and its 95 % half-width, 1/s."""
         edges = np.linspace(self.times[0], self.times[-1], STRETCHES + 1)
         rates = np.diff(np.interp(edges, self.times, self.growth)) / np.diff(edges)
         late = rates[1:]
@@ -61,7 +61,7 @@ class Divergence:
 
     @property
     def is_chaotic(self) -> bool:
-        """Whether neighbours part faster than by any power of the time, within the span."""
+        """Return True if the distance grows exponentially within the span."""
         middle = (self.times[0] + self.times[-1]) / 2
         rate, spread = self.rate
         late = self.growth[-1] - np.interp(middle, self.times, self.growth)
@@ -73,71 +73,73 @@ class Divergence:
 
 
 def divergence(
-    body: Rigid, above: Above, start: State, end: float, direction: int = 0
+    body: Rigid, masses: Masses, start: State, end: float, direction: int = 0
 ) -> Divergence:
-    """Follow a rotation and a neighbour of it.
+    """Integrate a rotation and a neighbour.
 
     Parameters
     ----------
     body : Rigid
-        Its first lane is followed.
+        Body, of which the first lane is used.
     above : Above
     start : State
-        The same.
+        Initial state, of which the first lane is used.
     end : float
         Last time, s from the start.
     direction : int
-        Axis of the body that the neighbour is turned about.
+        Axis of the sky about which the neighbour is rotated.
     """
-    both = _twice(body)
-    solver = Solver(both, above, True, TOLERANCE)
+    both = _duplicated(body)
+    solver = Solver(both, masses, True, TOLERANCE)
     solver.begin_with(start.spin)
     q, momentum = start.attitude[:, :1], start.momentum[:, :1]
-    one = np.concatenate([turns.rotated(q, momentum), q])
-    turn = np.zeros((3, 1))
-    turn[direction] = ASIDE
-    pair = _beside(one, turn, np.zeros((3, 1)))
+    state = np.concatenate([rotations.rotated(q, momentum), q])
+    rotation = np.zeros((3, 1))
+    rotation[direction] = ASIDE
+    pair = _neighbour_pair(state, rotation, np.zeros((3, 1)))
     times, growth, reached = [0.0], [0.0], 0.0
     while reached < end:
         piece = solver.through(solver.next_edges(reached, end, WINDOWS), pair)
         if len(piece.edges) < 2:
             continue
         reached = float(piece.edges[-1])
-        aside, carried, distance = _distance(piece.end)
-        pair = _beside(piece.end[:, :1], aside * (ASIDE / distance), carried * (ASIDE / distance))
+        turn, change, distance = _distance(piece.end)
+        scale = ASIDE / distance
+        pair = _neighbour_pair(piece.end[:, :1], turn * scale, change * scale)
         times.append(reached)
         growth.append(growth[-1] + float(np.log(distance / ASIDE)))
     return Divergence(np.array(times), np.array(growth))
 
 
-def _twice(body: Rigid) -> Rigid:
-    """The first lane two times."""
-    one = body.first()
+def _duplicated(body: Rigid) -> Rigid:
+    """Return the first lane twice."""
+    first = body.first()
     return replace(
-        one,
-        c_minus_a=np.repeat(one.c_minus_a, 2),
-        c_minus_b=np.repeat(one.c_minus_b, 2),
-        tide=np.repeat(one.tide, 2),
+        first,
+        c_minus_a=np.repeat(first.c_minus_a, 2),
+        c_minus_b=np.repeat(first.c_minus_b, 2),
+        tide=np.repeat(first.tide, 2),
     )
 
 
-def _beside(one: FloatArray, turn: FloatArray, momentum: FloatArray) -> FloatArray:
-    """A state and its neighbour, turned and pushed along the sky's axes, shape (7, 2)."""
-    size = np.sqrt(np.sum(one[:3] ** 2))
+def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArray) -> FloatArray:
+    """State and neighbour with a small rotation and relative change of L, shape (7, 2)."""
+    size = np.sqrt(np.sum(state[:3] ** 2))
+    quaternion = rotations.rotation_about(rotation, np.ones(1))
     other = np.concatenate(
         [
-            one[:3] + momentum * (size if size else 1.0),
-            turns.times(turns.turned_about(turn, np.ones(1)), one[3:]),
+            state[:3] + momentum * (size if size else 1.0),
+            rotations.times(quaternion, state[3:]),
         ]
     )
-    return np.concatenate([one, other], axis=1)
+    return np.concatenate([state, other], axis=1)
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Turn and relative push between the two, and their length together."""
-    one, other = pair[:, :1], pair[:, 1:]
-    turn = 2 * turns.times(other[3:], turns.conjugate(one[3:]))
-    aside = turn[1:] * np.sign(turn[:1])
-    size = np.sqrt(np.sum(one[:3] ** 2))
-    carried = (other[:3] - one[:3]) / (size if size else 1.0)
-    return aside, carried, float(np.sqrt(np.sum(aside**2) + np.sum(carried**2)))
+    """Small rotation and relative change of L between the two states, and their total length."""
+    state, other = pair[:, :1], pair[:, 1:]
+    quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
+    rotation = quaternion[1:] * np.sign(quaternion[:1])
+    size = np.sqrt(np.sum(state[:3] ** 2))
+    momentum = (other[:3] - state[:3]) / (size if size else 1.0)
+    return rotation, momentum, float(np.sqrt(np.sum(rotation**2) + np.sum(momentum**2)))

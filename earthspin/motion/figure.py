@@ -1,15 +1,15 @@
-r"""The figure axis that belongs to an angular momentum: the slow manifold.
+r"""Figure axis as a function of the angular momentum, on the slow manifold without free motion.
 
 For an axisymmetric body whose spin about its figure axis F is Omega, with the angular
 momentum l in units of C Omega,
 
     l = F + \tau F x F',     \tau = A/(C Omega)
 
-is exact. Free motion turns F about l once in C/A ... a day (I.6); what torques alone do
-is slow. Solved by iteration for the tilt, l - F = tau F x (l' - (l - F)'), the equation gives the
-one motion that has no free part. Each round adds a term, -tau F x (the last term)', of a series in
-(turns of the axis' motion per turn of the body): it is asymptotic, and for a body that spins too
-slowly its terms soon grow.
+is exact. The free motion rotates F about l in about a day (I.6), while the motion due to torques is
+slow. Iteration for the tilt, l - F = tau F x (l' - (l - F)'), gives the only motion without a free
+part. Each round adds a term, -tau F x (the last term)', of a series in the ratio of the frequencies
+of the axis and of the spin. The series is asymptotic; for a slowly rotating body its terms soon
+grow.
 """
 
 from __future__ import annotations
@@ -37,20 +37,20 @@ def tilt_of_figure(
     ----------
     windows : Windows
     figure : ndarray, shape (3, w, n)
-        A guess of F that is right to the first order.
+        Estimate of F that is correct to first order.
     rate : ndarray, shape (3, w, n)
         l', s-1.
     tau : float
         A/(C Omega), s; negative for a retrograde spin.
     rounds : int
-        How many terms of the series at most.
+        Largest number of terms of the series.
 
     Returns
     -------
     tilt : ndarray, shape (3, w, n)
-        rad.
+        Tilt, rad.
     sizes : list of float
-        Largest of each term, rad. The series is cut before they begin to grow.
+        Largest value of each term, rad. The series is truncated before the terms grow.
     """
     scaled = tau * figure
     tilt = term = cross(scaled, rate)
@@ -68,7 +68,7 @@ def tilt_of_figure(
 
 
 def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
-    """Speed at which the axis sweeps where the obliquity is 45 degrees, where it is fastest, rad/s.
+    """Speed of the axis at an obliquity of 45 degrees, at which it is largest, rad/s.
 
     (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
     cos(eps), times sin(eps) (I.8.23).

@@ -1,6 +1,6 @@
-"""All that turns the angular momentum, as one function of the axis; only what is switched on.
+"""Rate of the angular momentum as a function of the axis, from all effects that are switched on.
 
-An effect that is off costs nothing: its masses are not looked up, its torque not evaluated.
+For an effect that is switched off, no positions and no torque are evaluated.
 """
 
 from __future__ import annotations
@@ -23,28 +23,28 @@ Positions = Callable[[FloatArray], Mapping[str, FloatArray]]
 RateLaw = Callable[[FloatArray, FloatArray], FloatArray]
 #: Positions at the nodes of windows by name, each of shape (3, w, n), m.
 Places = Mapping[str, FloatArray]
-#: What an effect adds to l': the forces, the windows and the positions at their nodes to a rate.
+#: Contribution of an effect to l', from the forces, the windows and the positions at their nodes.
 Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """The numbers of a spinning body that its motion depends on.
+    """Numbers of a rotating body on which its motion depends.
 
     Attributes
     ----------
     h : float
         Dynamical flattening (C - A)/C, A the mean equatorial moment.
     spin_rate : float
-        rad/s; negative if retrograde.
+        Spin rate, rad/s; negative if retrograde.
     inverse_polar_moment : float
         M a2/C = H/J2.
     radius : float
         Equatorial radius a, m.
     zonal : mapping of int to float
-        Coefficients J_n beyond J2 that are switched on, by degree.
+        Zonal coefficients J_n beyond J2 that are switched on, by degree.
     j2_trend : float
-        Relative rate of J2, s-1; 0 if switched off. H is taken to follow.
+        Relative rate of J2 and H, s-1; 0 if switched off.
     triaxiality : float
         (B - A)/C; 0 if switched off.
     meridian : float
@@ -63,30 +63,30 @@ class Figure:
 
     @property
     def tau(self) -> float:
-        """A/(C Omega), s: what joins figure axis and angular momentum."""
+        """Time A/(C Omega), s, in the relation of figure axis and angular momentum."""
         return (1 - self.h) / self.spin_rate
 
 
 @dataclass(frozen=True, kw_only=True)
 class Forces:
-    """What pulls on a body, and how it counts.
+    """Perturbers of a body, and the effects that are switched on.
 
     Attributes
     ----------
     figure : Figure
     gm : mapping of str to float
-        What pulls, m3 s-2.
+        GM of the perturbers, m3 s-2.
     positions : callable
-        Where it stands; asked for the names in `gm` alone.
+        Positions of the perturbers in `gm`.
     near : tuple of str
-        Those that count for J3, J4 and geodesic precession.
+        Perturbers that are included in the torques on J3 and J4 and in geodesic precession.
     far : mapping of str to float
-        What may pull as well, m3 s-2: the planets.
+        GM of the planets, which an effect may add to `gm`, m3 s-2.
     torques : tuple of callable
-        What else turns the angular momentum.
+        Further contributions to the rate of the angular momentum.
     mean_pole : callable or None
-        Times (t,) to unit vectors (t, 3). Given, torques are those on an axis that points
-        there: second-order effects are switched off.
+        Function of times (t,) that returns unit vectors (t, 3). If given, torques are evaluated for
+        an axis in this direction, so second-order effects are switched off.
     """
 
     figure: Figure
@@ -98,25 +98,28 @@ class Forces:
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
-        """Evaluate the sky at the nodes of windows.
+        """Evaluate positions at the nodes of windows.
 
         Returns
         -------
         rate : callable
-            Figure axis and angular momentum at the nodes, shape (3, w, n), to l'.
+            Function of figure axis and angular momentum at the nodes, shape (3, w, n), that returns
+            l'.
         tensor : ndarray, shape (6, w, n)
-            `tidal_tensor` of all that pulls.
+            `tidal_tensor` of all perturbers.
         """
         figure = self.figure
         shape = windows.times.shape
-        found = self.positions(windows.times.ravel())
-        place = {name: np.ascontiguousarray(found[name].T).reshape(3, *shape) for name in self.gm}
+        positions = self.positions(windows.times.ravel())
+        place = {
+            name: np.ascontiguousarray(positions[name].T).reshape(3, *shape) for name in self.gm
+        }
         tensor = tidal_tensor((gm, place[name]) for name, gm in self.gm.items())
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
         mean = self._mean_pole_at(windows.times)
         zonals = self._zonal_laws(place) if figure.zonal else []
-        added = [torque(self, windows, place) for torque in self.torques]
+        further = [torque(self, windows, place) for torque in self.torques]
 
         def on_figure(axis: FloatArray) -> FloatArray:
             total = quadrupole_torque(scaled, axis)
@@ -124,12 +127,12 @@ class Forces:
                 total += zonal(axis)
             return total
 
-        known = None if mean is None else on_figure(mean)
+        constant = None if mean is None else on_figure(mean)
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
-            total = on_figure(axis) if known is None else known.copy()
-            for of in added:
-                total += of(axis, momentum)
+            total = on_figure(axis) if constant is None else constant.copy()
+            for law in further:
+                total += law(axis, momentum)
             return total
 
         return rate, tensor

@@ -1,9 +1,9 @@
-r"""Windows of a rotation, solved one after another as long as their nodes allow.
+r"""Integrate a rotation in successive windows of variable length.
 
-Each holds a few Gauss-Legendre nodes; Picard's iteration brings the unknowns of
-`earthspin.motion.equations` there to what their own rates integrate to. A window is as long as the
-last Legendre terms of the rates allow, so that a fast passage is met with short ones. The sky is
-asked for many windows at once.
+Each window has a few Gauss-Legendre nodes, at which Picard iteration solves for the unknowns of
+`earthspin.motion.equations`. The length of the windows is chosen such that the last Legendre terms
+of the rates are within the tolerance, so fast passages have short windows. Positions are evaluated
+for many windows in one call.
 """
 
 from __future__ import annotations
@@ -17,49 +17,50 @@ from numpy.typing import NDArray
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull, Rigid, SkyLaw
-from earthspin.numerics import turns
+from earthspin.numerics import rotations
 from earthspin.numerics.gauss_windows import Windows, integrated, rule
 
 FloatArray = NDArray[np.float64]
 
-#: Nodes in a window, and windows whose sky is asked for at once.
+#: Number of nodes in a window, and of windows for which positions are evaluated in one call.
 ORDER, BATCH = 16, 32
-#: Share of the last terms of the rates in a window that is let pass.
+#: Smallest tolerance: relative size of the last terms of the rates in a window.
 FINEST = 1e-13
-#: Rounds after which a window is too long.
+#: Number of Picard rounds after which a window is regarded as too long.
 MOST_ROUNDS = 40
-#: Share of the tolerance by which the last round may move the unknowns.
+#: Largest change of the unknowns in the last round, as a fraction of the tolerance.
 CONVERGED = 1e-3
-#: By what the length changes at most from one batch to the next, and where a window was too long.
+#: Limits on the factor between window lengths of successive batches: smallest, largest, and largest
+#: after a window was too long.
 _SHRINK, _GROW, _SHORTER = 0.2, 1.6, 0.8
-#: What is aimed at of what is allowed.
+#: Safety factor of the window length.
 _CAREFUL = 0.85
-#: First window, and shortest, in radians of the spin: shorter ones are of a motion that runs away.
+#: First and shortest window length in radians of the spin; shorter windows mean a divergent motion.
 FIRST_TURN, SHORTEST_TURN = 0.5, 1e-7
-#: Share of a window that no further one is begun for.
+#: Fraction of a window at the end of the span for which no further window is added.
 _HARDLY = 1e-9
-#: Length of a window over the time, below which its nodes cannot be told apart.
+#: Smallest ratio of window length and time for which the nodes are distinct floats.
 _ALIKE = 1e-13
 _ROUND_OFF, _NEAR_ROUND_OFF = float(np.finfo(float).eps), 1e-13
-#: A window is given up when a round moves the unknowns by more, in radians and in units of C u.
+#: Largest change of the unknowns in a round before the window is abandoned, rad and C u.
 _RUNAWAY = 1e6
 
 
 @dataclass(frozen=True)
-class Above:
-    """What pulls, whenever it is asked for.
+class Masses:
+    """Perturbing masses with their positions at any time, and further effects.
 
     Attributes
     ----------
     gm : mapping of str to float
-        m3 s-2; those that count for J_n come first.
+        GM, m3 s-2; masses that act on J_n come first.
     positions : callable
-        Times (t,), s, to positions (t, 3) by name, m, along the sky's axes.
+        Function of times (t,), s, that returns positions (t, 3) along the sky's axes by name, m.
     near : int
-        How many count for J_n.
+        Number of masses that act on J_n.
     laws : callable or None
-        What effects add: from one window and the positions at its nodes by name, each of shape
-        (3, 1, n).
+        Function of a window and the positions at its nodes by name, each of shape (3, 1, n), that
+        returns the contributions of effects.
     """
 
     gm: Mapping[str, float]
@@ -68,13 +69,13 @@ class Above:
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
     def over(self, windows: Windows) -> list[Pull]:
-        """All that pulls at the nodes of each window."""
+        """Evaluate the masses at the nodes of each window."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             nothing = np.zeros((3, 0, windows.order))
             return [Pull(row, gm, nothing) for row in times]
-        found = self.positions(times.ravel())
-        places = np.stack([found[name].T for name in self.gm], axis=1)
+        positions = self.positions(times.ravel())
+        places = np.stack([positions[name].T for name in self.gm], axis=1)
         places = places.reshape(3, len(self.gm), *times.shape)
         return [
             Pull(
@@ -90,26 +91,27 @@ class Above:
     def _laws(self, windows: Windows, places: FloatArray, w: int) -> Sequence[SkyLaw]:
         if self.laws is None:
             return ()
-        one = Windows(windows.edges[w : w + 2], windows.order)
-        return self.laws(one, {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)})
+        window = Windows(windows.edges[w : w + 2], windows.order)
+        return self.laws(window, {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)})
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Windows that have been solved, one after another.
+    """Solution over consecutive windows.
 
     Attributes
     ----------
     edges : ndarray, shape (w + 1,)
-        s.
+        Edges of the windows, s.
     series : ndarray, shape (7, lanes, w, n + 1)
         Legendre series of the unknowns.
     steady : ndarray, shape (3, lanes, w)
-        Angular velocity that each window counts from, rad/s.
+        Reference angular velocity of each window, rad/s.
     in_space : bool
-        Along which axes: the sky's or the body's, as the angular momentum.
+        True if angular momentum and reference angular velocity are along the sky's axes, False if
+        along the body's axes.
     end : ndarray, shape (7, lanes)
-        Unknowns where it ends, the attitude as a unit quaternion.
+        Angular momentum and attitude quaternion at the end.
     """
 
     edges: FloatArray
@@ -123,49 +125,50 @@ class Piece:
         lanes = self.series.shape[1]
         windows = Windows(self.edges, self.series.shape[-1])
         flat = windows.evaluate(self.series.reshape(7 * lanes, len(windows.half), -1), times)
-        found = flat.reshape(7, lanes * times.size)
+        unknowns = flat.reshape(7, lanes * times.size)
         window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(windows.half) - 1)
-        ahead = turns.turned_about(
+        ahead = rotations.rotation_about(
             self.steady[:, :, window].reshape(3, -1), np.tile(times - self.edges[window], lanes)
         )
-        q = turns.times(ahead, found[3:]) if self.in_space else turns.times(found[3:], ahead)
+        p = unknowns[3:]
+        q = rotations.times(ahead, p) if self.in_space else rotations.times(p, ahead)
         q /= np.sqrt(np.sum(q * q, axis=0))
-        return np.concatenate([found[:3], q]).reshape(7, lanes, times.size)
+        return np.concatenate([unknowns[:3], q]).reshape(7, lanes, times.size)
 
     def along_sky(self, times: FloatArray) -> FloatArray:
-        """The same of the first lane, angular momentum along the sky's axes, shape (7, t)."""
-        found = self.at(times)[:, 0]
+        """Angular momentum along the sky's axes and attitude of the first lane, shape (7, t)."""
+        state = self.at(times)[:, 0]
         if not self.in_space:
-            found[:3] = turns.rotated(found[3:], found[:3])
-        return found
+            state[:3] = rotations.rotated(state[3:], state[:3])
+        return state
 
 
 @dataclass
 class Solver:
-    """One form of the equations, from a state onward.
+    """Solver of one form of the equations.
 
     Attributes
     ----------
     body : Rigid
     above : Above
     in_space : bool
-        Which form.
+        True for the form with the angular momentum along the sky's axes.
     tolerance : float
-        Largest share of the last terms in a window.
+        Largest relative size of the last terms in a window.
     order : int
-        Nodes in a window.
+        Number of nodes in a window.
     converged : float
-        Share of the tolerance by which the last round may move the unknowns.
+        Largest change of the unknowns in the last round, as a fraction of the tolerance.
     window : float
         Length of the next windows, s.
     shortest : float
-        No window may become shorter, s.
+        Shortest allowed window, s.
     evaluations : int
-        How often rates were evaluated, at so many nodes at a time.
+        Number of evaluations of the rates at all nodes of a window.
     """
 
     body: Rigid
-    above: Above
+    masses: Masses
     in_space: bool
     tolerance: float = FINEST
     order: int = ORDER
@@ -175,22 +178,22 @@ class Solver:
     evaluations: int = field(default=0)
 
     def begin_with(self, spin: FloatArray) -> None:
-        """Choose the first length, and the shortest, from a spin, rad/s, shape (3, lanes)."""
+        """Set the first and the shortest window length from a spin, rad/s, shape (3, lanes)."""
         fastest = max(float(np.max(np.sqrt(np.sum(spin**2, axis=0)))), abs(self.body.unit))
         self.window, self.shortest = FIRST_TURN / fastest, SHORTEST_TURN / fastest
 
     def next_edges(self, reached: float, end: float, count: int = BATCH) -> FloatArray:
-        """Edges of the next windows, the last not beyond the end, s.
+        """Edges of the next windows, which do not extend beyond the end, s.
 
         Raises
         ------
         UndefinedError
-            If they have become so short that nothing follows the motion.
+            If the windows have become shorter than the shortest allowed length.
         """
         if not self.window > max(self.shortest, _ALIKE * abs(reached)):
             raise UndefinedError(
-                f"{reached / DAY:.6g} d from the start the rotation changes faster than any "
-                "step follows; check a torque of your own, and how near what pulls comes"
+                f"{reached / DAY:.6g} d from the start the rotation changes too fast to be "
+                "integrated; check the custom torque and the distances of the perturbers"
             )
         few = min(count, max(1, int(np.ceil((end - reached) / self.window - _HARDLY))))
         edges = reached + self.window * np.arange(few + 1.0)
@@ -223,7 +226,7 @@ class Solver:
             found = near.along_sky(windows.times.ravel())
             seen = np.asarray(found.reshape(7, *windows.times.shape))
         for pull, begin, half in zip(
-            self.above.over(windows), edges[:-1], windows.half[:, 0], strict=True
+            self.masses.over(windows), edges[:-1], windows.half[:, 0], strict=True
         ):
             equations = Equations(self.body, pull, self.in_space, start, pull.times - begin)
             guess = None if seen is None else equations.unknowns(seen[:, len(rates)])
@@ -256,7 +259,7 @@ class Solver:
     def _solve(
         self, equations: Equations, start: FloatArray, half: float, guess: FloatArray | None
     ) -> tuple[FloatArray, float]:
-        """Rates in one window, and how far their last terms go over what is allowed."""
+        """Rates in one window, and the ratio of their last terms to the tolerance."""
         gauss = rule(self.order)
         rows = np.repeat(start, self.order, axis=1)
         unknowns, change = rows if guess is None else guess, np.inf
@@ -264,9 +267,9 @@ class Solver:
         for _ in range(MOST_ROUNDS):
             rates = equations.rates(unknowns)
             self.evaluations += 1
-            found = rows + (rates.reshape(-1, self.order) @ weighted).reshape(7, -1)
-            previous, change = change, float(np.max(np.abs(found - unknowns)))
-            unknowns = found
+            new = rows + (rates.reshape(-1, self.order) @ weighted).reshape(7, -1)
+            previous, change = change, float(np.max(np.abs(new - unknowns)))
+            unknowns = new
             if not change < _RUNAWAY:
                 return rates, np.inf
             if change <= max(_ROUND_OFF, self.converged * self.tolerance) or (
@@ -284,26 +287,26 @@ class Solver:
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
-        """Angular momentum and quaternion where a window ends."""
+        """Angular momentum and quaternion at the end of a window."""
         lanes = start.shape[1]
         whole = rates.reshape(7, lanes, self.order) @ rule(self.order).weights * half
         end = start + whole
-        ahead = turns.turned_about(equations.steady, np.full(lanes, 2 * half))
-        q = turns.times(ahead, end[3:]) if self.in_space else turns.times(end[3:], ahead)
+        ahead = rotations.rotation_about(equations.steady, np.full(lanes, 2 * half))
+        q = rotations.times(ahead, end[3:]) if self.in_space else rotations.times(end[3:], ahead)
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
     def _resize(self, over: float, *, complete: bool) -> None:
-        """Choose the next length from what the last terms came to."""
+        """Choose the next window length from the ratio of the last terms to the tolerance."""
         if not np.isfinite(over):
             self.window *= 0.5
             return
-        by = _CAREFUL * max(over, 1e-300) ** (-1 / self.order)
+        factor = _CAREFUL * max(over, 1e-300) ** (-1 / self.order)
         if complete:
-            self.window *= min(max(by, _SHRINK), _GROW)
+            self.window *= min(max(factor, _SHRINK), _GROW)
         else:
-            self.window *= min(max(by, _SHRINK), _SHORTER)
+            self.window *= min(max(factor, _SHRINK), _SHORTER)
 
 
-def halved(edges: FloatArray) -> FloatArray:
-    """Edges of windows half as long."""
+def half_windows(edges: FloatArray) -> FloatArray:
+    """Edges of windows of half the length."""
     return np.sort(np.concatenate([edges, (edges[1:] + edges[:-1]) / 2]))

@@ -1,7 +1,7 @@
-"""A body made ready to be followed: its numbers, what pulls on it, and its neighbours.
+"""Prepare a body, its perturbing masses and its neighbours for the attitude solver.
 
-A neighbour is the same body with one uncertain number changed by its half-width; what it is away
-by after a while is what that uncertainty does. Both go side by side, under one sky.
+A neighbour is the same body with one uncertain number changed by its half-width. The difference of
+its motion is the effect of this uncertainty. All are integrated together with the same masses.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from earthspin.motion.equations import (
     SkyLaw,
 )
 from earthspin.motion.forces import Forces
-from earthspin.motion.march import Above
+from earthspin.motion.march import Masses
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.numerics.gauss_windows import Windows
 
@@ -37,38 +37,39 @@ def rigid_bodies(
     epoch: float = 0.0,
     own: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
-    """A body and its neighbours.
+    """Make a body and its neighbours.
 
     Parameters
     ----------
     forces : Forces
-        Whose figure it is, effects switched on.
+        Forces with the figure of the body and the effects that are switched on.
     unit : float
         Unit of spin, rad/s.
     doubts : mapping of str to float
-        Relative half-widths, by `FLATTENING`, `TRIAXIALITY`, `PULL` (errors of positions) and
-        `ROUNDING` (rounding of positions); zero is certain.
+        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `PULL` (errors of positions) and
+        `ROUNDING` (rounding of positions); an input with zero has no neighbour.
     epoch : float
         Start of the motion, s from J2000.0.
     own : callable or None
+        Custom torque.
 
     Returns
     -------
     Rigid
-        The first lane is the body.
+        The body in the first lane, and its neighbours.
     tuple of str
-        What each further lane has changed.
+        Input that is changed in each further lane.
     """
     figure = forces.figure
     names = (FLATTENING, TRIAXIALITY, PULL, ROUNDING)
     changed = tuple(name for name in names if doubts.get(name, 0.0) > 0.0)
     factor = {
-        name: np.array([1.0, *(1 + doubts[name] if name == one else 1.0 for one in changed)])
+        name: np.array([1.0, *(1 + doubts[name] if name == other else 1.0 for other in changed)])
         if name in changed
         else np.ones(1 + len(changed))
         for name in names
     }
-    # both differences are J2 and (B - A)/(M a2) over C/(M a2) = J2/H
+    # J2 and (B - A)/(M a2) are divided by C/(M a2) = J2/H, so both differences scale with H.
     h = figure.h * factor[FLATTENING]
     triaxiality = figure.triaxiality * factor[FLATTENING] * factor[TRIAXIALITY]
     body = Rigid(
@@ -85,15 +86,15 @@ def rigid_bodies(
     return body, changed
 
 
-def above(forces: Forces, epoch: float = 0.0) -> Above:
-    """What pulls, as windows ask for it at times from an epoch, s from J2000.0."""
+def masses(forces: Forces, epoch: float = 0.0) -> Masses:
+    """Perturbing masses of some forces, at times relative to an epoch, s from J2000.0."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
         dated = Windows(window.edges + epoch, window.order)
         return [torque(forces, dated, places) for torque in forces.torques]
 
     near = {name: gm for name, gm in forces.gm.items() if name in forces.near}
-    return Above(
+    return Masses(
         gm=near | dict(forces.gm),
         positions=lambda times: forces.positions(times + epoch),
         near=len(near),
@@ -101,28 +102,28 @@ def above(forces: Forces, epoch: float = 0.0) -> Above:
     )
 
 
-def doubt_of_pull(distance: float, distance_error: float, angle_error: float) -> float:
-    """Bound on the relative error of a tide, GM/r3, from where a mass may be off.
+def relative_tide_error(distance: float, distance_error: float, angle_error: float) -> float:
+    """Bound on the relative error of a tide, GM/r3, from errors of the position of a mass.
 
     Parameters
     ----------
     distance, distance_error : float
-        m.
+        Distance and its error, m.
     angle_error : float
-        rad: a tide that is turned by an angle is off by no more than twice that.
+        Error of the direction, rad; the relative error of the tide is at most twice this.
     """
     return 3 * distance_error / distance + 2 * angle_error
 
 
 def upright(axis: FloatArray, angle: float) -> FloatArray:
-    """Attitude of a body whose third axis is given.
+    """Attitude of a body from its third axis and an angle about it.
 
     Parameters
     ----------
     axis : ndarray, shape (3,)
-        Unit vector along the sky's axes.
+        Third axis of the body, a unit vector along the sky's axes.
     angle : float
-        From the sky's x axis, projected on the equator, to the body's first axis, rad.
+        Angle from the sky's x axis, projected on the equator, to the body's first axis, rad.
 
     Returns
     -------

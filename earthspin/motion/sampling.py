@@ -1,13 +1,13 @@
-r"""How far an error in sampling the sky turns an axis: a bound for any body.
+r"""Bound on the error of an axis from sampling the positions of perturbers, for any body.
 
-All that the sky does to an oblate body is linear in the tidal tensor Q = sum GM r r^T/r5. With
-dQ the error of Q between and behind the nodes, the torque on a figure axis F is off by
-3 (H/\Omega) (dQ F) x F, which no F makes larger than 3 (H/\Omega) s(dQ), where s is half the
-difference of the largest and the smallest eigenvalue. For the integral this holds while F stands
-still; an axis that has turned by some radians multiplies the bound by 1 more than these (integrate
-by parts). The figure axis adds the slow manifold, \tau F x F' and its next term
-(`earthspin.motion.figure`), twice, because the angular momentum at the start has it, too; and a
-triaxial body its semidiurnal motion in proportion to Q itself.
+Torques on an oblate body are linear in the tidal tensor Q = sum GM r r^T/r5. With the error dQ of
+the interpolated Q, the error of the torque on a figure axis F is 3 (H/\Omega) (dQ F) x F. It is at
+most 3 (H/\Omega) s(dQ), where s is half the difference of the largest and the smallest eigenvalue.
+The same bound applies to the integral if F is fixed; if the axis has moved by some radians, the
+bound is multiplied by 1 plus this angle (integration by parts). The figure axis adds the slow
+manifold, \tau F x F' and its next term (`earthspin.motion.figure`), twice, because the initial
+angular momentum contains it as well. A triaxial body adds its semidiurnal motion, which is
+proportional to Q.
 """
 
 from __future__ import annotations
@@ -20,24 +20,23 @@ from earthspin.motion.forces import Figure
 FloatArray = NDArray[np.float64]
 
 
-def turn_by_sampling(
+def angle_from_sampling(
     figure: Figure,
     integral: FloatArray,
     value: FloatArray,
     derivative: FloatArray,
     turned: float = 0.0,
 ) -> FloatArray:
-    """Bound on the angle between the axis as sampled and the axis, rad.
+    """Bound on the axis error from interpolating the tidal tensor, rad.
 
     Parameters
     ----------
     figure : Figure
-        Of the body.
     integral, value, derivative : ndarray, shape (...)
-        Half the spread of the eigenvalues of the errors of the integral of Q since the epoch
-        (s-1), of Q (s-2) and of its derivative (s-3), at their largest.
+        Largest half spreads of the eigenvalues of the errors of the integral of Q since the epoch
+        (s-1), of Q (s-2) and of its derivative (s-3).
     turned : float
-        Path of the axis since the epoch, rad.
+        Length of the path of the axis since the epoch, rad.
 
     Returns
     -------
@@ -49,8 +48,8 @@ def turn_by_sampling(
     return np.asarray(slow + 3 * abs(figure.triaxiality) / spin * tilt)
 
 
-def turn_by_mean(figure: Figure, mean: float, length: float) -> float:
-    """Longest path of an axis, rad.
+def longest_path(figure: Figure, mean: float, length: float) -> float:
+    """Upper bound on the length of the path of an axis, rad.
 
     Parameters
     ----------
@@ -58,6 +57,6 @@ def turn_by_mean(figure: Figure, mean: float, length: float) -> float:
     mean : float
         Mean half spread of the eigenvalues of Q, s-2.
     length : float
-        Of time, s.
+        Time from the epoch, s.
     """
     return 3 * abs(figure.h / figure.spin_rate) * mean * length

@@ -1,11 +1,11 @@
-r"""A stretch of the angular momentum and the figure axis, by Picard iteration on Gauss windows.
+r"""Integrate angular momentum and figure axis over a segment by Picard iteration on Gauss windows.
 
-The axis moves by arcseconds while the sky goes round, so that the torque hardly depends on it: from
-a guess of the figure axis F at the nodes of all windows, integrate the torque through each window
-with the spectral integration matrix, chain the windows by a cumulative sum, take F on the slow
-manifold (`earthspin.motion.figure`), and repeat. Each round gains two to three digits (Clenshaw &
-Norton 1963, on Chebyshev nodes), by which the rounds end when the next would move the axis by less
-than rounding.
+The axis moves by arcseconds during an orbit of a perturber, so the torque hardly depends on this
+motion. Each iteration starts from an estimate of the figure axis F at the nodes of all windows. It
+integrates the torque through each window with the spectral integration matrix, joins the windows by
+a cumulative sum, and computes F on the slow manifold (`earthspin.motion.figure`). Each iteration
+gains two to three digits (Clenshaw & Norton 1963, on Chebyshev nodes). The iteration ends when the
+next round would move the axis by less than rounding.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ from earthspin.numerics.gauss_windows import Windows, integrated
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-#: Terms of the slow manifold that do not fall below this are refused, rad.
+#: Largest allowed last term of the slow manifold, rad.
 LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
 
 _ROUND_OFF = 1e-15  # rad
-#: A round that moves the axis by more than this has run away: the next ones would overflow, rad.
+#: Change of the axis in a round above which the iteration has diverged, rad.
 _RUNAWAY = 1e3
-#: Rounds on the slow manifold: a few while the path is but roughly known, then all that help.
+#: Number of rough Picard rounds, and terms of the slow manifold in rough and in later rounds.
 _ROUGH, _FEW, _ALL = 2, 2, 9
 
 
 @dataclass(frozen=True)
 class Start:
-    """What a segment begins with: the figure axis at the epoch, or the angular momentum.
+    """Initial figure axis or angular momentum of a segment, and an estimate of its rate.
 
-    The mean rate of the last segment leads ten times nearer to the path than no rate does.
+    The mean rate of the last segment gives a first estimate that is ten times better than without.
     """
 
     axis: FloatArray
@@ -47,35 +47,35 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start, given how it is tilted from the figure axis."""
+        """Angular momentum at the start, from its tilt with respect to the figure axis."""
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """Guess of the axis at the nodes of a segment, shape (3, w, n)."""
+        """First estimate of the axis at the nodes of a segment, shape (3, w, n)."""
         since = windows.times - windows.edges[0 if forward else -1]
         return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch that has been solved.
+    """Solution over one segment.
 
     Attributes
     ----------
     windows : Windows
-        s from J2000.0 TDB.
+        Windows in s from J2000.0 TDB.
     momentum, tilt : ndarray, shape (3, w, order)
-        Legendre coefficients of angular momentum, in units of C Omega, and of what it is tilted by
-        from the figure axis.
+        Legendre coefficients of the angular momentum in units of C Omega, and of angular momentum
+        minus figure axis.
     fast : ndarray of complex or None
-        Those of the semidiurnal amplitudes; None for a body of revolution.
+        Legendre coefficients of the semidiurnal amplitudes; None for an axisymmetric body.
     turn : float
-        By what the axis turned at most, rad.
+        Upper bound on the motion of the axis, rad.
     tail, floor, left : float
-        What may be off, rad: by the sky between the nodes; of the slow manifold and the semidiurnal
-        amplitudes; by further rounds.
+        Errors, rad: from torques between the nodes; from the slow manifold and the semidiurnal
+        amplitudes; from the unfinished iteration.
     rounds : int
-        That it took.
+        Number of Picard rounds.
     """
 
     windows: Windows
@@ -89,38 +89,38 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum where the next segment joins."""
+        """Angular momentum at the start of the next segment."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
 
     def mean_rate(self) -> FloatArray:
         """Mean rate of the angular momentum, s-1."""
-        moved = self.momentum_at_end(True) - self.momentum_at_end(False)
-        return np.asarray(moved / (self.windows.edges[-1] - self.windows.edges[0]))
+        change = self.momentum_at_end(True) - self.momentum_at_end(False)
+        return np.asarray(change / (self.windows.edges[-1] - self.windows.edges[0]))
 
 
 def signs(terms: int) -> FloatArray:
-    """Legendre polynomials at -1, where a window begins."""
+    """Values of the Legendre polynomials at -1, the start of a window."""
     return np.asarray((-1.0) ** np.arange(terms))
 
 
 def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segment:
-    """Follow the axis through the windows of one segment.
+    """Integrate the axis through the windows of one segment.
 
     Parameters
     ----------
     forces : Forces
     windows : Windows
-        s from J2000.0 TDB.
+        Windows in s from J2000.0 TDB.
     start : Start
     forward : bool
-        Whether it starts where the windows begin, or where they end.
+        True if `start` is at the first edge, False if it is at the last edge.
 
     Raises
     ------
     UndefinedError
-        If the axis turns too fast for the iteration, or the body spins too slowly for its figure
+        If the axis moves too fast for the iteration, or the body spins too slowly for its figure
         axis to stay near the angular momentum.
     """
     law, tensor = forces.over(windows)
@@ -135,14 +135,14 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
         begin = start.momentum_with(_at_edge(windows, tilt, forward))
         starts, momentum = _chain(windows, rate, begin, forward)
         tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds <= _ROUGH else _ALL)
-        moved = momentum - tilt
-        previous, change = change, float(np.max(np.abs(moved - axis)))
-        axis, left = moved, _left(change, previous)
+        new_axis = momentum - tilt
+        previous, change = change, float(np.max(np.abs(new_axis - axis)))
+        axis, left = new_axis, _remaining_change(change, previous)
         if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
-            break  # at the floor of rounding, or not converging: decided below
+            break  # limited by rounding, or diverging: the next statement decides
     if not left < 1e-13:
         raise UndefinedError(
-            f"the axis turns too fast for the iteration: after {rounds} rounds it still moves by "
+            f"the axis moves too fast for the iteration: after {rounds} rounds it still changes by "
             f"{change:.1g} rad; choose a slower precession or a shorter window"
         )
     _refuse_slow_spin(terms[-1], forces.figure.spin_rate)
@@ -161,8 +161,8 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
     )
 
 
-def _left(change: float, previous: float) -> float:
-    """What all further rounds would move the axis by, each gaining as much as the last one, rad."""
+def _remaining_change(change: float, previous: float) -> float:
+    """Total change of the axis in all further rounds, as a geometric series, rad."""
     if not change < previous < np.inf:
         return change
     return change * min(1.0, change / (previous - change))
@@ -171,7 +171,7 @@ def _left(change: float, previous: float) -> float:
 def _chain(
     windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate a rate through all windows: value at each window's start, and at the nodes."""
+    """Integrate a rate through all windows; return values at window starts and at the nodes."""
     to_nodes, whole = windows.integral(rate)
     if forward:
         starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
@@ -181,7 +181,7 @@ def _chain(
 
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Value where the segment begins, shape (3,)."""
+    """Value at the start of the segment, shape (3,)."""
     series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
     return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
@@ -192,7 +192,7 @@ def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
         raise UndefinedError(
             f"a spin of {days:.3g} d is too slow for the figure axis to follow the angular "
             f"momentum (slow manifold off by {last_term / ARCSEC * 1e3:.2g} mas, allowed "
-            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); ask for the whole attitude instead: "
+            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); integrate the full attitude with "
             f"earthspin.rotation, or compute = 'rotation'"
         )
 
@@ -210,9 +210,9 @@ def _fast(
 
 
 def _fast_tail(fast: ComplexArray | None) -> float:
-    """What the last quarter of the Legendre terms of the semidiurnal amplitudes comes to, rad.
+    """Sum of the last quarter of the Legendre terms of the semidiurnal amplitudes, rad.
 
-    Two terms of fourteen are too few: at a spin of 1.9 d they came to half the error measured.
+    Two of fourteen terms are too few: at a spin of 1.9 d their sum was half the measured error.
     """
     if fast is None:
         return 0.0
@@ -221,9 +221,10 @@ def _fast_tail(fast: ComplexArray | None) -> float:
 
 
 def _tail(series: FloatArray, windows: Windows) -> float:
-    """What the last two Legendre terms of the rate displace the axis by inside a window, rad.
+    """Displacement of the axis in a window by the last two Legendre terms of the rate, rad.
 
-    Over whole windows the error is far smaller: Gauss's rule is exact to twice the degree.
+    The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
+    degree.
     """
     last = np.max(np.abs(series[..., -2:]), axis=(0, 2))
     return float(np.max(last * windows.half[:, 0]) / (2 * windows.order))

@@ -1,10 +1,10 @@
-r"""The whole attitude of a rigid body in time, with its error.
+r"""Full attitude of a rigid body in time, with its error.
 
-The error is seen by doing it twice, in two forms and two lengths of step: Euler's equations along
-the body's axes in windows twice as long, and the angular momentum along the sky's axes in these
-halved. What separates them at each time is a bound on the second, because halving a window of n
-nodes divides its error by some 2^2n; where the motion is chaotic it grows as any error does.
-What an uncertain number does is seen from a neighbour that has it changed.
+Each motion is integrated twice, in two forms and with two window lengths: Euler's equations along
+the body's axes in long windows, and the angular momentum along the sky's axes in windows of half
+the length. Halving a window of n nodes divides the error by about 2^2n, so the difference of the
+two solutions bounds the error of the second one; in a chaotic motion it grows like any error. The
+effect of an uncertain number is the difference from a neighbour in which this number is changed.
 """
 
 from __future__ import annotations
@@ -20,27 +20,29 @@ from earthspin.motion.march import (
     CONVERGED,
     FINEST,
     ORDER,
-    Above,
+    Masses,
     Piece,
     Solver,
-    halved,
+    half_windows,
 )
-from earthspin.numerics import turns
+from earthspin.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 
-#: A motion that is asked for at its start alone is followed so far, s.
+#: Shortest span that is integrated, s.
 SHORTEST = 1e-6
-#: The same share for the halved windows. Their rounds begin with what the others found, and have to
-#: go on long enough to leave it: with 1e-2 they were off by up to three times what is claimed.
+#: Convergence of the half windows, as a fraction of the tolerance. Their iteration starts from the
+#: other solution and must become independent of it: with 1e-2, errors were up to three times the
+#: claimed ones.
 _FINE = 1e-4 * CONVERGED
 _EPS = float(np.finfo(float).eps)
-#: What is claimed of what separates the two ways: rounding errors of both may be alike in size.
+#: Safety factor: the claimed error is twice the difference of the two solutions, since the rounding
+#: errors of both may be similar.
 TWICE = 2.0
-#: What a window may be off by, of what is asked for of the whole; and the coarsest, so that
-#: windows stay shorter than a turn.
+#: Tolerance per window, as a fraction of the requested total error; and the largest tolerance, for
+#: which windows are shorter than a rotation.
 _SHARE, COARSEST = 1e-4, 1e-6
-#: Errors: of the attitude, rad; of the spin, rad/s; of the angular momentum, C u.
+#: Quantities with errors: attitude, rad; angular velocity, rad/s; angular momentum, C u.
 KINDS = ("attitude", "omega", "angular_momentum")
 
 
@@ -51,11 +53,11 @@ class State:
     Attributes
     ----------
     momentum : ndarray, shape (3, lanes)
-        In units of C u, along the body's axes.
+        Angular momentum along the body's axes, in units of C u.
     attitude : ndarray, shape (4, lanes)
-        Unit quaternion (w, x, y, z), from the axes of the body to those of the sky.
+        Unit quaternion (w, x, y, z) from the axes of the body to those of the sky.
     spin : ndarray, shape (3, lanes)
-        Along the body's axes, rad/s.
+        Angular velocity along the body's axes, rad/s.
     """
 
     momentum: FloatArray
@@ -70,14 +72,14 @@ class RotationSeries:
     Attributes
     ----------
     momentum : ndarray, shape (t, 3)
-        In units of C u, along the sky's axes.
+        Angular momentum along the sky's axes, in units of C u.
     attitude : ndarray, shape (t, 4)
-        Unit quaternion, from the axes of the body to those of the sky.
+        Unit quaternion from the axes of the body to those of the sky.
     omega : ndarray, shape (t, 3)
-        Along the body's axes, rad/s.
+        Angular velocity along the body's axes, rad/s.
     error : ndarray, shape (lanes, 3, t)
-        Largest so far, by `KINDS`: of the method, then what the neighbour in each further lane is
-        away by.
+        Largest errors up to each time, by `KINDS`: first of the method, then the differences from
+        the neighbour in each further lane.
     """
 
     momentum: FloatArray
@@ -87,15 +89,15 @@ class RotationSeries:
 
 
 def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
-    """State of a body and its neighbours that start alike.
+    """Initial state of a body and its neighbours.
 
     Parameters
     ----------
     body : Rigid
     attitude : ndarray, shape (4,)
-        From its axes to the sky's; only its direction counts.
+        Quaternion from the body's axes to the sky's; it is normalized.
     omega : ndarray, shape (3,)
-        Along its axes, rad/s.
+        Angular velocity along the body's axes, rad/s.
     """
     spin = np.repeat(omega[:, np.newaxis], body.lanes, axis=1)
     q = np.repeat((attitude / np.linalg.norm(attitude))[:, np.newaxis], body.lanes, axis=1)
@@ -103,62 +105,62 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
 
 
 def tolerance_for(accuracy: float | None) -> float:
-    """Tolerance of windows that keeps an error of the attitude over many turns, if any does.
+    """Tolerance of windows for an error of the attitude over many rotations.
 
     Parameters
     ----------
     accuracy : float or None
-        rad; None asks for the finest.
+        Requested error, rad; None requests the smallest tolerance.
     """
     return FINEST if accuracy is None else min(max(FINEST, _SHARE * accuracy), COARSEST)
 
 
 class Motion:
-    """A motion from its start onward; what is past is forgotten, so that no length is too long.
+    """Integration of a motion; past windows are not stored, so the span may be of any length.
 
     Parameters
     ----------
     body : Rigid
-        The body, and in further lanes its neighbours: the same with an uncertain number changed.
+        The body, and in further lanes its neighbours with one uncertain number changed.
     above : Above
     start : State
     end : float
         Last time, s from the start.
     tolerance : float
-        Share of the last terms in the windows that are twice as long.
+        Largest relative size of the last terms in the long windows.
     order : int
-        Nodes in a window.
+        Number of nodes in a window.
 
     Raises
     ------
     UndefinedError
-        If windows become so short that the motion runs away.
+        If the motion changes too fast, so that windows become too short.
     """
 
     def __init__(
         self,
         body: Rigid,
-        above: Above,
+        masses: Masses,
         start: State,
         end: float,
         *,
         tolerance: float = FINEST,
         order: int = ORDER,
     ) -> None:
-        self._body, self._above, self._start = body, above, start
+        self._body, self._masses, self._start = body, masses, start
         self._end = max(end, SHORTEST)
         self._tolerance, self._order = tolerance, order
         self._restart()
 
     def _restart(self) -> None:
-        start, body, how = self._start, self._body, (self._tolerance, self._order)
-        self._fine = Solver(body, self._above, True, *how, converged=_FINE)
-        self._coarse = Solver(body.first(), self._above, False, *how)
+        start, body, settings = self._start, self._body, (self._tolerance, self._order)
+        self._fine = Solver(body, self._masses, True, *settings, converged=_FINE)
+        self._coarse = Solver(body.first(), self._masses, False, *settings)
         self._coarse.begin_with(start.spin)
         speed = float(np.max(np.sqrt(np.sum(start.spin**2, axis=0))))
         self._rounding = _EPS * speed * self._end
         self._pieces = self._march(
-            np.concatenate([turns.rotated(start.attitude, start.momentum), start.attitude]),
+            np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
             np.concatenate([start.momentum, start.attitude])[:, :1],
         )
         self._now: tuple[Piece, Piece] | None = None
@@ -167,22 +169,22 @@ class Motion:
 
     @property
     def order(self) -> int:
-        """Nodes in a window."""
+        """Number of nodes in a window."""
         return self._order
 
     @property
     def evaluations(self) -> int:
-        """Nodes at which rates were evaluated so far, those of the error among them."""
+        """Number of nodes at which rates were evaluated so far, including those for the error."""
         return self._order * (self._fine.evaluations + self._coarse.evaluations)
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
-        """Batches of windows, long and halved, from the start to the end."""
+        """Yield batches of long windows and of half windows, from the start to the end."""
         reached = 0.0
         while True:
             rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
             if len(rough.edges) < 2:
                 continue
-            exact = self._fine.through(halved(rough.edges), fine, rough)
+            exact = self._fine.through(half_windows(rough.edges), fine, rough)
             if exact.edges[-1] < rough.edges[-1]:
                 self._coarse.window /= 2
                 continue
@@ -192,14 +194,15 @@ class Motion:
                 return
 
     def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> RotationSeries:
-        """The rotation at some times, with its error.
+        """Rotation at some times, with its error.
 
         Parameters
         ----------
         times : ndarray, shape (t,)
-            From the start, s, ascending; if they go back, the motion is made again.
+            Ascending times from the start, s. If the first one is before the last time of an
+            earlier call, the integration is restarted.
         tell : callable, optional
-            Called with the time that is reached, s, after each batch of windows.
+            Function that is called with the time reached, s, after each batch of windows.
 
         Returns
         -------
@@ -230,26 +233,27 @@ class Motion:
         )
 
     def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest errors at the edges of windows before some times, and at these."""
+        """Largest errors up to some times."""
         assert self._now is not None
         edges = self._now[0].edges
         before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
         return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest errors so far at the edges of the present windows."""
+        """Largest errors up to the edges of the current windows."""
         return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
 
     def _errors(self, times: FloatArray) -> FloatArray:
-        """Errors at times in the present windows, shape (lanes, kinds, t)."""
+        """Errors at times in the current windows, shape (lanes, kinds, t)."""
         assert self._now is not None
         rough, exact = self._now
         states = exact.at(times)
         other = rough.along_sky(times)
-        method = TWICE * apart(self._body.first(), states[:, 0], other)
+        method = TWICE * differences(self._body.first(), states[:, 0], other)
         method += np.array([self._rounding + _EPS] + [0.0] * 2)[:, np.newaxis]
         shares = [
-            apart(self._body, states[:, 0], states[:, lane]) for lane in range(1, states.shape[1])
+            differences(self._body, states[:, 0], states[:, lane])
+            for lane in range(1, states.shape[1])
         ]
         return np.stack([method, *shares])
 
@@ -257,21 +261,21 @@ class Motion:
 def shares_of(
     series: RotationSeries, changed: Sequence[str], doubt: float
 ) -> dict[str, FloatArray]:
-    """Errors of a rotation by where they come from, each of shape (3, t).
+    """Errors of a rotation by cause, each of shape (3, t).
 
     Parameters
     ----------
     series : RotationSeries
     changed : sequence of str
-        What each further lane has changed.
+        Input that is changed in each further lane.
     doubt : float
-        Of the pull; NaN if it was never measured.
+        Relative error of the tides; NaN if it was not measured.
 
     Returns
     -------
     dict of str to ndarray
-        ``method``, ``input`` and ``kernel``, and all of them together under an empty name; an angle
-        is at most half a turn.
+        Errors ``method``, ``input`` and ``kernel``, and the total under an empty name; an angle is
+        at most pi.
     """
     nothing = np.zeros_like(series.error[0])
     by_name = dict(zip(changed, series.error[1:], strict=True))
@@ -285,26 +289,26 @@ def shares_of(
     return shares
 
 
-def apart(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
-    """Angle between attitudes (rad), and lengths of the differences of spin and angular momentum.
+def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
+    """Angle between attitudes, and lengths of the differences of spin and angular momentum.
 
     Parameters
     ----------
     body : Rigid
-        Of the first lane.
+        Body of the first lane.
     one, other : ndarray, shape (7, t)
         Angular momentum along the sky's axes, in units of C u, and attitude.
 
     Returns
     -------
     ndarray, shape (3, t)
-        By `KINDS`: rad, rad/s, C u.
+        Differences by `KINDS`: rad, rad/s, C u.
     """
     spin = body.first().spin(one) - body.first().spin(other)
     momentum = one[:3] - other[:3]
     return np.stack(
         [
-            turns.angle_between(one[3:], other[3:]),
+            rotations.angle_between(one[3:], other[3:]),
             np.sqrt(np.sum(spin * spin, axis=0)),
             np.sqrt(np.sum(momentum * momentum, axis=0)),
         ]

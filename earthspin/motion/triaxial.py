@@ -1,18 +1,19 @@
-r"""Semidiurnal motion of the axes of a body whose equator is not round.
+r"""Semidiurnal motion of the axes of a triaxial body.
 
-The torque on B - A turns with the body, twice in a day: in the plane of the equator, as one
-complex number counted from the non-rotating direction e1,
+The torque on B - A varies twice a day with the rotation of the body. In the plane of the equator,
+as a complex number with respect to the non-rotating direction e1, it is
 
     n = -(3/2) i (B - A) conj(Q_1F + i Q_2F) exp(2 i theta)
 
-(from N = 3 GM/r5 r x I r, I.9.34). Its amplitude is slow, so that integral and response are
-series in (days over the months of the sky), closed here by iteration:
+(from N = 3 GM/r5 r x I r, I.9.34). Its amplitude varies slowly, so that its integral and the
+response are series in the ratio of a day to the periods of the perturbers. They are computed by
+iteration:
 
     l' = n/(C Omega),   l = f + i tau f',   w = f + (i/Omega) f'
 
-and l has besides what B - A adds to the angular momentum of a spin axis that is tilted by
-l - f already, -(B - A)/(2A) conj(l - f) exp(2 i theta) (0.1 uas). The axes move by 0.03 mas
-and come back; the mean motion is not touched.
+In addition, l contains the contribution of B - A to the angular momentum of a spin axis that is
+already tilted by l - f, -(B - A)/(2A) conj(l - f) exp(2 i theta) (0.1 uas). The amplitude of the
+axes is 0.03 mas; the mean motion does not change.
 """
 
 from __future__ import annotations
@@ -27,9 +28,9 @@ from earthspin.torque.quadrupole import apply
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-#: Nearer to the resonance of a flat body the series would not close.
+#: Smallest distance from the resonance of a flat body for which the series converges.
 NEAREST_RESONANCE = 0.2
-_ROUNDS = 8  # at most; each gains a factor of 25 for terms of a fortnight
+_ROUNDS = 8  # largest number of rounds; each gains a factor of 25 for fortnightly terms
 #: Terms below this change no digit of a unit vector, rad.
 _ROUNDING = 1e-16
 
@@ -79,12 +80,13 @@ def semidiurnal_amplitudes(
     Returns
     -------
     ndarray, shape (3, w, n), complex
-        rad, to be multiplied by exp(2 i theta), theta the angle of the axis of least moment.
+        Amplitudes, rad, to be multiplied by exp(2 i theta), with the angle theta of the axis of
+        least moment.
 
     Raises
     ------
     UndefinedError
-        If the body is so flat that its free nutation comes near half a day.
+        If the body is so flat that the period of its free nutation is close to half a day.
     """
     first, second = equatorial_basis(figure)
     q = _on_equator(apply(tensor, figure), first, second)
@@ -97,7 +99,7 @@ def semidiurnal_amplitudes(
     if abs(away) < NEAREST_RESONANCE:
         raise UndefinedError(
             f"A/C = {turn:.3g}: the semidiurnal torque on B - A resonates with the free nutation "
-            f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); leave out the effect 'triaxiality' or set "
+            f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); remove the effect 'triaxiality' or set "
             f"the body's triaxiality to 0"
         )
     uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, first, second))
@@ -107,7 +109,7 @@ def semidiurnal_amplitudes(
 
 
 def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexArray:
-    """Sum of terms, each the derivative of the last times a factor: x = first + factor x'."""
+    """Solve x = first + factor x' by a series whose terms are derivatives of the previous terms."""
     total = term = first
     for _ in range(_ROUNDS):
         term = factor * windows.derivative(term)

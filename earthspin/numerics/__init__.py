@@ -1,1 +1,1 @@
-"""Mathematics without physics: elliptic functions, double-double, quaternions, Gauss windows."""
+"""Numerical methods: elliptic functions, double-double numbers, quaternions, Gauss windows."""

@@ -1,10 +1,11 @@
-"""Linear equations dy/dr = M(r) y, carried from one radius to another by Gauss collocation.
+"""Integrate linear equations dy/dr = M(r) y from one radius to another by Gauss collocation.
 
-A stretch is cut into panels. On each the solution is the polynomial that meets the equation at
-the Gauss-Legendre nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations II,
-sect. IV.5): one small linear system a panel, all panels at once. Solutions then go from panel to
-panel, not their matrices: those hold solutions that fall off from a centre by many powers of the
-radius as well, in whose rounding the others would be lost.
+The interval is divided into panels. On each panel the solution is the polynomial that satisfies the
+equation at the Gauss-Legendre nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations
+II, sect. IV.5). This gives a small linear system for each panel; all systems are solved in one
+call. Solutions, not products of panel matrices, are then propagated from panel to panel. The
+matrices also contain solutions that decrease by many powers of the radius from a centre, whose
+rounding errors would exceed the other solutions.
 """
 
 from __future__ import annotations
@@ -20,12 +21,13 @@ from earthspin.errors import UndefinedError
 
 Array = NDArray[Any]
 
-#: Nodes of a panel; the result of a panel is of order twice that.
+#: Number of nodes of a panel; the order of the method is twice this number.
 NODES = 8
-#: Largest ratio of the ends of a panel at first: M grows as 1/r towards a centre.
+#: Largest initial ratio of the ends of a panel; M grows as 1/r towards a centre.
 FIRST_RATIO = 1.5
-#: By how much a solution may change, over its largest element, when panels are halved; and where
-#: rounding lets it settle no further, as in a layer much softer than its own weight.
+#: Convergence tolerance: largest change of a solution when panels are halved, relative to its
+#: largest element; and the limit below which stagnation from rounding is accepted, as in very soft
+#: layers.
 SETTLED, ROUNDED = 1e-13, 1e-8
 MOST_HALVINGS = 6
 
@@ -49,22 +51,22 @@ def carry(
     settled: float = SETTLED,
     together: bool = False,
 ) -> Array:
-    """Carry solutions from one radius to another.
+    """Integrate solutions from one radius to another.
 
     Parameters
     ----------
     matrix : callable
-        Of an array of radii, shape (r,), gives M, shape (..., r, n, n).
+        Function of radii, shape (r,), that returns M, shape (..., r, n, n).
     start, stop : float
-        Positive, in any unit.
+        Positive radii in any unit.
     y : ndarray, shape (..., n, k)
         k solutions at the start.
     settled : float
-        Largest change of a solution, over its largest element, when panels are halved; those of
-        the finer ones come out.
+        Convergence tolerance: largest change of a solution when panels are halved, relative to its
+        largest element.
     together : bool
-        Whether all their combinations are wanted, not each of them: what rounding adds of one to
-        another is then no change. From near a centre it adds of those that grow by more powers.
+        True if only the space of all combinations of the solutions matters. Changes within this
+        space, such as rounding errors near a centre that mix solutions, are then ignored.
 
     Returns
     -------
@@ -73,7 +75,7 @@ def carry(
     Raises
     ------
     UndefinedError
-        If ever smaller panels still change them: the layer is too soft to be a solid.
+        If the solutions do not converge because a layer is too soft to be a solid.
     """
     count = max(1, int(np.ceil(np.log(stop / start) / np.log(FIRST_RATIO))))
     coarse, last = _through(matrix, start, stop, y, count), np.inf
@@ -87,13 +89,13 @@ def carry(
             return fine
         coarse, last = fine, change
     raise UndefinedError(
-        f"the equations between {start:.4g} and {stop:.4g} radii do not settle: a layer there is "
-        "too soft to be a solid; make it a liquid, without vs, or stiffer"
+        f"the solution between radii {start:.4g} and {stop:.4g} does not converge: a layer there "
+        "is too soft to be a solid; make it a liquid, without vs, or stiffer"
     )
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest element of a change, less what of it lies in a space of solutions."""
+    """Largest element of a change, without its component in a space of solutions."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))
@@ -102,7 +104,7 @@ def _largest(change: Array, space: Array | None) -> float:
 def _through(
     matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
 ) -> Array:
-    """Solutions at the end, with a number of panels whose ends keep one ratio."""
+    """Solutions at the end, with `count` panels whose ends have a constant ratio."""
     edges = np.geomspace(start, stop, count + 1)
     width = np.diff(edges)
     radii = edges[:-1, None] + width[:, None] * _NODES

@@ -1,8 +1,8 @@
 """Double-double numbers: an unevaluated sum of two floats, about 32 digits.
 
-A rotor's phases run for 10^4 periods, and near the separatrix the period hangs on the
-difference of two nearly equal numbers. The few constants of a motion are therefore formed
-with twice the digits; what varies in time is plain floats. Algorithms and bounds: Joldes,
+The phases of a rotor may extend over 10^4 periods, and near the separatrix the period depends on
+the difference of two nearly equal numbers. The constants of a motion are therefore computed with
+twice the digits; functions of time are plain floats. Algorithms and bounds: Joldes,
 Muller & Popescu 2017, ACM Trans. Math. Softw. 44, 15res.
 """
 
@@ -22,18 +22,18 @@ _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts 53 bits into 26 and 26
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DoubleDouble:
-    """hi + lo, with hi the sum rounded to a float.
+    """Sum hi + lo, where hi is the sum rounded to a float.
 
     Attributes
     ----------
     hi, lo : float or ndarray
-        Of one shape. `hi` alone is the value as a float.
+        Parts of the same shape; `hi` is the value as a float.
     """
 
     hi: Numeric
     lo: Numeric
 
-    __array_ufunc__ = None  # let an array on the left hand the operation to this class
+    __array_ufunc__ = None  # an array on the left delegates the operation to this class
 
     def __neg__(self) -> DoubleDouble:
         return DoubleDouble(-self.hi, -self.lo)
@@ -69,7 +69,7 @@ class DoubleDouble:
     __rmul__ = __mul__
 
     def sqrt(self) -> DoubleDouble:
-        """Square root of numbers from 0 up."""
+        """Square root of non-negative numbers."""
         root = np.sqrt(self.hi)
         square, error = two_product(root, root)
         rest = (self.hi - square) - error + self.lo
@@ -81,30 +81,30 @@ class DoubleDouble:
 
 
 def as_double_double(number: Numeric) -> DoubleDouble:
-    """A float or array as it stands, with nothing behind it."""
+    """Convert a float or array, with lo = 0."""
     return number if isinstance(number, DoubleDouble) else DoubleDouble(number, 0.0 * number)
 
 
 def where(condition: Numeric, yes: Numeric, no: Numeric) -> DoubleDouble:
-    """Choose element by element, as `numpy.where` does."""
+    """Choose element by element, like `numpy.where`."""
     yes, no = as_double_double(yes), as_double_double(no)
     return DoubleDouble(np.where(condition, yes.hi, no.hi), np.where(condition, yes.lo, no.lo))
 
 
 def stack(*parts: DoubleDouble) -> DoubleDouble:
-    """Join along a new last axis."""
+    """Stack along a new last axis."""
     return DoubleDouble(np.stack([p.hi for p in parts], -1), np.stack([p.lo for p in parts], -1))
 
 
 def two_sum(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
-    """Sum of two floats and what rounding took from it, exactly (Knuth)."""
+    """Rounded sum of two floats, and its exact rounding error (Knuth)."""
     total = a + b
     b_seen = total - a
     return total, (a - (total - b_seen)) + (b - b_seen)
 
 
 def two_product(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
-    """Product of two floats and what rounding took from it, exactly (Dekker)."""
+    """Rounded product of two floats, and its exact rounding error (Dekker)."""
     product = a * b
     a_high, a_low = _split(a)
     b_high, b_low = _split(b)
@@ -113,7 +113,7 @@ def two_product(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
 
 
 def _fast_two_sum(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
-    """As `two_sum`, for |a| >= |b| or a = 0."""
+    """Same as `two_sum`, for |a| >= |b| or a = 0."""
     total = a + b
     return total, b - (total - a)
 

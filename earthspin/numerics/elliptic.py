@@ -1,17 +1,17 @@
-"""Elliptic functions and integrals, whole from the circle up to the separatrix.
+"""Elliptic functions and integrals with full accuracy for every modulus, including 0 and 1.
 
-`scipy.special.ellipj` takes the parameter m itself and so loses 1 - m, which is what counts
-near a separatrix; and `scipy.special.elliprj` loses up to three digits of a complete integral
-that peaks at its end. Here everything follows from the complementary modulus k', or from the
-complementary parameter k'^2 = 1 - m, and no step subtracts nearly equal numbers.
+`scipy.special.ellipj` takes the parameter m, so it loses the digits of 1 - m near a separatrix.
+`scipy.special.elliprj` loses up to three digits of a complete integral whose integrand peaks at its
+end. The functions of this module take the complementary modulus k', or the complementary parameter
+k'^2 = 1 - m, and no step subtracts nearly equal numbers.
 
-Two families serve two needs. From `landen_descent` on, the arithmetic-geometric mean of 1 and
-k' (DLMF 19.8 and 22.7) is held with 32 digits, for phases that run over 10^4 periods; the
-leading axes hold bodies, the last one times. One step down from k the modulus is
-k1 = (1 - k')/(1 + k') and the argument v = (1 + k')u/2; the functions of both are kept, because
-the third kind has no cancellation there. `jacobi_sncndn` and `complete_third_kind` take plain
-floats and broadcast. Each element takes as many steps as it needs and then waits for the others:
-it is the same to the bit alone and among many.
+There are two families of functions. Those from `landen_descent` on compute the arithmetic-geometric
+mean of 1 and k' (DLMF 19.8 and 22.7) with 32 digits, for phases over 10^4 periods. Their arrays
+have bodies on the leading axes and times on the last axis. One Landen step down from k, the modulus
+is k1 = (1 - k')/(1 + k') and the argument v = (1 + k')u/2; the functions of both are returned,
+because the integral of the third kind has no cancellation at k1. `jacobi_sncndn` and
+`complete_third_kind` take plain floats and broadcast. Each element takes as many steps as it needs,
+so its bits are the same alone and in an array.
 """
 
 from __future__ import annotations
@@ -28,20 +28,21 @@ from earthspin.numerics.double_double import DoubleDouble, as_double_double, whe
 FloatArray = NDArray[np.float64]
 
 _HALF_PI = DoubleDouble(1.5707963267948966, 6.123233995736766e-17)
-#: Below this modulus sin and cos are sn and cn to the last digit (they differ by k2/4).
+#: Modulus below which sn and cn equal sin and cos to the last digit (the difference is k2/4).
 _CIRCULAR = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LandenDescent:
-    """The arithmetic-geometric mean of 1 and k', step by step.
+    """Steps of the arithmetic-geometric mean of 1 and k'.
 
     Attributes
     ----------
     arithmetic, geometric : tuple of DoubleDouble
-        The means a_n and b_n, from a_0 = 1 and b_0 = k'.
+        Means a_n and b_n, from a_0 = 1 and b_0 = k'.
     separatrix : ndarray of bool
-        Where k' = 0: no period, hyperbolic functions. The means there are those of k' = 1.
+        True for k' = 0, where the functions are hyperbolic and have no period; the means are then
+        those of k' = 1.
     """
 
     arithmetic: tuple[DoubleDouble, ...]
@@ -50,12 +51,12 @@ class LandenDescent:
 
     @property
     def quarter_period(self) -> DoubleDouble:
-        """K(k), half pi over the mean; on the separatrix 0, since nothing repeats."""
+        """Quarter period K(k) = pi/2 divided by the mean; 0 on the separatrix."""
         return where(self.separatrix, 0.0, _HALF_PI / self.arithmetic[-1])
 
 
 class Jacobi(NamedTuple):
-    """sn, cn and dn of one argument."""
+    """Jacobi's functions sn, cn and dn of one argument."""
 
     sn: FloatArray
     cn: FloatArray
@@ -63,12 +64,12 @@ class Jacobi(NamedTuple):
 
 
 def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
-    """Descend from k' until a_n and b_n agree to 32 digits.
+    """Compute the arithmetic-geometric mean of 1 and k' to 32 digits.
 
     Parameters
     ----------
     complementary_modulus : DoubleDouble
-        k' = sqrt(1 - k2), from 0 to 1.
+        Complementary modulus k' = sqrt(1 - k2), from 0 to 1.
     """
     separatrix = np.asarray(complementary_modulus.hi == 0)
     b = where(separatrix, 1.0, complementary_modulus)
@@ -86,25 +87,25 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
 
 
 def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
-    """Jacobi's functions at the modulus k, and one step down (DLMF 22.7).
+    """Jacobi's functions at the modulus k, and one Landen step down (DLMF 22.7).
 
     Parameters
     ----------
     u : ndarray, shape (..., n)
         Argument, from -K to K.
     descent : LandenDescent
-        Of shape (...).
+        Descent with arrays of shape (...).
 
     Returns
     -------
     upper, lower : Jacobi
-        Of u at the modulus k, and of v = (1 + k')u/2 at k1 = (1 - k')/(1 + k').
+        Functions of u at the modulus k, and of v = (1 + k')u/2 at k1 = (1 - k')/(1 + k').
     """
     a = [mean.hi[..., np.newaxis] for mean in descent.arithmetic]
     b = [mean.hi[..., np.newaxis] for mean in descent.geometric]
     on = descent.separatrix[..., np.newaxis]
     regular = np.where(on, 0.0, u)  # u may be infinite on the separatrix
-    depth, mean = np.ones(on.shape, dtype=int), a[1]  # where sin and cos are the functions
+    depth, mean = np.ones(on.shape, dtype=int), a[1]  # step at which sn and cn are sin and cos
     for step in range(1, len(b)):
         deeper = (depth == step) & (a[step - 1] - b[step - 1] > 2 * _CIRCULAR * a[step - 1])
         depth, mean = depth + deeper, np.where(deeper, a[step + 1], mean)
@@ -115,7 +116,7 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
         half = (a[step] - b[step]) / 2
         rise, run = a[step] * s, a[step + 1] * c * d
         up = (b[step] + half * c * c) / (a[step + 1] + half * s * s)
-        # From the ratio alone: errors of cn would double in every step, those of sn halve.
+        # Use only the ratio of sn and cn: errors of cn alone would double in every step.
         length = np.sqrt(rise * rise + run * run)
         s, c, d = _choose(step < depth, Jacobi(rise / length, run / length, up), lower)
     upper = Jacobi(s, c, d)
@@ -125,14 +126,17 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
 
 
 def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) -> FloatArray:
-    """F of the angle with that sine and cosine, from -K to K (DLMF 19.25.5).
+    """Integral of the first kind F from the sine and cosine of the angle (DLMF 19.25.5).
+
+    The result is from -K to K.
 
     Parameters
     ----------
     sine, cosine : ndarray
-        The cosine not below 0.
+        Sine and non-negative cosine of the angle.
     complementary : ndarray
-        k'^2. Where it is 0 the result is arsinh(tan), infinite at a right angle.
+        Complementary parameter k'^2. If it is 0, the result is arsinh(tan), infinite at a right
+        angle.
     """
     separatrix = complementary == 0
     c2 = np.where(separatrix, 1.0, cosine * cosine)
@@ -148,7 +152,7 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
     Parameters
     ----------
     n : DoubleDouble
-        From 0 up.
+        Parameter, not negative.
     descent : LandenDescent
     """
     a, b = descent.arithmetic, descent.geometric
@@ -168,16 +172,16 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
 def third_kind_periodic(
     u: FloatArray, lower: Jacobi, n: FloatArray, mean: FloatArray, descent: LandenDescent
 ) -> FloatArray:
-    """Integral of sn^2/(1 + n sn^2) dv less its mean, at the lower modulus (DLMF 19.25.14).
+    """Periodic part of the integral of sn^2/(1 + n sn^2) dv at the lower modulus (DLMF 19.25.14).
 
     Parameters
     ----------
     u : ndarray, shape (..., n)
         Argument at the modulus k, from -K to K.
     lower : Jacobi
-        Of u, one step down.
+        Functions of u, one Landen step down.
     n, mean : ndarray, shape (...)
-        The parameter, and what `third_kind_mean` gives for it.
+        Parameter, and the result of `third_kind_mean` for it.
     descent : LandenDescent
     """
     s, c, d = lower
@@ -200,23 +204,23 @@ def _choose(condition: NDArray[np.bool_], yes: Jacobi, no: Jacobi) -> Jacobi:
     return Jacobi(*(np.where(condition, y, n) for y, n in zip(yes, no, strict=True)))
 
 
-# --- of plain floats -----------------------------------------------------------------------------
+# --- functions of plain floats -------------------------------------------------------------------
 
 
 def jacobi_sncndn(
     argument: FloatArray, complement: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The functions sn, cn, dn, each to full relative accuracy up to half a quarter period.
+    """Jacobi's functions sn, cn and dn, with full relative accuracy for arguments up to K/2.
 
-    The descending Gauss transformation, as a recurrence of positive terms (Bulirsch 1965,
-    Numer. Math. 7, 78).
+    The method is the descending Gauss transformation, as a recurrence of positive terms (Bulirsch
+    1965, Numer. Math. 7, 78).
 
     Parameters
     ----------
     argument : ndarray
-        Between -K and K. Beyond K/2 cn loses relative accuracy towards its zero at K.
+        Argument between -K and K; beyond K/2, cn loses relative accuracy towards its zero at K.
     complement : ndarray
-        1 - m, from 0 to 1; broadcasts with `argument`.
+        Complementary parameter 1 - m, from 0 to 1; it broadcasts with `argument`.
 
     Returns
     -------
@@ -226,7 +230,7 @@ def jacobi_sncndn(
     on_separatrix = complement == 0
     mean, root = np.ones_like(complement), np.sqrt(np.where(on_separatrix, 1.0, complement))
     means = [(mean, root, np.ones_like(on_separatrix))]
-    while np.any(apart := mean - root > 1e-8 * mean):  # the next mean is right to the last digit
+    while np.any(apart := mean - root > 1e-8 * mean):  # then the next mean is exact
         mean, root = (
             np.where(apart, (mean + root) / 2, mean),
             np.where(apart, np.sqrt(mean * root), root),
@@ -234,9 +238,9 @@ def jacobi_sncndn(
         means.append((mean, root, apart))
     mean = (mean + root) / 2
 
-    at_zero = np.abs(argument) < 1e-100  # where sn is the argument
+    at_zero = np.abs(argument) < 1e-100  # sn equals the argument
     angle = np.where(at_zero, 1.0, mean * argument)
-    cotangent = mean / np.tan(angle)  # of the amplitude, times the mean of its level
+    cotangent = mean / np.tan(angle)  # cotangent of the amplitude, times the mean of this step
     dn = np.ones_like(mean)
     for upper_mean, upper_root, taken in reversed(means):
         square = cotangent**2 / mean
@@ -257,17 +261,17 @@ def jacobi_sncndn(
 
 
 def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray:
-    """Integral of sn^2/(cn^2 + shape sn^2) from 0 to K.
+    """Complete integral of sn^2/(cn^2 + shape sn^2) from 0 to K.
 
-    It is RJ(0, 1 - m, 1, shape)/3, by Landen's steps on positive terms (Bulirsch 1969,
-    Numer. Math. 13, 305: cel with a = 0, b = 1).
+    It equals RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch
+    1969, Numer. Math. 13, 305: cel with a = 0, b = 1).
 
     Parameters
     ----------
     complement : ndarray
-        1 - m, above 0 and up to 1.
+        Complementary parameter 1 - m, above 0 and up to 1.
     shape : ndarray
-        Above 0.
+        Positive parameter.
     """
     complement, shape = np.broadcast_arrays(complement, shape)
     root, product = np.sqrt(complement), np.sqrt(complement)

@@ -1,4 +1,4 @@
-"""A number with the shares of its half-width."""
+"""A number with the contributions to its half-width."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ Numeric = Any
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number, or an array of numbers, with what it may be off by.
+    """A number or array with its errors.
 
     Attributes
     ----------
     value : float
     method, given : float
-        95 % half-widths from averaging and sampling, and from the given numbers.
+        95 % half-widths from averaging and sampling, and from uncertainties of the inputs.
     """
 
     value: Numeric
@@ -28,5 +28,5 @@ class Estimate:
 
     @property
     def error(self) -> Numeric:
-        """95 % half-width from both."""
+        """Total 95 % half-width."""
         return np.hypot(self.method, self.given)

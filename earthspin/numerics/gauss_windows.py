@@ -1,9 +1,8 @@
-"""Gauss-Legendre windows: a span cut into short stretches, each with the same few nodes.
+"""Gauss-Legendre windows: a span is divided into windows with the same number of nodes.
 
 Inside a window a function is the polynomial through its values at the nodes. Integrals,
-derivatives and values in between then are products with small fixed matrices, for all
-windows at once. Vectors are kept component first, shape (3, window, node), so that numpy
-works on long contiguous rows.
+derivatives and interpolated values of all windows are products with small constant matrices.
+Vectors have the component first, shape (3, window, node), so that numpy uses long contiguous rows.
 """
 
 from __future__ import annotations
@@ -16,10 +15,10 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
-#: Real, or complex where a vector of a plane is written as one number.
+#: Real values, or complex values for vectors in a plane.
 _AnyArray = TypeVar("_AnyArray", NDArray[np.float64], NDArray[np.complex128])
 
-_CHUNK = 1 << 15  # times evaluated at once: the basis stays in the processor's cache
+_CHUNK = 1 << 15  # times evaluated in one call, so that the basis stays in the processor's cache
 
 
 class Windows:
@@ -28,9 +27,9 @@ class Windows:
     Parameters
     ----------
     edges : ndarray, shape (w + 1,)
-        Where one window ends and the next begins, s, ascending.
+        Ascending ends of the windows, s.
     order : int
-        Nodes in each window.
+        Number of nodes in each window.
 
     Attributes
     ----------
@@ -52,7 +51,7 @@ class Windows:
         return result
 
     def derivative(self, values: _AnyArray) -> _AnyArray:
-        """Derivative at the nodes of the polynomial through values there, per second."""
+        """Derivative at the nodes of the polynomial through values at the nodes, per second."""
         result: _AnyArray = _apply(values, rule(self.order).differentiate) / self.half
         return result
 
@@ -62,8 +61,9 @@ class Windows:
         Returns
         -------
         to_nodes : ndarray, shape (..., w, n)
+            Integrals to the nodes.
         whole : ndarray, shape (..., w)
-            Over the whole window.
+            Integrals over whole windows.
         """
         gauss = rule(self.order)
         to_nodes = (values @ gauss.integrate) * self.half
@@ -76,37 +76,37 @@ class Windows:
         ----------
         coefficients : ndarray, shape (k, w, m)
         times : ndarray, shape (t,)
-            s, in any order.
+            Times in any order, s.
 
         Returns
         -------
         ndarray, shape (k, t)
         """
-        found: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
+        values: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
         for first in range(0, times.size, _CHUNK):
             part = times[first : first + _CHUNK]
             window = np.clip(np.searchsorted(self.edges, part) - 1, 0, len(self.half) - 1)
             x = (part - self.middle[window, 0]) / self.half[window, 0]
             basis = legendre.legvander(x, coefficients.shape[-1] - 1)
-            found[:, first : first + _CHUNK] = np.einsum(
+            values[:, first : first + _CHUNK] = np.einsum(
                 "ktm,tm->kt", coefficients[:, window, :], basis
             )
-        result: _AnyArray = found
+        result: _AnyArray = values
         return result
 
 
 def _apply(values: Any, matrix: FloatArray) -> Any:
-    """Values times a real matrix; complex ones in two parts, which costs half."""
+    """Multiply values by a real matrix; real and imaginary parts separately, at half the cost."""
     if np.iscomplexobj(values):
-        found = np.empty((*values.shape[:-1], matrix.shape[1]), dtype=complex)
-        found.real = np.ascontiguousarray(values.real) @ matrix
-        found.imag = np.ascontiguousarray(values.imag) @ matrix
-        return found
+        product = np.empty((*values.shape[:-1], matrix.shape[1]), dtype=complex)
+        product.real = np.ascontiguousarray(values.real) @ matrix
+        product.imag = np.ascontiguousarray(values.imag) @ matrix
+        return product
     return values @ matrix
 
 
 class Rule:
-    """Nodes on [-1, 1] and the matrices that act on values there, from the right."""
+    """Nodes on [-1, 1], and matrices that multiply values at the nodes from the right."""
 
     def __init__(self, order: int) -> None:
         self.nodes, self.weights = legendre.leggauss(order)
@@ -117,18 +117,18 @@ class Rule:
 
     @cached_property
     def integrate(self) -> FloatArray:
-        """Values at the nodes to integrals from -1 to the nodes."""
+        """Matrix from values at the nodes to integrals from -1 to the nodes."""
         integrals = legendre.legint(self._basis, lbnd=-1)
         return np.asarray(self.project @ legendre.legval(self.nodes, integrals, tensor=True))
 
     @cached_property
     def antiderivative(self) -> FloatArray:
-        """Legendre series to that of the integral from -1, with a term more."""
+        """Matrix from a Legendre series to the series of its integral from -1."""
         return np.asarray(legendre.legint(self._basis, lbnd=-1, axis=-1))
 
     @cached_property
     def differentiate(self) -> FloatArray:
-        """Values at the nodes to derivatives there."""
+        """Matrix from values at the nodes to derivatives at the nodes."""
         return np.asarray(
             self.project @ legendre.legval(self.nodes, legendre.legder(self._basis), tensor=True)
         )
@@ -136,17 +136,17 @@ class Rule:
 
 @lru_cache
 def rule(order: int) -> Rule:
-    """Nodes, weights and matrices of so many nodes."""
+    """Return the stored `Rule` with a number of nodes."""
     return Rule(order)
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
-    """Legendre series of an integral from the start of each window.
+    """Legendre series of the integral of a function from the start of each window.
 
     Parameters
     ----------
     coefficients : ndarray, shape (k, w, n)
-        Of what is integrated.
+        Legendre coefficients of the function.
     half : ndarray, shape (w, 1)
         Half lengths, s.
     start : ndarray, shape (k, w)

@@ -1,8 +1,8 @@
 r"""Kepler's equation, M = E - e sin(E), and the three anomalies of an ellipse.
 
-On 0 to pi the right side is convex in E, so Newton's method from above the root goes down to it and
-never past it. Four numbers bound E from above there: pi; M + e; M/(1 - e); and (pi^2 M/e)^(1/3),
-since E - sin(E) >= E^3/pi^2. The least of them is near enough everywhere, next to a parabola too.
+From 0 to pi the right side is convex in E, so Newton's method from above converges monotonically.
+Four numbers are upper bounds of E: pi; M + e; M/(1 - e); and (pi^2 M/e)^(1/3), since
+E - sin(E) >= E^3/pi^2. The smallest of them is a sufficient first estimate for every e below 1.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: Newton steps: after these no M moves further, at any e up to 1 - 1e-12. What E - sin(E) loses to
-#: cancellation does not matter before the last two.
+#: Number of Newton steps, sufficient for every M and e up to 1 - 1e-12, and number of last steps in
+#: which E - sin(E) is computed without cancellation.
 STEPS, LAST_STEPS = 6, 2
 
 _TURN = 2 * np.pi
 
 
 def eccentric_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
-    """Solve Kepler's equation, rad, in the same turn.
+    """Eccentric anomaly from Kepler's equation, rad, in the same revolution.
 
     Parameters
     ----------
@@ -34,25 +34,25 @@ def eccentric_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
     with np.errstate(over="ignore"):
         circle = np.minimum(half + e, half / (1 - e))
         parabola = np.cbrt(np.pi**2 * half / np.maximum(e, np.finfo(float).tiny))
-    found = np.minimum(np.minimum(circle, np.pi), parabola)
+    angle = np.minimum(np.minimum(circle, np.pi), parabola)
     for step in range(STEPS):
-        less_sine = found - np.sin(found) if step < STEPS - LAST_STEPS else _less_sine(found)
-        # (1 - e) stands apart, so that nothing cancels next to a parabola
-        off = (1 - e) * found + e * less_sine - half
-        found = found - off / ((1 - e) + 2 * e * np.sin(found / 2) ** 2)
-    return np.asarray(turns + np.copysign(found, mean - turns))
+        less_sine = angle - np.sin(angle) if step < STEPS - LAST_STEPS else _less_sine(angle)
+        # The separate factor (1 - e) avoids cancellation for e close to 1.
+        residual = (1 - e) * angle + e * less_sine - half
+        angle = angle - residual / ((1 - e) + 2 * e * np.sin(angle / 2) ** 2)
+    return np.asarray(turns + np.copysign(angle, mean - turns))
 
 
 def true_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
-    """True anomaly from a mean one, rad, in the same turn."""
+    """True anomaly from the mean anomaly, rad, in the same revolution."""
     eccentric = eccentric_anomaly(mean, e)
-    # v - E, by the form that has no jump
+    # v - E, by a form without discontinuity
     ahead = np.arctan2(e * np.sin(eccentric), 1 + np.sqrt(1 - e * e) - e * np.cos(eccentric))
     return np.asarray(eccentric + 2 * ahead)
 
 
 def mean_anomaly(true: FloatArray, e: FloatArray) -> FloatArray:
-    """Mean anomaly from a true one, rad, in the same turn."""
+    """Mean anomaly from the true anomaly, rad, in the same revolution."""
     behind = np.arctan2(e * np.sin(true), 1 + np.sqrt(1 - e * e) + e * np.cos(true))
     eccentric = true - 2 * behind
     turns = _TURN * np.rint(eccentric / _TURN)
@@ -60,7 +60,7 @@ def mean_anomaly(true: FloatArray, e: FloatArray) -> FloatArray:
 
 
 def _less_sine(angle: FloatArray) -> FloatArray:
-    """An angle less its sine; by its series where the two cancel."""
+    """Angle minus its sine, by a series for small angles."""
     square = np.minimum(angle * angle, 1.0)
     series = np.ones_like(square)
     for n in range(18, 2, -2):

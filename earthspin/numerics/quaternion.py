@@ -1,4 +1,4 @@
-"""Unit quaternions (w, x, y, z): attitude of a body, from body axes to inertial axes."""
+"""Unit quaternions (w, x, y, z) as attitudes, from body axes to inertial axes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ FloatArray = NDArray[np.float64]
 
 
 def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Hamilton's product: the turn q first, then p.
+    """Hamilton's product: rotation q followed by rotation p.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def conjugate(q: FloatArray) -> FloatArray:
-    """The inverse turn of a unit quaternion.
+    """Inverse of a unit quaternion.
 
     Parameters
     ----------
@@ -43,12 +43,12 @@ def conjugate(q: FloatArray) -> FloatArray:
 
 
 def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Components of a vector after the turn: body to inertial, if q is an attitude.
+    """Rotate vectors: from body axes to inertial axes, if q is an attitude.
 
     Parameters
     ----------
     q : ndarray, shape (..., 4)
-        Of unit length.
+        Unit quaternions.
     v : ndarray, shape (..., 3)
 
     Returns
@@ -69,13 +69,13 @@ def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
     )
 
 
-def turn_about_z(half_angle: FloatArray) -> FloatArray:
-    """Quaternion of a turn about the z axis.
+def rotation_about_z(half_angle: FloatArray) -> FloatArray:
+    """Quaternion of a rotation about the z axis.
 
     Parameters
     ----------
     half_angle : ndarray
-        Half the angle of the turn, rad.
+        Half the angle of the rotation, rad.
 
     Returns
     -------

@@ -1,8 +1,6 @@
-"""What many samples tell: quantiles, and how much each input has to do with an output.
+"""Statistics of samples: quantiles, and the contribution of each input to the variance.
 
-An input is a number, or a class: one of several that have no order.
-
-Plain numpy; samples lie along the first axis.
+An input is a number, or a class without order, such as a name. Samples are along the first axis.
 """
 
 from __future__ import annotations
@@ -18,14 +16,14 @@ FloatArray = NDArray[np.float64]
 
 
 def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
-    """Quantiles of samples along their first axis, between two samples by a straight line.
+    """Quantiles of samples along the first axis, with linear interpolation between samples.
 
     Parameters
     ----------
     samples : ndarray, shape (n, ...)
-        Infinite numbers are taken for what they are, and not drawn into straight lines.
+        Samples, which may be infinite; equal infinite neighbours give an infinite quantile.
     shares : ndarray, shape (q,)
-        Of the samples below, 0 to 1.
+        Shares of the samples below the quantiles, 0 to 1.
 
     Returns
     -------
@@ -46,11 +44,11 @@ class Shares(NamedTuple):
     Attributes
     ----------
     slope : ndarray, shape (k + c, ...)
-        Change of the output per unit of each of k numbers, the others held; NaN for c classes.
+        Change of the output per unit of each of k numbers with the others fixed; NaN for c classes.
     share : ndarray, shape (k + c, ...)
-        Share of the variance of the output that each input accounts for.
+        Share of each input in the variance of the output.
     unexplained : ndarray, shape (...)
-        What is left of the variance beside straight lines and means of the classes.
+        Share of the variance that the linear fit does not explain.
     """
 
     slope: FloatArray
@@ -59,12 +57,14 @@ class Shares(NamedTuple):
 
 
 def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Columns of a class, of 0 and 1, one for each label but the last, shape (n, labels - 1).
+    """Code a class by columns of 0 and 1, one for each label except the last.
+
+    The shape is (n, labels - 1).
 
     Parameters
     ----------
     labels : ndarray, shape (n,)
-        Of each sample.
+        Label of each sample.
     """
     return np.asarray(labels[:, np.newaxis] == np.unique(labels)[:-1], dtype=float)
 
@@ -72,21 +72,21 @@ def columns_of(labels: NDArray[Any]) -> FloatArray:
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
-    """Fit outputs by straight lines in all inputs together, and share out their variance.
+    """Fit outputs by a linear function of all inputs, and divide their variance among the inputs.
 
-    The share of input j is b_j cov(x_j, y) / var(y), with the slopes b of the fit. For inputs that
-    are independent it is that of the first order; for any inputs the shares and the rest add up to
-    1. One of an input that is correlated with others may be negative. That of a class is the sum
-    over its columns of 0 and 1: alone, the variance between the means of the classes over the whole
-    variance.
+    The share of input j is b_j cov(x_j, y) / var(y), with the slopes b of the fit. For independent
+    inputs it is the first-order sensitivity index. The shares and the unexplained part always have
+    the sum 1, and the share of a correlated input may be negative. The share of a class is the sum
+    over its columns of 0 and 1; for a single class it is the variance between the class means,
+    divided by the total variance.
 
     Parameters
     ----------
     inputs : ndarray, shape (n, k)
     outputs : ndarray, shape (n, ...)
-        One that does not vary, or is not finite, has nothing to share out: zeros.
+        Outputs; the shares of a constant or non-finite output are zero.
     classes : sequence of ndarray, shape (n,)
-        Labels of each sample, for each input that is no number.
+        Labels of the samples, for each input that is a class.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def shares_of_variance(
     flat = np.where(np.isfinite(flat).all(axis=0), flat, 0.0)
     middle = flat.mean(axis=0)
     size = np.max(np.abs(flat - middle), axis=0)
-    moving = size > 4 * np.finfo(float).eps * np.abs(middle)  # more than rounding
+    moving = size > 4 * np.finfo(float).eps * np.abs(middle)  # larger than rounding errors
     unit = np.where(moving, size, 1.0)
     offset = np.where(moving, flat - middle, 0.0) / unit
     fitted = np.linalg.lstsq(scaled, offset, rcond=None)[0]
@@ -111,9 +111,9 @@ def shares_of_variance(
     share[varies] = fitted * (scaled.T @ offset) / len(flat) / variance
     slope[varies] = fitted * unit / spread[varies, np.newaxis]
     rest = np.where(moving, 1 - share.sum(axis=0), 0.0)
-    ends = np.cumsum([numbers, *(of.shape[1] for of in coded)])
-    of_classes = [share[first:last].sum(axis=0) for first, last in pairwise(ends)]
-    share = np.stack([*share[:numbers], *of_classes])
-    slope = np.stack([*slope[:numbers], *(np.full_like(of, np.nan) for of in of_classes)])
+    ends = np.cumsum([numbers, *(columns.shape[1] for columns in coded)])
+    class_shares = [share[first:last].sum(axis=0) for first, last in pairwise(ends)]
+    share = np.stack([*share[:numbers], *class_shares])
+    slope = np.stack([*slope[:numbers], *(np.full_like(row, np.nan) for row in class_shares)])
     shape = outputs.shape[1:]
     return Shares(slope.reshape(-1, *shape), share.reshape(-1, *shape), rest.reshape(shape))

@@ -24,7 +24,7 @@ from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
-from earthspin.secular.angles import equator_and_equinox, leaning
+from earthspin.secular.angles import equator_and_equinox, inclined_axis
 from earthspin.secular.orbit import moons_height
 from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
@@ -290,7 +290,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
     obliquity, longitude = (
         np.asarray(numbers.numbers[name]) for name in ("obliquity_shift", "longitude_shift")
     )
-    shifted = leaning(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
+    shifted = inclined_axis(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
     own = np.multiply.outer(pole, np.ones(obliquity.shape))
     return np.where((obliquity == 0) & (longitude == 0), own, shifted)
 

@@ -24,7 +24,7 @@ from earthspin.mass.inertia import polar_moment
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
-from earthspin.motion.march import FINEST, Above
+from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import (
     KINDS,
     Motion,
@@ -192,7 +192,7 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Torques of all perturbers, with the effects that are switched on."""
-    from earthspin.motion.neighbours import doubt_of_pull
+    from earthspin.motion.neighbours import relative_tide_error
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
@@ -205,7 +205,7 @@ def pulling(
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
-        doubts.append(doubt_of_pull(float(np.linalg.norm(positions[name])), far, angle))
+        doubts.append(relative_tide_error(float(np.linalg.norm(positions[name])), far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
     return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
@@ -231,7 +231,7 @@ class Rotor:
 
     body: Rigid
     changed: tuple[str, ...]
-    above: Above
+    masses: Masses
     start: State
     begin: float
     end: float
@@ -245,7 +245,7 @@ class Rotor:
 
     def motion(self, tolerance: float) -> Motion:
         """Motion of the body with a tolerance per window."""
-        return Motion(self.body, self.above, self.start, self.duration, tolerance=tolerance)
+        return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
         """Rotations of the body in a time (s) at its initial spin."""
@@ -315,7 +315,7 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.above(pulling.forces, epoch),
+        neighbours.masses(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,
@@ -496,7 +496,7 @@ def parting(rotor: Rotor) -> Divergence:
     from earthspin.motion.divergence import divergence
 
     rotor.refuse_many_turns(0.0, rotor.duration)
-    return divergence(rotor.body, rotor.above, rotor.start, rotor.duration)
+    return divergence(rotor.body, rotor.masses, rotor.start, rotor.duration)
 
 
 @part(unless=one_date)

@@ -177,7 +177,7 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
         Phases; psi is measured from the first time.
     """
     return quaternion.multiply(
-        quaternion.turn_about_z(_half_psi(motion, phase)),
+        quaternion.rotation_about_z(_half_psi(motion, phase)),
         _shortest_turn(phase.along(motion.cosines)),
     )
 

@@ -68,13 +68,15 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
     axis : ndarray, shape (3, ..., n)
     normal : ndarray, shape (3, n)
     """
-    equinox = np.cross(axis, beside(axis, normal), axis=0)
+    equinox = np.cross(axis, broadcast_over_members(axis, normal), axis=0)
     equinox = equinox / np.sqrt(np.sum(equinox**2, axis=0))
     rows = np.stack([equinox, np.cross(axis, equinox, axis=0), axis])
     return np.moveaxis(rows, (0, 1), (-2, -1))
 
 
-def leaning(axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric) -> FloatArray:
+def inclined_axis(
+    axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
+) -> FloatArray:
     """Axis with increments of its obliquity and longitude.
 
     Parameters
@@ -106,6 +108,6 @@ def leaning(axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
     )
 
 
-def beside(axis: FloatArray, vector: FloatArray) -> FloatArray:
+def broadcast_over_members(axis: FloatArray, vector: FloatArray) -> FloatArray:
     """Reshape an orbital vector, shape (3, n), to broadcast with the members of an axis array."""
     return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

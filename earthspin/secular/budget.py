@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
-from earthspin.secular.orbit import Changed, Orbit, Shape, reference_axes
+from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape, reference_axes
 from earthspin.secular.strength import Numeric, Strength, Tides
 from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import cross, dot
@@ -142,7 +142,7 @@ def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty
     )
 
 
-def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Changed:
+def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
     """Orbit whose normal and eccentricity vector are shifted by multiples of their half-widths.
 
     Parameters
@@ -165,10 +165,10 @@ def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Changed:
         tilted = tilted / np.sqrt(np.sum(tilted**2, axis=0))
         return tilted, eccentricity + by_shape * towards, turning
 
-    return Changed(orbit, change)
+    return ModifiedOrbit(orbit, change)
 
 
-def leaning(setting: Setting, angles: Sequence[float]) -> FloatArray:
+def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
     """Initial axis rotated by small angles, same shape.
 
     Parameters
@@ -211,7 +211,7 @@ def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> 
     j2, tides, drift = remaining if uncertainty.earth else (0.0, 0.0, 0.0)
     strength, start, orbit = setting.strength, setting.start, setting.orbit
     if any(angles):
-        start = leaning(setting, angles)
+        start = inclined_axis(setting, angles)
     if any(ways):
         orbit = moved(orbit, uncertainty.orbit, ways)
     stronger, faster = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE

@@ -95,14 +95,14 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
     pull = on.constant * (rho * towards + z * on.axis_height)  # a L
     turn = on.drift * seen - pull * axis
     along = turn.real.copy()
-    beside = turn.imag.copy()
+    across = turn.imag.copy()
     rates = np.empty((2, *phi.shape))
     np.subtract(on.drift_height - pull * on.axis_height, slant * along, out=rates[0])
-    np.multiply(rho, -beside, out=rates[1])
+    np.multiply(rho, -across, out=rates[1])
     steep = on.constant * lift_by_z
     return Slope(
         rates,
-        -steep * lift_by_phi - slant * beside,
+        -steep * lift_by_phi - slant * across,
         -steep * lift_by_z - along / (rho2 * rho),
         on.constant * lift_by_phi**2 + rho * along,
     )

@@ -35,7 +35,7 @@ class Orbit(Protocol):
 
 
 @dataclass(frozen=True)
-class Changed:
+class ModifiedOrbit:
     """An orbit derived from another by a change at every time.
 
     Attributes

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.nutation.angles import followed, general_precession
-from earthspin.secular.angles import beside, seasons
+from earthspin.secular.angles import broadcast_over_members, seasons
 from earthspin.secular.budget import Setting, Solved, changed
 from earthspin.secular.orbit import Orbit, moons_height
 from earthspin.secular.sample import Quantiles, draws
@@ -185,7 +185,7 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
     """
     edges = solved.path.windows.edges
     axis = solved.path.at(edges)
-    normal = beside(axis, solved.setting.orbit.at(edges)[0])
+    normal = broadcast_over_members(axis, solved.setting.orbit.at(edges)[0])
     sine = np.maximum(np.linalg.norm(np.cross(axis, normal, axis=0), axis=0), NO_EQUINOX)
     squares = sum(angle(path.at(edges), axis) ** 2 for _, path, _ in solved.others)
     error = np.sqrt(squares) / sine
@@ -235,7 +235,7 @@ def read(
     axis = path.at(with_now)
     shape = setting.orbit.at(with_now)
     normal, eccentricity, _ = shape
-    n, e, turning = (beside(axis, vector) for vector in shape)
+    n, e, turning = (broadcast_over_members(axis, vector) for vector in shape)
     season = seasons(axis, n, e)
     general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is orbital perihelion plus precession, apart from the tilt
@@ -272,7 +272,9 @@ def _followed_precession(
     # along the nodes, which are close enough to unwrap precession
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
-    coarse = np.unwrap(_turns(axis, beside(axis, setting.orbit.at(nodes)[0]), fixed))
+    coarse = np.unwrap(
+        _turns(axis, broadcast_over_members(axis, setting.orbit.at(nodes)[0]), fixed)
+    )
     origin = int(np.searchsorted(nodes, 0.0))
     coarse -= _TURN * np.rint(coarse[..., origin : origin + 1] / _TURN)
     nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.gauss_windows import Windows, integrated
-from earthspin.secular.angles import beside
+from earthspin.secular.angles import broadcast_over_members
 from earthspin.secular.newton import TINY, Turn, moved, slope, step
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
@@ -115,12 +115,13 @@ def solve(
     axes = _axes(orbit, start, span) if near is None else near.axes
     x, y, z = (dot(row, start) for row in axes)
     state = np.array([np.arctan2(y, x), z])
-    solver = _Way(strength, orbit, axes, order, near)
+    solver = _BlockSolver(strength, orbit, axes, order, near)
     past, future = (solver.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
-    # the past was integrated backwards: restore ascending order
-    turned = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
+    # The past was integrated backwards: restore ascending order.
+    reversed_past = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
     windows = Windows(np.concatenate([past[0][::-1], future[0][1:]]), order)
-    return Trajectory(windows, np.concatenate([turned, future[1]], axis=-2), axes, solver.steps)
+    series = np.concatenate([reversed_past, future[1]], axis=-2)
+    return Trajectory(windows, series, axes, solver.steps)
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
@@ -153,7 +154,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
     return np.stack([normal, first, second])
 
 
-class _Way:
+class _BlockSolver:
     """Solver of successive blocks of windows in one direction of time."""
 
     def __init__(
@@ -182,8 +183,8 @@ class _Way:
                 raise ApartError("Newton's method in time does not converge for all axes")
             if settled is None and size == 1:
                 raise UndefinedError(
-                    "the axis cannot be followed: Newton's method in time does not settle; it may "
-                    "pass through the reference axis, or precess too fast for the orbit's windows"
+                    "the axis cannot be integrated: Newton's method in time does not converge; the "
+                    "axis may pass through the reference axis, or precess too fast for the windows"
                 )
             if settled is None:
                 self.near, size = None, max(size // 4, 1)
@@ -218,7 +219,9 @@ class _Way:
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
         """Torque on the axis, or on the axes of members, whose dimensions precede the times."""
-        normal, eccentricity, turning = (beside(state, vector) for vector in self.orbit.at(times))
+        normal, eccentricity, turning = (
+            broadcast_over_members(state, vector) for vector in self.orbit.at(times)
+        )
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.motion.equations import CustomTorque, Rigid
-from earthspin.motion.march import Above
+from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, State, start_of
 
 FloatArray = NDArray[np.float64]
@@ -36,12 +36,12 @@ class Ellipse:
         r = self.at(np.array([time]))[0]
         return np.asarray(np.outer(r, r) / np.linalg.norm(r) ** 5)
 
-    def above(self) -> Above:
+    def masses(self) -> Masses:
         """As the solver asks for it."""
-        return Above(gm={"mass": 1.0}, positions=lambda times: {"mass": self.at(times)})
+        return Masses(gm={"mass": 1.0}, positions=lambda times: {"mass": self.at(times)})
 
 
-ALONE = Above(gm={}, positions=lambda times: {})
+ALONE = Masses(gm={}, positions=lambda times: {})
 
 
 def rigid(
@@ -68,10 +68,10 @@ def start(body: Rigid, omega: tuple[float, ...], attitude: FloatArray = AS_SKY) 
 
 
 def followed(
-    body: Rigid, above: Above, omega: tuple[float, ...], end: float, **settings: float
+    body: Rigid, masses: Masses, omega: tuple[float, ...], end: float, **settings: float
 ) -> Motion:
     """A motion from time 0."""
-    return Motion(body, above, start(body, omega), end, **settings)  # type: ignore[arg-type]
+    return Motion(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
 
 
 def angle(p: FloatArray, q: FloatArray) -> FloatArray:

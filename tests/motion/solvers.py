@@ -22,7 +22,7 @@ H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 TRIAXIALITY = EARTH.triaxiality * H / EARTH.j2
 
 
-def apart(a: FloatArray, b: FloatArray) -> float:
+def differences(a: FloatArray, b: FloatArray) -> float:
     """Largest angle between two directions, uas."""
     a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     return float(np.max(np.linalg.norm(a - b, axis=1)) / UAS)
@@ -102,12 +102,12 @@ class Solvers:
         """Figure axis and angular momentum on windows beside (L, F), uas."""
         momentum, axis = self.integrated
         found = self.round_path.at(self.times)
-        return apart(found["figure"], axis), apart(found["angular_momentum"], momentum)
+        return differences(found["figure"], axis), differences(found["angular_momentum"], momentum)
 
     def momentum_and_attitude(self) -> float:
         """Figure axis by (L, F) beside that of the attitude, uas."""
-        return apart(self.turned, self.integrated[1][: self.few.size])
+        return differences(self.turned, self.integrated[1][: self.few.size])
 
     def windows_and_attitude(self) -> float:
         """Figure axis of the triaxial Earth on windows beside that of the attitude, uas."""
-        return apart(self.uneven_path.at(self.few)["figure"], self.turned_uneven[1][:, :, 2])
+        return differences(self.uneven_path.at(self.few)["figure"], self.turned_uneven[1][:, :, 2])

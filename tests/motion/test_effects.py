@@ -13,7 +13,7 @@ from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
-from earthspin.motion.effects.geodesic import geodesic_rate, turned
+from earthspin.motion.effects.geodesic import geodesic_rate, geodesic_torque
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.torque.gravity import torque_from_position
@@ -37,13 +37,13 @@ def test_zonal_torque_is_the_slope_of_the_energy(
     gm, radius, distance = 5e12, 6.4e6, 4e8
 
     def energy(angle: float) -> float:
-        turned = axis * math.cos(angle) + np.cross(turn, axis) * math.sin(angle)
-        turned = turned + turn * (turn @ axis) * (1 - math.cos(angle))
+        geodesic_torque = axis * math.cos(angle) + np.cross(turn, axis) * math.sin(angle)
+        geodesic_torque = geodesic_torque + turn * (turn @ axis) * (1 - math.cos(angle))
         return (
             gm
             / distance**3
             * (radius / distance) ** (degree - 2)
-            * eval_legendre(degree, place @ turned)
+            * eval_legendre(degree, place @ geodesic_torque)
         )
 
     step = 1e-4
@@ -90,7 +90,7 @@ def test_geodesic_precession_on_a_kepler_ellipse() -> None:
 def test_a_sphere_turns_with_the_geodesic_frame_alone(de421: Ephemeris) -> None:
     span = 365.25 * DAY
     path = axis_path(
-        forces(de421, figure(h=0.0), torques=(turned("sun"),)), NORTH, 0.0, (0.0, span)
+        forces(de421, figure(h=0.0), torques=(geodesic_torque("sun"),)), NORTH, 0.0, (0.0, span)
     )
     moved = path.at(np.array([span]))["figure"][0] - NORTH
     # 19.19 mas a year about the ecliptic's pole, 23.4 degrees away: towards -x
@@ -114,7 +114,7 @@ def test_torque_at_a_mean_pole_does_not_hear_of_the_axis(de421: Ephemeris) -> No
     fixed = forces(
         de421,
         mean_pole=lambda t: np.broadcast_to(NORTH, (t.size, 3)),
-        torques=(turned("sun"),),  # which the angular momentum alone hears of
+        torques=(geodesic_torque("sun"),),  # which the angular momentum alone hears of
     )
     windows = Windows(np.array([0.0, 8 * DAY]), 14)
     law, _ = fixed.over(windows)

@@ -5,7 +5,7 @@ import pytest
 
 from earthspin.constants import DAY
 from earthspin.sky.ephemeris import Ephemeris
-from tests.motion.solvers import TRIAXIALITY, H, Solvers, apart
+from tests.motion.solvers import TRIAXIALITY, H, Solvers, differences
 
 SPAN = 120 * DAY
 
@@ -32,15 +32,15 @@ def test_attitude_of_a_triaxial_body(solvers: Solvers) -> None:
     found = solvers.uneven_path.at(solvers.few)
     moments = 1 - np.array([H + TRIAXIALITY / 2, H - TRIAXIALITY / 2, 0.0])
     omega = np.einsum("tij,tj->ti", matrix, np.einsum("tji,tj->ti", matrix, momentum) / moments)
-    assert apart(found["rotation"], omega) < 0.01
+    assert differences(found["rotation"], omega) < 0.01
     assert solvers.windows_and_attitude() < 0.02  # 0.003 uas measured; the motion itself has 34
-    assert apart(found["angular_momentum"], momentum) < 0.008
+    assert differences(found["angular_momentum"], momentum) < 0.008
     level = solvers.uneven_path.at(solvers.few, semidiurnal=False)["figure"]
-    assert 20 < apart(found["figure"], level) < 50
+    assert 20 < differences(found["figure"], level) < 50
 
 
 def test_rotation_axis_is_where_the_body_turns_about(solvers: Solvers) -> None:
     """omega = L/A + (1 - C/A) Omega F, with L and F integrated."""
     momentum, axis = solvers.integrated
     omega = momentum / (1 - H) + (1 - 1 / (1 - H)) * axis
-    assert apart(solvers.round_path.at(solvers.times)["rotation"], omega) < 0.008
+    assert differences(solvers.round_path.at(solvers.times)["rotation"], omega) < 0.008

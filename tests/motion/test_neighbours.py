@@ -12,8 +12,8 @@ from earthspin.motion.neighbours import (
     FLATTENING,
     PULL,
     TRIAXIALITY,
-    above,
-    doubt_of_pull,
+    masses,
+    relative_tide_error,
     rigid_bodies,
     upright,
 )
@@ -55,7 +55,7 @@ def test_what_a_neighbour_is_away_by_is_what_the_number_does() -> None:
             near=("mass",),
         )
         body, _ = rigid_bodies(made, 1.0, doubts)
-        return Motion(body, above(made), start_of(body, AS_SKY, np.array([0.1, 0.0, 1.1])), 20.0)
+        return Motion(body, masses(made), start_of(body, AS_SKY, np.array([0.1, 0.0, 1.1])), 20.0)
 
     found = follow(doubts).at(times)
     other = follow({}, h=0.2 * 1.001, triaxiality=0.1 * 1.001).at(times)
@@ -73,8 +73,8 @@ def test_the_doubt_of_a_pull_is_that_of_a_tide() -> None:
     """Tides of a mass that is nearer, and of one that is turned, each by its error."""
     one, spectral = np.array([1.0, 0.0, 0.0]), 2
     for error, moved in (
-        (doubt_of_pull(1.0, 1e-6, 0.0), np.array([1 + 1e-6, 0.0, 0.0])),
-        (doubt_of_pull(1.0, 0.0, 1e-6), np.array([np.cos(1e-6), np.sin(1e-6), 0.0])),
+        (relative_tide_error(1.0, 1e-6, 0.0), np.array([1 + 1e-6, 0.0, 0.0])),
+        (relative_tide_error(1.0, 0.0, 1e-6), np.array([np.cos(1e-6), np.sin(1e-6), 0.0])),
     ):
         tides = [np.outer(r, r) / np.linalg.norm(r) ** 5 for r in (one, moved)]
         off = np.linalg.norm(tides[1] - tides[0], spectral)
@@ -114,7 +114,7 @@ def test_the_earth_with_all_effects_against_the_solver_of_the_pole(de421: Epheme
         .apply(length * true["angular_momentum"][0])
     )
     omega = made.figure.spin_rate * momentum / body.moments[:, 0]
-    found = Motion(body, above(made), start_of(body, attitude, omega), times[-1]).at(times)
+    found = Motion(body, masses(made), start_of(body, attitude, omega), times[-1]).at(times)
     axis = Rotation.from_quat(found.attitude, scalar_first=True).as_matrix()[:, :, 2]
     away = np.linalg.norm(axis - true["figure"], axis=1)
     # 9e-4 uas measured on the triaxial body; J3, J4 and geodesic precession move it by 100s of uas

@@ -12,7 +12,7 @@ from earthspin.checks.solvers.attitude import attitude_motion
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull
 from earthspin.motion.solution import Motion
-from earthspin.numerics import turns
+from earthspin.numerics import rotations
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
@@ -75,7 +75,7 @@ def test_under_a_tide_against_dop853(world: str) -> None:
     orbit, unit = Ellipse(eccentricity), float(np.max(np.abs(omega)))
     body = rigid(h, triaxiality, unit)
     times = np.linspace(0.0, 12.0, 25)
-    found = followed(body, orbit.above(), omega, 12.0).at(times)
+    found = followed(body, orbit.masses(), omega, 12.0).at(times)
     momentum, turned = attitude_motion(
         orbit.tide, h, triaxiality, unit, start(body, omega).momentum[:, 0], AS_SKY, times
     )
@@ -93,7 +93,7 @@ def test_a_locked_moon_swings_as_a_pendulum() -> None:
     # at theta - t = 0 with the speed that reaches the amplitude
     speed = strength * np.sin(amplitude)
     times = np.linspace(0.0, 60.0, 121)
-    found = followed(body, Ellipse().above(), (0.0, 0.0, 1.0 + speed), 60.0).at(times)
+    found = followed(body, Ellipse().masses(), (0.0, 0.0, 1.0 + speed), 60.0).at(times)
     m = np.sin(amplitude) ** 2
     swing = np.arcsin(np.sqrt(m) * ellipj(strength * times, m)[0])
     half = (times + swing) / 2
@@ -131,7 +131,7 @@ def test_a_close_passage_is_met_with_short_windows() -> None:
     """An orbit of eccentricity 0.95: the tide changes by 6e4 within a thousandth of it."""
     orbit, body = Ellipse(0.95), rigid(0.2, 0.1)
     times = np.array([0.0, 3.0, 6.0, 6.28, 6.3, 7.0, 9.0])
-    motion = followed(body, orbit.above(), (0.1, 0.0, 1.0), 9.0)
+    motion = followed(body, orbit.masses(), (0.1, 0.0, 1.0), 9.0)
     found = motion.at(times)
     _, turned = attitude_motion(
         orbit.tide, 0.2, 0.1, 1.0, start(body, (0.1, 0.0, 1.0)).momentum[:, 0], AS_SKY, times
@@ -145,8 +145,8 @@ def test_a_close_passage_is_met_with_short_windows() -> None:
 def test_times_are_asked_for_in_any_pieces() -> None:
     orbit, body = Ellipse(0.1), rigid(0.29, 0.29)
     times = np.linspace(0.0, 40.0, 301)
-    whole = followed(body, orbit.above(), (0.3, 0.2, 1.5), 40.0).at(times)
-    motion = followed(body, orbit.above(), (0.3, 0.2, 1.5), 40.0)
+    whole = followed(body, orbit.masses(), (0.3, 0.2, 1.5), 40.0).at(times)
+    motion = followed(body, orbit.masses(), (0.3, 0.2, 1.5), 40.0)
     for part in np.array_split(np.arange(301), 7):
         found = motion.at(times[part])
         assert np.array_equal(found.attitude, whole.attitude[part])
@@ -168,7 +168,7 @@ def test_both_forms_have_the_same_rates() -> None:
         np.array([2.0]), np.array([0.9]), place, 1, [lambda axis, momentum: 0.3 * axis + momentum]
     )
     state = start(body, (0.3, -0.2, 0.9), turn)
-    matrix = turns.matrices(state.attitude)[:, :, 0]
+    matrix = rotations.matrices(state.attitude)[:, :, 0]
     seen = np.concatenate([state.momentum, state.attitude])
     in_sky = np.concatenate([matrix @ state.momentum, state.attitude])
     since = np.zeros(1)
@@ -181,14 +181,14 @@ def test_both_forms_have_the_same_rates() -> None:
 
 def test_a_torque_that_runs_away_is_refused() -> None:
     body = of_moments(1.0, 1.5, 2.0, own=lambda times, q, omega: omega**3)
-    with pytest.raises(UndefinedError, match="changes faster than any step"):
+    with pytest.raises(UndefinedError, match="changes too fast"):
         followed(body, ALONE, (0.0, 0.0, 1.0), 10.0).at(np.array([0.0, 10.0]))
 
 
 def test_the_error_of_a_tumbling_body_grows_to_half_a_turn_and_says_so() -> None:
     orbit, body = Ellipse(0.1), rigid(0.29, 0.29)
     times = np.linspace(0.0, 500.0, 4001)
-    found = followed(body, orbit.above(), (0.5, 0.3, 1.5), 500.0, tolerance=1e-10).at(times)
+    found = followed(body, orbit.masses(), (0.5, 0.3, 1.5), 500.0, tolerance=1e-10).at(times)
     error = found.error[0, 0]
     # never much below what it has been; between the ends of windows it may have been more
     assert np.all(error >= 0.3 * np.maximum.accumulate(error))

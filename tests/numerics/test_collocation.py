@@ -62,7 +62,7 @@ def test_solutions_that_stand_for_their_combinations() -> None:
         return law / r[:, None, None]
 
     two = mix[:, :2]
-    with pytest.raises(UndefinedError, match="do not settle"):
+    with pytest.raises(UndefinedError, match="does not converge"):
         carry(matrix, 1e-3, 1.0, two)
     found = carry(matrix, 1e-3, 1.0, two, together=True)
     found = found / np.linalg.norm(found, axis=0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from earthspin.numerics.quaternion import conjugate, multiply, rotate, turn_about_z
+from earthspin.numerics.quaternion import conjugate, multiply, rotate, rotation_about_z
 
 RNG = np.random.default_rng(1)
 
@@ -36,5 +36,5 @@ def test_rotation_of_vectors(turns: np.ndarray) -> None:
 
 
 def test_turn_about_z() -> None:
-    x = rotate(turn_about_z(np.array([np.pi / 6])), np.array([[1.0, 0.0, 0.0]]))
+    x = rotate(rotation_about_z(np.array([np.pi / 6])), np.array([[1.0, 0.0, 0.0]]))
     np.testing.assert_allclose(x, [[0.5, np.sqrt(0.75), 0.0]], rtol=0, atol=2e-16)

@@ -46,7 +46,7 @@ def arcsec(found: np.ndarray, true: np.ndarray) -> float:
     return float(np.max(np.linalg.norm(found - true, axis=0)) / ARCSEC)
 
 
-def leaning(obliquity: float, normal: np.ndarray | None = None) -> np.ndarray:
+def inclined_axis(obliquity: float, normal: np.ndarray | None = None) -> np.ndarray:
     """An axis at an obliquity, rad, from a normal."""
     normal = np.array([0.0, 0.0, 1.0]) if normal is None else normal
     across = np.cross(normal, [1.0, 0.3, 0.2])

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from earthspin.constants import ARCSEC, J2000_JD
-from earthspin.secular.angles import equator_and_equinox, leaning, seasons
+from earthspin.secular.angles import equator_and_equinox, inclined_axis, seasons
 
 NORTH = np.array([[0.0], [0.0], [1.0]])
 
@@ -53,11 +53,11 @@ def test_an_axis_is_leant_and_turned_as_rotations_do_it(
     leant = Rotation.from_rotvec(more * np.cross(north, towards)).apply(axis)
     true = Rotation.from_rotvec(turned * north).apply(leant)
     # 1e-16 over the sine of the obliquity: 9e-14 measured
-    assert np.allclose(leaning(axis, north, more, turned), true, rtol=0, atol=1e-12)
+    assert np.allclose(inclined_axis(axis, north, more, turned), true, rtol=0, atol=1e-12)
 
 
 def test_an_upright_axis_is_leant_somewhere() -> None:
-    found = leaning(NORTH[:, 0], NORTH[:, 0], 0.3, np.array([0.0, 1.0]))
+    found = inclined_axis(NORTH[:, 0], NORTH[:, 0], 0.3, np.array([0.0, 1.0]))
     assert np.allclose(found[2], np.cos(0.3), rtol=0, atol=1e-15)
     assert found[:, 0] @ found[:, 1] == pytest.approx(
         np.cos(0.3) ** 2 + np.sin(0.3) ** 2 * np.cos(1.0), rel=1e-14, abs=0

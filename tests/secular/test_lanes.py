@@ -9,7 +9,7 @@ from earthspin.errors import UndefinedError
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.strength import Tides
 from earthspin.secular.trajectory import solve
-from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths, leaning
+from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths, inclined_axis
 
 TIMES = np.linspace(-200, 0, 41) * KYR
 
@@ -41,7 +41,7 @@ def test_members_of_their_own_numbers_are_those_alone() -> None:
     rng = np.random.default_rng(3)
     members = 5
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
-    starts = np.stack([leaning(0.41 + 0.01 * k, normal) for k in range(members)], axis=1)
+    starts = np.stack([inclined_axis(0.41 + 0.01 * k, normal) for k in range(members)], axis=1)
     strength = replace(
         earths(),
         moon=earths().moon * (1 + 1e-3 * rng.normal(size=members)),
@@ -86,6 +86,6 @@ def test_times_between_steps_lie_on_the_same_path() -> None:
 
 def test_members_that_precess_at_other_rates_are_refused() -> None:
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
-    starts = np.stack([leaning(0.4, normal), leaning(1.4, normal)], axis=1)
+    starts = np.stack([inclined_axis(0.4, normal), inclined_axis(1.4, normal)], axis=1)
     with pytest.raises(UndefinedError, match="similar obliquity"):
         solve_many(earths(), EARTHS, starts, TIMES)

@@ -19,7 +19,7 @@ def _products() -> Distances:
     Compared with: rotation by 10^5 times the angle
     """
     step = 2 * np.pi * 12345.25 / 1e5
-    factor = quaternion.turn_about_z(np.array(step / 2))
+    factor = quaternion.rotation_about_z(np.array(step / 2))
     product = np.array([1.0, 0.0, 0.0, 0.0])
     for _ in range(100_000):
         product = quaternion.multiply(factor, product)

@@ -11,7 +11,7 @@ from earthspin.checks.sky import eccentric_anomaly
 from earthspin.checks.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
-from earthspin.motion.march import Above
+from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, start_of
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
@@ -29,7 +29,7 @@ def _body(a: float, b: float, unit: float = 1.0) -> Rigid:
 def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) -> float:
     """Largest angle between a free rotation and Jacobi's closed form, rad."""
     times = np.linspace(0.0, end, 50)
-    body, alone = _body(*moments), Above(gm={}, positions=lambda times: {})
+    body, alone = _body(*moments), Masses(gm={}, positions=lambda times: {})
     result = Motion(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
     true = free_rotation((*moments, 1.0), omega, times).attitude
     return _angle(result.attitude, true)
@@ -99,10 +99,10 @@ def _close_passage() -> Distances:
         across = np.sqrt(1 - eccentricity**2) * np.sin(anomaly)
         return {"mass": np.stack([np.cos(anomaly) - eccentricity, across, 0 * times], axis=-1)}
 
-    above, end = Above(gm={"mass": 1.0}, positions=places), np.array([9.0])
+    masses, end = Masses(gm={"mass": 1.0}, positions=places), np.array([9.0])
     start = start_of(body, UPRIGHT, np.array([0.1, 0.0, 1.0]))
     tight, loose = (
-        Motion(body, above, start, 9.0, tolerance=tolerance).at(end) for tolerance in (1e-13, 1e-9)
+        Motion(body, masses, start, 9.0, tolerance=tolerance).at(end) for tolerance in (1e-13, 1e-9)
     )
     apart = _angle(tight.attitude, loose.attitude)
     yield apart / (tight.error[0, 0, -1] + loose.error[0, 0, -1])

@@ -14,7 +14,7 @@ from earthspin.checks.solvers.stepping import integrate, quaternion_rate
 from earthspin.checks.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.motion.equations import Rigid
-from earthspin.motion.march import Above
+from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, start_of
 from earthspin.numerics.quaternion import conjugate, rotate
 
@@ -85,9 +85,9 @@ def _windows(t: FloatArray, tolerance: float) -> Result:
         tide=np.ones(1),
         unit=1.0,
     )
-    above = Above(gm={"planet": 1.0}, positions=lambda times: {"planet": _places(times)})
+    masses = Masses(gm={"planet": 1.0}, positions=lambda times: {"planet": _places(times)})
     start = start_of(body, np.array([1.0, 0.0, 0.0, 0.0]), np.array(OMEGA))
-    motion = Motion(body, above, start, float(t[-1]), tolerance=tolerance)
+    motion = Motion(body, masses, start, float(t[-1]), tolerance=tolerance)
     result = motion.at(t)
     return (result.omega, result.attitude), motion.evaluations
 

@@ -1,4 +1,4 @@
-"""What moves the axes beside the pull on the bulge, one effect a file."""
+"""Effects on the axes besides the torque on the bulge, one module for each effect."""
 
 from earthspin.motion.effects.effect import MEASURED, SOURCE, Effect, Growth, Numbers
 from earthspin.motion.effects.geodesic import GEODESIC
@@ -14,26 +14,26 @@ __all__ = [
     "Effect", "Growth", "Numbers", "add",
 ]  # fmt: skip
 
-#: Every effect by its word.
+#: All effects by name.
 EFFECTS: dict[str, Effect] = {
     effect.name: effect
     for effect in (PLANETS, J3, J4, TRIAXIALITY, GEODESIC, J2_RATE, SECOND_ORDER, NONRIGID)
 }
 
-#: Words of those with which the errors of the solver were measured.
+#: Names of the effects with which the errors of the solver were measured.
 MEASURED_WITH = tuple(EFFECTS)
 
-#: Words of those that move a rigid body: what is switched on unless others are named.
+#: Names of the effects on a rigid body, which are switched on by default.
 RIGID = tuple(name for name in EFFECTS if name != NONRIGID.name)
 
 
 def add(effect: Effect) -> None:
-    """Let a further effect be asked for by its word; it is off unless it is named.
+    """Register a further effect, which is switched off by default.
 
     Raises
     ------
     ValueError
-        If the word stands for another effect.
+        If another effect has this name.
     """
     if EFFECTS.setdefault(effect.name, effect) is not effect:
-        raise ValueError(f"'{effect.name}' is the word for another effect")
+        raise ValueError(f"another effect has the name '{effect.name}'; choose a different one")

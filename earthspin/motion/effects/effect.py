@@ -1,4 +1,4 @@
-"""What an effect is: a word, a switch, and how far it moves the axes of the Earth."""
+"""Effects: a name, a function that switches the effect on, and its size for the Earth."""
 
 from __future__ import annotations
 
@@ -23,27 +23,28 @@ class Growth(NamedTuple):
 
 
 class Numbers(Protocol):
-    """What an effect may ask of the body that spins: its fields, in SI units."""
+    """Numbers of the rotating body that an effect may use, in SI units."""
 
     def number(self, name: str) -> float:
-        """Return a field as a float."""
+        """Return a field of the body as a float."""
 
 
 @dataclass(frozen=True)
 class Effect:
-    """Something that moves the axes beside the pull on the bulge.
+    """An effect on the axes besides the torque on the bulge.
 
     Attributes
     ----------
     name : str
-        The word for it.
+        Name of the effect in scenes.
     switch_on : callable
-        Forces without it, and the numbers of the body, to forces with it.
+        Function of the forces without the effect and the numbers of the body that returns the
+        forces with the effect.
     size : Growth
-        Bound on how far it moves the figure axis of the Earth: with all effects of a rigid Earth
-        under Sun and Moon, less with this one switched off.
+        Bound on the displacement of the Earth's figure axis: the difference between all effects of
+        a rigid Earth under Sun and Moon, and all without this effect.
     source : str
-        Where the size comes from.
+        Source of the size.
     """
 
     name: str
@@ -57,7 +58,7 @@ class Effect:
         Parameters
         ----------
         reach : float
-            Longest time from J2000.0, d; measured up to `MEASURED`, and continued beyond.
+            Longest time from J2000.0, d; measured up to `MEASURED`, and extrapolated beyond.
         """
         years = reach / 365.25
         return MAS * (self.size.swing + self.size.rate * years + self.size.bend * years * years)

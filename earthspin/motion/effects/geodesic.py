@@ -1,14 +1,14 @@
-r"""Geodesic precession and nutation: the frame in which torques are torques turns.
+r"""Geodesic precession and nutation: rotation of the local inertial frame.
 
-A gyroscope carried round a mass turns against the stars (de Sitter 1916). For several
+A gyroscope that orbits a mass precesses with respect to the stars (de Sitter 1916). For several
 masses, with positions and velocities in the barycentric frame (Brumberg, Bretagnon &
 Francou 1992; IERS Conventions 2010, eq. 10.12 for the same term in a satellite's motion),
 
     \Omega_g = sum_A GM_A / (c2 r_A3) (x - x_A) x ((3/2) v - 2 v_A)
 
-1.92 arcsec a century forward, of which the Moon gives half a milliarcsecond. The axes of the
-GCRS do not turn with it, so that an angular momentum in them changes by N + Omega_g x L. The
-turn is faster at perihelion: that is the geodesic nutation.
+It is 1.92 arcsec per century, prograde, with half a milliarcsecond from the Moon. The axes of the
+GCRS do not rotate with the local frame, so that an angular momentum in the GCRS has the rate
+N + Omega_g x L. The rotation is faster at perihelion, which causes geodesic nutation.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ def geodesic_rate(
     velocity: Mapping[str, FloatArray],
     primary: str,
 ) -> FloatArray:
-    """Angular velocity of the body's local inertial frame against the stars, rad/s.
+    """Angular velocity of the body's local inertial frame with respect to the stars, rad/s.
 
     Parameters
     ----------
     gm : mapping of str to float
-        Of the masses that count, m3 s-2.
+        GM of the masses, m3 s-2.
     position, velocity : mapping of str to ndarray, shape (3, ...)
-        Of each, seen from the body, m and m/s.
+        Positions (m) and velocities (m/s) of the masses relative to the body.
     primary : str
-        The mass that stands for the barycentre: the Sun moves by 13 m/s of the Earth's 30 km/s.
+        Mass that is used as the barycentre: the Sun moves at 13 m/s, the Earth at 30 km/s.
 
     Returns
     -------
@@ -60,13 +60,13 @@ def geodesic_rate(
     return total
 
 
-def turned(primary: str) -> Torque:
-    """Make the turning of the local inertial frame about a mass that is circled a torque on l.
+def geodesic_torque(primary: str) -> Torque:
+    """Represent the rotation of the local inertial frame about a mass as a torque on l.
 
     Parameters
     ----------
     primary : str
-        As for `geodesic_rate`.
+        See `geodesic_rate`.
     """
 
     def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
@@ -79,10 +79,10 @@ def turned(primary: str) -> Torque:
 
 
 def _switch_on(forces: Forces, body: Numbers) -> Forces:
-    # about the Sun, where it is among what pulls
+    # The effect needs the Sun among the perturbers.
     if "sun" not in forces.gm:
         return forces
-    return replace(forces, torques=(*forces.torques, turned("sun")))
+    return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
 
 
 GEODESIC = Effect("geodesic", _switch_on, Growth(0.0629, 7.64))

@@ -1,4 +1,4 @@
-"""The slow change of J2: the mantle still rises where the ice of the last glacial lay."""
+"""Slow change of J2 due to post-glacial rebound of the mantle."""
 
 from __future__ import annotations
 

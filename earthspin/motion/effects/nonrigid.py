@@ -1,7 +1,7 @@
 """Response of the interior to nutation, added to the path of the rigid body.
 
-Its size includes the start: the rigid path starts at the true pole of IAU 2006/2000A, the path with
-the response where the mean poles meet, 30 mas away.
+Its size includes the different initial axes: the rigid path starts at the true pole of IAU
+2006/2000A, the path with the response starts 30 mas away, such that the mean poles agree.
 """
 
 from __future__ import annotations

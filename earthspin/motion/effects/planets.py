@@ -1,4 +1,4 @@
-"""The planets, which pull on the bulge as the Sun does."""
+"""Torques of the planets on the bulge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The torque on the axis where it is, not where precession alone would have it."""
+"""Second-order effects: torques on the actual axis instead of the mean pole of precession."""
 
 from __future__ import annotations
 

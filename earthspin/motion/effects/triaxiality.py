@@ -1,4 +1,4 @@
-"""The difference of the equatorial moments, which moves the axes twice a day."""
+"""Difference of the equatorial moments, which causes semidiurnal motion of the axes."""
 
 from __future__ import annotations
 

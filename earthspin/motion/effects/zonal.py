@@ -1,4 +1,4 @@
-"""The zonal harmonics J3 and J4 of the body, on which the nearest masses pull."""
+"""Torques of the nearest masses on the zonal harmonics J3 and J4 of the body."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Turns as unit quaternions (w, x, y, z), component first: few calls for short rows.
+"""Unit quaternions (w, x, y, z) with the component on the first axis, for short arrays.
 
-`earthspin.numerics.quaternion` has the same component last. A solver that steps asks for sixteen
-at a time, and then the number of calls of numpy is what it costs.
+`earthspin.numerics.quaternion` has the component on the last axis. A step-by-step solver uses
+arrays of sixteen quaternions, for which the number of numpy calls determines the run time.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 
 
 def _structure() -> FloatArray:
-    """Hamilton's product as a table: component c of p q is the sum of [c, a, b] p_a q_b."""
+    """Table of Hamilton's product: component c of p q is the sum of table[c, a, b] p_a q_b."""
     table = np.zeros((4, 4, 4))
     table[0] = np.diag([1.0, -1.0, -1.0, -1.0])
     for i in range(3):
@@ -25,7 +25,7 @@ def _structure() -> FloatArray:
 
 _PRODUCT = _structure()
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
-#: Quaternion times the quaternion of a vector, from their sixteen less four products.
+#: Products of a quaternion and the quaternion of a vector, from twelve products of components.
 _WITH_VECTOR = np.ascontiguousarray(_PRODUCT[:, :, 1:]).reshape(4, 12)
 _VECTOR_WITH = np.ascontiguousarray(_PRODUCT[:, 1:]).reshape(4, 12)
 #: q v q* for each unit vector v, from the sixteen products of the components of q.
@@ -36,7 +36,7 @@ _CROSS = np.ascontiguousarray(_PRODUCT[1:, 1:, 1:]).reshape(3, 9)
 
 
 def matrices(q: FloatArray) -> FloatArray:
-    """Matrices of turns: body to sky, if q are attitudes; by one product of matrices.
+    """Rotation matrices of quaternions: from body to sky, if q are attitudes.
 
     Parameters
     ----------
@@ -51,9 +51,9 @@ def matrices(q: FloatArray) -> FloatArray:
 
 
 def times(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Hamilton's product: the turn q first, then p; shapes (4, m).
+    """Hamilton's product: rotation q followed by rotation p; shapes (4, m).
 
-    Element by element, so that what comes out does not depend on how many go in.
+    It is computed element by element, so that the bits of a result do not depend on m.
     """
     pw, px, py, pz = p
     qw, qx, qy, qz = q
@@ -80,17 +80,17 @@ def vector_times(v: FloatArray, p: FloatArray) -> FloatArray:
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Vector product; shapes (3, m)."""
+    """Cross product; shapes (3, m)."""
     m = a.shape[-1]
     return np.asarray(_CROSS @ (a[:, np.newaxis] * b).reshape(9, m))
 
 
 def conjugate(q: FloatArray) -> FloatArray:
-    """The inverse turns; shape (4, m)."""
+    """Inverses of unit quaternions; shape (4, m)."""
     return np.asarray(q * _CONJUGATE[:, np.newaxis])
 
 
-def turned_about(omega: FloatArray, time: FloatArray) -> FloatArray:
+def rotation_about(omega: FloatArray, time: FloatArray) -> FloatArray:
     """Turns at a steady angular velocity.
 
     Parameters
@@ -106,19 +106,19 @@ def turned_about(omega: FloatArray, time: FloatArray) -> FloatArray:
     """
     speed = np.sqrt(np.sum(omega * omega, axis=0))
     half = 0.5 * speed * time
-    # sin(x)/x by numpy's sinc, which knows its limit
+    # numpy's sinc gives sin(x)/x with the correct limit at 0.
     along = 0.5 * time * np.sinc(half / np.pi)
     return np.concatenate([np.cos(half)[np.newaxis], omega * along])
 
 
 def angle_between(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Angle of the turn from one attitude to another, rad, 0 to pi; shape (m,)."""
-    turn = times(conjugate(p), q)
-    return np.asarray(2 * np.arctan2(np.sqrt(np.sum(turn[1:] ** 2, axis=0)), np.abs(turn[0])))
+    """Angle of the rotation from one attitude to another, rad, 0 to pi; shape (m,)."""
+    r = times(conjugate(p), q)
+    return np.asarray(2 * np.arctan2(np.sqrt(np.sum(r[1:] ** 2, axis=0)), np.abs(r[0])))
 
 
 def right(q: FloatArray) -> FloatArray:
-    """Matrices that multiply by turns from the right: p q = right(q) p.
+    """Matrices of multiplication by quaternions from the right: p q = right(q) p.
 
     Parameters
     ----------
@@ -132,14 +132,17 @@ def right(q: FloatArray) -> FloatArray:
 
 
 def left(q: FloatArray) -> FloatArray:
-    """Matrices that multiply by turns from the left: q p = left(q) p; shape (4, 4, m)."""
+    """Matrices of multiplication by quaternions from the left: q p = left(q) p.
+
+    The shape is (4, 4, m).
+    """
     return np.asarray(np.einsum("cab,am->cbm", _PRODUCT, q))
 
 
 def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Components of vectors after turns, shapes (4, m) and (3, m): body to sky.
+    """Rotate vectors from body to sky; shapes (4, m) and (3, m).
 
-    Element by element, as `times`.
+    It is computed element by element, like `times`.
     """
     w, x, y, z = q
     vx, vy, vz = v
