@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
 import xarray as xr
 
 from earthspin.engine.drafts import as_path
@@ -19,6 +20,7 @@ def ensemble(
     members: Any = None,
     *,
     seed: int | None = None,
+    rng: int | np.random.Generator | np.random.SeedSequence | None = None,
     path: str | Path | None = None,
     client: object = None,
     block: int | None = None,
@@ -26,45 +28,46 @@ def ensemble(
 ) -> xr.Dataset:
     """Answer one question for many members that differ in their inputs.
 
-    Member 17 is the same alone, in any block and with any workers: it draws its own random numbers
-    by the seed and its number.
+    The random numbers of a member depend only on the seed and on the number of the member, not on
+    blocks or workers.
 
     Parameters
     ----------
     question : str, Path, Question or answer
         As `load_scene` takes it.
     members : int, mapping, Dataset or path, optional
-        How many: they are drawn from the published uncertainties of the bodies, or from what the
-        question's own table ``members`` says. A mapping, as that table has it, of inputs to
-        distributions: ``{"n": 1000, "body.j2": {"normal": [1.0826e-3, 1e-10]}}``, with ``normal``,
-        ``uniform``, ``choice`` and ``grid``; the last two take words as well, such as the paths of
-        orbits: ``{"orbit": {"grid": ["own", "la2010a.dat"]}}``. Or the values themselves: a Dataset
-        of variables along `member`, named after the inputs, or the path of a file (.csv, .nc,
-        .zarr) that holds one.
+        A number of members: they are drawn from the published uncertainties of the bodies, or as
+        the table ``members`` of the question says. A mapping of inputs to distributions:
+        ``{"n": 1000, "body.j2": {"normal": [1.0826e-3, 1e-10]}}``, with ``normal``, ``uniform``,
+        ``choice`` and ``grid``; the last two also take words, such as the paths of orbits:
+        ``{"orbit": {"grid": ["own", "la2010a.dat"]}}``. Or values: a Dataset of variables along
+        `member`, named after the inputs, or the path of a file (.csv, .nc, .zarr) with one.
     seed : int, optional
-        Of the random numbers; 0 if nothing says otherwise.
+        Seed of the random numbers; 0 by default.
+    rng : int, Generator or SeedSequence, optional
+        Instead of `seed`: a seed, or a source of random numbers of NumPy, from which a seed is
+        drawn (SPEC 7).
     path : str or Path, optional
-        A Zarr store to write into, block by block; if the run is ended before all is written, the
-        same call goes on from there.
+        Zarr store to write, block by block; after an interruption the same call resumes it.
     client : Client, int or str, optional
-        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
-        start here, or the address of a scheduler. A plain loop without.
+        Cluster of ``dask.distributed`` that computes the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. Without it the blocks are computed here.
     block : int, optional
-        How many members are kept at a time; by their size if not given.
+        Number of members that are computed and stored at a time; chosen by their size by default.
     impossible : str, optional
-        What is done with members that cannot exist: ``"refuse"`` them all, or ``"drop"`` these.
+        Treatment of members that are not possible: ``"refuse"`` the ensemble, or ``"drop"`` them.
 
     Returns
     -------
     Dataset
-        The answer along `member`, whose coordinates hold the inputs; variables that no input
-        touches stand once. ``ds.earthspin.quantiles()`` and ``ds.earthspin.sensitivity()`` sum it
-        up. Opened from the store, if there is a `path`.
+        Answer along `member`, with the inputs as coordinates; variables that depend on no input
+        have no dimension `member`. ``ds.earthspin.quantiles()`` and
+        ``ds.earthspin.sensitivity()`` summarise it. With `path` it is opened from the store.
 
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; among it members that cannot exist.
+        If an input is wrong or a member is not possible; the message is one line.
 
     Examples
     --------
@@ -74,7 +77,12 @@ def ensemble(
     >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
     25712.1 +/- 0.016 years
     """
-    request = with_members(load_scene(question), members, seed, impossible=impossible)
+    loaded = load_scene(question)
+    if rng is not None:
+        if seed is not None:
+            raise loaded.error("rng", rng, "give either seed or rng")
+        seed = _seed_from(rng)
+    request = with_members(loaded, members, seed, impossible=impossible)
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):  # type: ignore[redundant-expr]
         raise request.error("block", block, "give a whole number, 1 or more")
     if path is not None and as_path(path).suffix != ".zarr":
@@ -84,3 +92,10 @@ def ensemble(
         return work.hold(client)
     answer = open_store(work.write(path, client))
     return answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+
+
+def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:
+    """Seed from a source of random numbers of NumPy; an integer is the seed itself."""
+    if isinstance(rng, (np.random.Generator, np.random.SeedSequence)):
+        return int(np.random.default_rng(rng).integers(2**32))
+    return rng

@@ -500,3 +500,17 @@ def test_inputs_have_their_units_and_names() -> None:
     inputs = inputs_of(question, ["moon.gm", "body.mass"], question.where("members"))
     assert inputs["moon.gm"].unit == "m3/s2"
     assert inputs["body.mass"].unit == "kg"
+
+
+def test_sources_of_random_numbers_of_numpy() -> None:
+    """An integer is the seed itself; equal generators give equal ensembles (SPEC 7)."""
+    seeded = earthspin.ensemble("precession", 5, seed=3)
+    xr.testing.assert_identical(earthspin.ensemble("precession", 5, rng=3), seeded)
+    for source in (np.random.default_rng, np.random.SeedSequence):
+        first, again, other = (
+            earthspin.ensemble("precession", 5, rng=source(number)) for number in (1, 1, 2)
+        )
+        xr.testing.assert_identical(first, again)
+        assert not first.precession_rate.equals(other.precession_rate)
+    with pytest.raises(SceneError, match="give either seed or rng"):
+        earthspin.ensemble("precession", 5, seed=1, rng=1)
