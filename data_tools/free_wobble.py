@@ -23,7 +23,7 @@ from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR
 
-QUALITY = (50.0, 100.0, 180.0, 400.0)
+QUALITY = {"burg": (50.0, 100.0, 180.0, 400.0), "likelihood": (50.0, 180.0)}
 YEARS = (25.0, 65.0, 130.0)
 #: Share of red noise in the power of the excitation at the wobble, and its memory in days.
 RED = (
@@ -36,7 +36,7 @@ RED = (
     (0.6, 1826.0),
 )
 #: Records that are drawn in each cell, by method; their seeds are 0, 1, 2, ...
-DRAWS = {"burg": 400, "likelihood": 60}
+DRAWS = {"burg": 400, "likelihood": 20}
 PAGE = Path(__file__).parent.parent / "docs" / "measured" / "free-wobble.inc"
 
 
@@ -110,7 +110,7 @@ def page(draws: dict[str, int]) -> str:
         for method, count in draws.items():
             cells = [
                 Cell(method, quality, years, *red)
-                for quality, years, red in itertools.product(QUALITY, YEARS, RED)
+                for quality, years, red in itertools.product(QUALITY[method], YEARS, RED)
             ]
             text.append(HEAD.format(method=method, draws=count))
             for row in workers.map(Cell.row, cells, itertools.repeat(count)):

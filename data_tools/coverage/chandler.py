@@ -1,7 +1,7 @@
 """Coverage of period and quality factor of the free wobble, from simulated poles of known truth.
 
 The seeds are other than those of the tables of docs/wobble.md. The red excitation has 30 or 60 % of
-the power at the wobble; the fitted model has a memory of 365 d whatever the true one is.
+the power at the wobble.
 """
 
 from __future__ import annotations

@@ -33,15 +33,14 @@ from earthspin.wobble.resonance import polar_motion_from
 
 BLOCK = 120.0  # d
 SAMPLE = 10.0  # d, over which a record is averaged before it is turned back
-MEMORY = 365.0  # d, of red excitation and background
 MIDDLE = 2 * np.pi / NEAR
 
-#: Where the search starts: rate, and the logarithms of decay, red, background and white.
-START = np.array([0.0, -9.5, -2.0, -3.0, -4.0])
+#: Where the search starts: rate, and the logarithms of decay, red, background, white and memory.
+START = np.array([0.0, -9.5, -2.0, -3.0, -4.0, np.log(365.0)])
 #: What the search takes for a step of one.
-UNIT = np.array([1e-4, 1.0, 1.0, 1.0, 1.0])
-LOWEST = np.array([2 * np.pi / BAND[1] - MIDDLE, -13.5, -6.0, -8.0, -8.0])
-HIGHEST = np.array([2 * np.pi / BAND[0] - MIDDLE, -5.0, 4.0, 5.0, 3.0])
+UNIT = np.array([1e-4, 1.0, 1.0, 1.0, 1.0, 1.0])
+LOWEST = np.array([2 * np.pi / BAND[1] - MIDDLE, -13.5, -6.0, -8.0, -8.0, np.log(60.0)])
+HIGHEST = np.array([2 * np.pi / BAND[0] - MIDDLE, -5.0, 4.0, 5.0, 3.0, np.log(4000.0)])
 #: Relative steps in the likelihood at which a search ends: for its peak, and for its sides.
 FINE, COARSE = 1e-10, 1e-7
 #: How near an end of the band is its edge, d.
@@ -91,7 +90,7 @@ class Likelihood:
         return np.column_stack([self.terms, self.record])
 
     def __call__(
-        self, rate: float, decay: float, red: float, background: float, white: float
+        self, rate: float, decay: float, red: float, background: float, white: float, memory: float
     ) -> float:
         """Minus twice the logarithm of the likelihood.
 
@@ -99,18 +98,19 @@ class Likelihood:
         ----------
         rate : float
             Frequency less that of `NEAR`, rad/d.
-        decay, red, background, white : float
+        decay, red, background, white, memory : float
             Logarithms: of the decay, 1/d; of the red noise that drives the wobble over the
             white, at its frequency; of the variances of background and of white noise in a
-            block, over what drives the wobble in a year.
+            block, over what drives the wobble in a year; of the time in which red excitation and
+            background forget, d.
         """
-        s = complex(MIDDLE + rate, np.exp(decay))
-        flat = abs(1j * s.real + 1 / MEMORY) ** 2 / abs(s) ** 2
+        s, forgets = complex(MIDDLE + rate, np.exp(decay)), float(np.exp(memory))
+        flat = abs(1j * s.real + 1 / forgets) ** 2 / abs(s) ** 2
         oscillator = DrivenOscillator(
             s,
-            MEMORY,
+            forgets,
             white=1 / YEAR,
-            red=float(np.exp(red)) * flat * MEMORY / (2 * YEAR),
+            red=float(np.exp(red)) * flat * forgets / (2 * YEAR),
             background=float(np.exp(background)),
         )
         factors, lags = oscillator.of_means(self.size, MIDDLE)
@@ -147,6 +147,8 @@ class LikelihoodWithExcitation(Likelihood):
 def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
     """Minus twice the logarithm of the restricted likelihood of the last column.
 
+    A complex number counts as two real ones: the density is that of circular complex noise.
+
     Parameters
     ----------
     data : complex array, shape (n, k)
@@ -178,9 +180,9 @@ def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
     triangle = abs(np.diag(np.linalg.qr(white, mode="r")))
     rows, columns = data.shape
     return float(
-        2 * (rows - columns + 1) * np.log(triangle[-1])
-        + 2 * np.log(lower[0].real).sum()
-        + 2 * np.log(triangle[:-1]).sum()
+        4 * (rows - columns + 1) * np.log(triangle[-1])
+        + 4 * np.log(lower[0].real).sum()
+        + 4 * np.log(triangle[:-1]).sum()
     )
 
 
@@ -197,7 +199,7 @@ def lowest(
     Parameters
     ----------
     likelihood : Likelihood
-    start : array, shape (5,)
+    start : array, shape (6,)
         Where the search starts.
     fixed : int, optional
         Number of a parameter that stays as it is.
