@@ -53,6 +53,7 @@ WRITTEN = (
     "*.md",
     "course/*.md",
     "howto/*.md",
+    "paper/*.md",
     "reference/*.md",
     "tutorials/*.md",
     "examples/*.py",

@@ -32,4 +32,5 @@ PAGES = (
     "course",
     "examples",
     "gallery",
+    "paper",
 )
