@@ -37,7 +37,8 @@ html_math_renderer = "native"
 html_title = "earthspin"
 templates_path = ["_templates"]
 exclude_patterns = [
-    "_build", "_templates", "jupyter_execute", "examples", "gallery", "paper", "auto_gallery/**/*.ipynb",
+    "_build", "_templates", "jupyter_execute", "examples", "gallery", "paper",
+    "auto_gallery/**/*.ipynb",
 ]  # fmt: skip
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
