@@ -128,7 +128,7 @@ MEASURED = [
         )
     ),
     Sentence(PAGE, "by {}″ at −10,000.", lambda: apart(-1e4, of_iau)),
-    Sentence(PAGE, "not verified) beyond; {}″ part us", lambda: apart(-1e4, of_series)),
+    Sentence(PAGE, "not verified) beyond; the two solutions differ by {}″", lambda: apart(-1e4, of_series)),
     Sentence(
         PAGE,
         "without it we would be {}″ from the series at −10,000 and {}″, not {}″, at +10,000",
@@ -260,7 +260,7 @@ MEASURED += [
     Sentence(PAGE, "are therefore quantiles: {} solutions", lambda: MEMBERS),
     Sentence(
         PAGE,
-        "Earth that is {} in a million years, measured beside",
+        "Earth this is {} in a million years, measured beside",
         lambda: GROWTH["earth"].eccentricity * 1e6 * JULIAN_YEAR,
     ),
     Sentence(
@@ -309,7 +309,7 @@ TOLD = [
     Told(
         PAGE, "without terms of less than some {} years", "what the smoothing of the samples passes"
     ),
-    Told(PAGE, "the {} % quantile of how far", "what an error is, by definition"),
+    Told(PAGE, "the {} % quantile of their distances", "what an error is, by definition"),
     Told(
         PAGE,
         "inside the half-widths in {} to {} % of cases",
