@@ -332,7 +332,7 @@ class Listed:
         return cls(listed)
 
     def write(self) -> Plain:
-        """Return the numbers as a table of bytes."""
+        """Return the times as bytes, in the form that a scene stores."""
         return pack(self.listed)
 
 

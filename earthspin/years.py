@@ -22,6 +22,7 @@ from earthspin.units import FloatArray, Number, Plain, quantity
 FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
 MOST_TIMES = 10_000_000
 _FAR_DATE = re.compile(r"([-+]?\d{1,7})-(\d\d)-(\d\d)")
+_BEFORE_CHRIST = re.compile(r"(\d{1,7}) BCE?")
 EXAMPLE = "-65 kyr"
 
 
@@ -45,8 +46,10 @@ def seconds(value: Any, where: Where) -> float:
         if date is not None:
             year, month, day = map(int, date.groups())
             return DAY * _days_of_date(year, month, day, where)
+        if before := _BEFORE_CHRIST.fullmatch(value.strip()):
+            return DAY * _days_of_date(1 - int(before[1]), 1, 1, where)
     elif isinstance(value, (int, float)) and not hasattr(value, "to_value"):
-        raise where.error(value, f"give it with its unit, like '{EXAMPLE}', or as a date")
+        raise where.error(value, f"give it with its unit, like '{EXAMPLE}', or a date")
     elif not (
         (hasattr(value, "to_value") and not hasattr(value, "jd1"))
         or hasattr(value, "total_seconds")

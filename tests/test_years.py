@@ -159,3 +159,9 @@ def test_a_whole_number_of_steps_always_meets_the_end(count: int, years: float) 
     times = grid(YearSpan(-count * step, 0.0), step, AT)
     assert times.size == count + 1
     assert abs(times[-1]) < 1e-9 * step * count
+
+
+def test_years_before_christ() -> None:
+    """Year 1 BC is the astronomical year 0: 3000 BC starts with -2999-01-01."""
+    assert seconds("3000 BC", AT) == seconds("-2999-01-01", AT)
+    assert seconds("1 BCE", AT) == seconds("0-01-01", AT)

@@ -64,7 +64,7 @@ def _days(days: float, source: str, read_in: str) -> Constant:
 def _locked(
     gm: Constant, radius: float, period: Constant, source: str, read_in: str
 ) -> dict[str, Constant]:
-    """Numbers of a synchronous moon, from GM, radius (km) and period."""
+    """Constants of a moon in synchronous rotation, from GM, radius (km) and period."""
     return {
         "gm": gm,
         "radius": Constant(radius * 1e3, "m", None, source, read_in),

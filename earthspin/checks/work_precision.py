@@ -335,7 +335,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
 
 
 def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
-    """Make the ladder of a quantity.
+    """Build the settings, from coarse to fine, that measure a quantity.
 
     Raises
     ------

@@ -109,7 +109,7 @@ class Distribution:
 
 
 def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
-    """Check the names that are chosen for an input, and return them.
+    """Check names, such as files, that an ensemble chooses for an input.
 
     Raises
     ------

@@ -62,7 +62,7 @@ class Profile:
         return (self._mass[i](r) + self._below[i]) / r**2
 
     def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame parameters lambda and mu, shape (strain, r); the bulk modulus is constant."""
+        """Lame parameters lambda and mu at radii r, for each strain; shape (strain, r)."""
         layer, rho = self.layers[i], _horner(self.layers[i].density, r)
         seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
         bulk = rho * _horner(layer.vp, r) ** 2 / self.modulus_unit - 4 / 3 * seismic

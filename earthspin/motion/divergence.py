@@ -75,7 +75,7 @@ class Divergence:
 def divergence(
     body: Rigid, masses: Masses, start: State, end: float, direction: int = 0
 ) -> Divergence:
-    """Integrate a rotation and a neighbour.
+    """Integrate a rotation and a slightly different one, to see how fast they separate.
 
     Parameters
     ----------

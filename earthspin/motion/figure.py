@@ -31,7 +31,7 @@ _ROUNDING = 1e-17
 def tilt_of_figure(
     windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
 ) -> tuple[FloatArray, list[float]]:
-    """Angular momentum minus figure axis, tau F x F', on the slow manifold.
+    """Unit angular momentum minus figure axis without free wobble, tau F x F'.
 
     Parameters
     ----------

@@ -391,7 +391,7 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Celestial pole offsets after the last observed ones and their half-widths, shape (n, 2)."""
+    """Predict celestial pole offsets after the last observation, and half-widths, shape (n, 2)."""
     from earthspin.nutation.offset_prediction import predict
 
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)

@@ -177,7 +177,7 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
 
 
 def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
-    """Largest phase error between J2000.0 and some times, rad, shape (..., n).
+    """Largest error of the precession phase between J2000.0 and times, rad, shape (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
     each time is used, because after a large phase error changes are no longer proportional to their

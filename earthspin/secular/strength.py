@@ -167,7 +167,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Effective time for which a decaying rate has acted, s.
+    """Time at the full rate that gives the same change as the decaying rate, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 

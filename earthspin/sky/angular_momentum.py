@@ -50,7 +50,7 @@ class AngularMomentum:
 
     @property
     def chi(self) -> Complex:
-        """Sum of both terms, rad."""
+        """Excitation: sum of the mass term and the motion term, rad."""
         return self.mass + self.motion
 
     def daily(self) -> AngularMomentum:

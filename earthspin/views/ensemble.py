@@ -229,7 +229,7 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
 
 
 def _alike(answer: xr.Dataset) -> str:
-    """Sentence for an ensemble whose members agree."""
+    """Sentence that is printed if all members of an ensemble agree."""
     count, inputs = answer.sizes[MEMBER], ", ".join(inputs_of(answer))
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 

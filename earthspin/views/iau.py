@@ -106,7 +106,7 @@ def observed(tree: Result) -> Table:
 
 
 def nutation(tree: Result) -> Table:
-    """Table of the largest circular terms of both poles."""
+    """Table of the largest nutations of the computed pole and of the IAU's."""
 
     def neighbour(row: xr.Dataset) -> str:
         return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""

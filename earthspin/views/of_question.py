@@ -1,4 +1,4 @@
-"""Tables, figures and pages of an answer, from the view module of its question."""
+"""Find the view module of a question, and make its tables, figures and pages."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import xarray as xr
 
 from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.spread import is_ensemble
+from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
 from earthspin.views import ensemble
 from earthspin.views.drawing import Drawing, Figure, PageFigure, style
@@ -90,8 +91,11 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     Raises
     ------
     SceneError
-        If the answer does not carry the scene that made it.
+        If the answer has no scene, as a section of it.
     """
+    if "scene" not in answer.attrs:
+        problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
+        raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
     there = plan(answer, "all").sections
     needed = {name for figure in _figures(answer) for name in (figure.section, *figure.uses)}
     nodes = {"/": answer}

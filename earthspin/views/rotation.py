@@ -166,7 +166,7 @@ SHAPE = (1.0, 0.8, 0.6)
 
 
 def turning_body(tree: Result) -> Solid:
-    """Rotating ellipsoid with the moments of the body."""
+    """Animated ellipsoid with the principal moments of the body."""
     few = answer_of(tree).isel(time=slice(0, POSES))
     attitude, momentum = few.attitude.values, few.angular_momentum.values
     omega = rotate(attitude, few.omega.values)

@@ -1,4 +1,4 @@
-"""Polar motion and its excitation: the linear equation, solved exactly for interval means.
+"""Polar motion and its excitation, a linear equation that is exact for means over steps.
 
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 

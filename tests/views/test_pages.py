@@ -123,7 +123,7 @@ def test_several_starts_are_drawn_without_the_herpolhode() -> None:
 
 def test_what_carries_no_question_is_refused_in_one_line() -> None:
     answer = earthspin.run("torque").mean("time", keep_attrs=False)
-    with pytest.raises(earthspin.SceneError, match="does not carry the scene"):
+    with pytest.raises(earthspin.SceneError, match="plot the whole answer or its tree"):
         figures_of(answer)
 
 

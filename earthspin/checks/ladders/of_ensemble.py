@@ -113,7 +113,7 @@ def _linear() -> Result:
 
 
 def _by_numpy(members: int, seed: int) -> Result:
-    """Half-width from a single answer, scaled by draws of 1/H."""
+    """Compute the half-width by NumPy: one answer, scaled by random draws of 1/H."""
     period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
     drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)
     low, high = np.quantile(period / drawn, ENDS)

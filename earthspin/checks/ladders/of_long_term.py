@@ -1,4 +1,4 @@
-"""Ladder for the spin axis over a million years: two solvers of the package, and integrators."""
+"""Error against run time for the spin axis over a million years."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """List all bodies, one per line: whether each exerts a torque and spins, and missing fields."""
+    """Table of all bodies: perturber or not, spin or not, and missing numbers."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
