@@ -259,7 +259,7 @@ MEASURED = [
     Sentence(PAGE, "20,000), and leaves\n{} uas rms.", partial(core, "apart_rms")),
     Sentence(
         PAGE,
-        "are {}, {} and {} uas from REN-2000, neighbours included",
+        "differ\nby {}, {} and {} uas from REN-2000, neighbours included",
         lambda: [resonance.beside_ren_2000(multiple) for multiple in resonance.REN_2000],
     ),
     *(
@@ -267,13 +267,13 @@ MEASURED = [
         for words, rest, multiple in (
             ("year, retrograde", "−86.6", resonance.ADDED_TO["retrograde year"]),
             ("year, prograde", "−9.8", resonance.ADDED_TO["prograde year"]),
-            ("turn of the node, prograde", "−34.3", resonance.ADDED_TO["prograde 18.6 years"]),
+            ("period of the node, prograde", "−34.3", resonance.ADDED_TO["prograde 18.6 years"]),
             ("half year, retrograde", "−6.4", resonance.HALF_YEAR),
         )
     ),
     Sentence(
         PAGE,
-        "IAU 2000A has {} uas more or less there than was published",
+        "IAU 2000A differs there by {} uas from the published value",
         more_at_the_prograde_year,
     ),
     Sentence(
@@ -283,13 +283,13 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "({} degrees in the year and {} in the half year, retrograde; {} for the sea in K1)",
+        "({} degrees in the year and {} in the half year, retrograde; {} for the ocean in K1)",
         phases_beside_the_resonance,
     ),
-    Sentence(PAGE, "the period stays, at\n{} d, but Q comes out at {}:", blind, (0.0, 5.0)),
+    Sentence(PAGE, "the\nperiod remains at {} d, but Q comes out at {}:", blind, (0.0, 5.0)),
     Sentence(
         PAGE,
-        "has Q of {} and whose sea changes with the\nfrequency, it finds {} (",
+        "has Q of {} and\nwhose ocean response depends on the frequency, it gives {} (",
         ladder_fitted,
         0.0,
     ),
@@ -300,7 +300,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "leaves {} uas rms over all terms, and {} uas at most",
+        "its residual is {} uas rms over all terms, and {} uas at most",
         lambda: [core("response_rms"), core("response_maximum")],
     ),
     Sentence(
@@ -312,7 +312,7 @@ MEASURED = [
         lambda: total("omega_closure_with_tides") * MAS_A_CENTURY,
         0.06,
     ),
-    Sentence(PAGE, "observed moment among its data); it is {} % off", prem_off),
+    Sentence(PAGE, "observed moment); its $C$ differs by {} %", prem_off),
     Sentence(
         PAGE,
         "- The second order is {} mas/cy smaller than published",
@@ -320,7 +320,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "With the fitted response, {} mas rms remain, and {} mas at most",
+        "With the fitted response, the residual is {} mas rms, and {} mas at most",
         lambda: [residual("nonrigid")[0], residual("nonrigid")[3]],
     ),
     *(
@@ -335,7 +335,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "The shorter span of DE421 costs {} mas/cy",
+        "The shorter span of DE421 changes the closure by {} mas/cy",
         lambda: closures()[0] - closures()[1],
         slow=True,
         de440=True,
@@ -343,7 +343,7 @@ MEASURED = [
     Sentence(PAGE, "appears in $t^2$: {}\nmas/cy²", of_j2_rate, slow=True),
     Sentence(
         PAGE,
-        "The Moon gives {} mas/cy of the geodesic precession. With the Sun alone it is {}.",
+        "The Moon contributes {} mas/cy to the geodesic precession. With the Sun alone it is {}.",
         lambda: [geodesic_by_the_sun() - budget("geodesic"), geodesic_by_the_sun()],
         slow=True,
     ),
@@ -401,19 +401,19 @@ TOLD = [
     Told(PAGE, "the first order is ${}''\\cos\\epsilon_0$", "published: Capitaine et al. 2004"),
     Told(PAGE, "minus the {} mas\nof $J_2$ and planetary tilt", P03_TABLE),
     Told(PAGE, "(published as a rate, {}, that is {})", P03_TABLE),
-    Told(PAGE, "Our $\\psi_A$ lacks the non-linear term, {} arcsec a century", P03_TABLE),
+    Told(PAGE, "Our $\\psi_A$ excludes the non-linear term, {} arcsec a century", P03_TABLE),
     Told(PAGE, "from which {} years cannot separate", "as long as the analysis; see the budget"),
     Told(PAGE, "| PREM, $I = {}\\,M R^2$ |", "published: Dziewonski & Anderson 1981"),
     Told(PAGE, "Half-widths are {} %", "what an error is, by definition"),
     Told(PAGE, "after division by\n{}, the ratio", "published: the H of Souchay et al. 1999"),
-    Told(PAGE, "IERS Conventions (2010), table {}, held fixed", "the name of a table"),
+    Told(PAGE, "IERS Conventions (2010), table {}, fixed", "the name of a table"),
     Told(PAGE, "(built in: {} d, {})", "published: Mathews, Herring & Buffett 2002"),
     *(
         Told(PAGE, f"| {words} | {found} | {{}} | {{}} |", ADDITIONS_SOURCE)
         for words, found in (
             ("year, retrograde", "−85 | +100"),
             ("year, prograde", "+5 | +116"),
-            ("turn of the node, prograde", "−33 | +2.1"),
+            ("period of the node, prograde", "−33 | +2.1"),
             ("half year, retrograde", "−0.7 | +8.6"),
         )
     ),

@@ -162,12 +162,12 @@ MEASURED = [
         Sentence(PAGE, f"\n| {period} | {{}} | {{}} | {{}} | {{}} |", partial(term, name))
         for name, period in TERMS.items()
     ),
-    Sentence(PAGE, "moves the term of 18.6 years by {} mas", one_per_cent_of_gamma),
-    Sentence(PAGE, "the inner core nutation {} d for {} d", deformation_pulled_as_a_tilt),
-    Sentence(PAGE, "would have it: $H$ {} % too small", h_too_small),
+    Sentence(PAGE, "changes the term of\n18.6 years by {} mas", one_per_cent_of_gamma),
+    Sentence(PAGE, "the inner core nutation {} d instead of {} d", deformation_pulled_as_a_tilt),
+    Sentence(PAGE, "figure: $H$ is {} % too small", h_too_small),
     Sentence(
         PAGE,
-        "its free core nutation comes out at {} d |",
+        "its free core nutation has a period of {} d |",
         partial(hydrostatic, "free_core_nutation", "core-in-rigid-mantle"),
     ),
     Sentence(
@@ -177,7 +177,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "a nutation of its own, near\n{} d",
+        "a free nutation with a period\nnear {} d",
         lambda: mode("free_core_nutation", "fluid-core"),
     ),
     Sentence(
@@ -188,7 +188,7 @@ MEASURED = [
     Sentence(PAGE, "A hydrostatic $H$ makes it {} d", partial(hydrostatic, "chandler_wobble")),
     Sentence(
         PAGE,
-        r"give $\Delta k = {} + {}\,i$: of the other sign",
+        r"give $\Delta k = {} + {}\,i$: the sign is opposite",
         lambda: [wave_response(WAVES["K1"]).real, wave_response(WAVES["K1"]).imag],
     ),
     Sentence(
@@ -198,10 +198,10 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        r"comes out as ${}\cdot10^{-3}$; theirs is",
+        r"flattening of the core is ${}\cdot10^{-3}$; the published",
         partial(flattening_of_core, "coupling"),
     ),
-    Sentence(PAGE, "retrograde year, {} mas, which is what the core loses", retrograde_year),
+    Sentence(PAGE, "retrograde year, {} mas, due to the loss", retrograde_year),
     Sentence(
         PAGE,
         "| Chandler wobble | {} | {} | {} |",
@@ -248,30 +248,30 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "coupled to the mantle alone, the core leaves {} / {} mas",
+        "with coupling to the mantle alone, the residual is {} / {}\nmas",
         partial(left_in_time, ours=coupled_to_mantle_alone, additions=True),
     ),
     *(
         Sentence(PAGE, text, partial(left_in_time, ours=ours, additions=False))
         for text, ours in (
-            ("this rung leaves {} / {} mas", partial(predicted, "coupling")),
-            ("with coupling to the mantle alone {} / {}", coupled_to_mantle_alone),
-            ("and the rung before {} / {}.", partial(predicted, "core-ellipticity")),
+            ("the residual of this rung is {} / {} mas", partial(predicted, "coupling")),
+            ("with coupling\nto the mantle alone {} / {}", coupled_to_mantle_alone),
+            ("and of the previous rung {} / {}.", partial(predicted, "core-ellipticity")),
         )
     ),
     Sentence(
         PAGE,
-        "Were that {} % larger, and shifted by {} % out\nof phase",
+        "If it were {} % larger, and shifted\nby {} % out of phase",
         lambda: [100 * strength().change.real, -100 * strength().change.imag],
     ),
     Sentence(
         PAGE,
-        "would leave {} mas in each angle for {}.",
+        "of the terms would be {} mas in each angle instead of {}.",
         lambda: [strength().after, strength().before],
     ),
     Sentence(
         PAGE,
-        "The core nutation has $Q$ of {} for the {} of that paper",
+        "The free core nutation\nhas $Q$ of {}, compared with {} in that paper",
         lambda: [quality_of(core_mode("coupling")), CORE_NUTATION_QUALITY.value],
         50.0,
     ),
@@ -283,7 +283,7 @@ PUBLISHED = "published: Mathews, Buffett, Herring & Shapiro 1991, in tests/refer
 MHB = "published: Mathews, Herring & Buffett 2002"
 TESTED = "tests/interior/test_love.py and test_rotation.py"
 TOLD = [
-    Told(PAGE, "moves the term of {} years", "the Moon's node"),
+    Told(PAGE, "changes the term of\n{} years", "the Moon's node"),
     *(
         Told(PAGE, row, "the unit of a row")
         for row in (
@@ -300,17 +300,17 @@ TOLD = [
     ),
     Told(PAGE, "Solid Earth {}, {})", "volume and page"),
     Told(PAGE, "lies at {} d (Mathews, Herring & Buffett 2002)", MHB),
-    Told(PAGE, r"theirs is ${}\cdot10^{-3}$", MHB),
+    Told(PAGE, r"the published value is ${}\cdot10^{-3}$", MHB),
     Told(PAGE, "| {}, {}, {} | not verified |\n| $\\kappa$", PUBLISHED),
     Told(PAGE, "| {}, {}, {} | read in public code |", PUBLISHED),
     Told(PAGE, "| {} | read in public code |\n| $\\theta$", PUBLISHED),
     Told(PAGE, "| {}, {}, {} | not verified |\n| $\\zeta$", PUBLISHED),
     Told(PAGE, "| {}, {} | not verified |\n| $\\alpha_1$", PUBLISHED),
     Told(PAGE, "0.05367 | {}, {}, {} | not verified |", PUBLISHED),
-    Told(PAGE, r"as Betti's theorem has it, to ${}$;", TESTED),
+    Told(PAGE, r"as required by Betti's theorem, to ${}$;", TESTED),
     Told(PAGE, r"agrees to ${}$. In the notation", TESTED),
     Told(PAGE, r"give the forced wobble to ${}$;", TESTED),
-    Told(PAGE, r"give $T$ again to ${}$.", TESTED),
-    Told(PAGE, "between them, changes no rung by more than {} mas", TESTED_LAYERED),
+    Told(PAGE, r"system reproduce $T$ to ${}$.", TESTED),
+    Told(PAGE, "between them changes no\nrung by more than {} mas", TESTED_LAYERED),
     Told(PAGE, "in equilibrium and adds {} to $k_2$", "docs/wobble.md"),
 ]

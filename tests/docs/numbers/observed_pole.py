@@ -223,7 +223,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "the likelihood's at most {} d\nin {} years and {} d in {} years and more",
+        "The likelihood's is at most {} d\nin {} years and {} d in {} years and more",
         partial(largest_biases, "likelihood"),
     ),
     Sentence(PAGE, "contain both in {} to {} % of each row", held_by_likelihood),
@@ -240,7 +240,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "is off by {} d, scatters by {} d, and its error\nholds the truth in {} %",
+        "has a bias of {} d and a scatter of {} d, and its error\ncontains the true value in {} %",
         sinusoids,
         slow=True,
     ),
@@ -250,15 +250,15 @@ MEASURED = [
         "gaps up to ten steps and {} days. These",
         lambda: LONGEST_DAYS,
     ),
-    Sentence(PAGE, "of itself: {} % over ten days, {} % over the tenth", cut_by_bridges),
+    Sentence(PAGE, "a fraction $(\\pi D/T)^2/2$: {} % over ten days, {} % over the tenth", cut_by_bridges),
     Sentence(PAGE, "All methods accept steps up to {} days", lambda: LONGEST_STEP),
-    Sentence(PAGE, "of known truth: $T$ = {} d, with seasons", lambda: NEAR),
+    Sentence(PAGE, "with known parameters: $T$ = {} d, with seasons", lambda: NEAR),
     Sentence(
         PAGE,
-        "which it forgets: {} to {} days were tried.",
+        "its correlation time: {} to {} days were tested.",
         lambda: [min(MEMORIES), max(MEMORIES)],
     ),
-    Sentence(PAGE, "determines the percentage to {} %", coverage_of_a_row),
+    Sentence(PAGE, "determine the percentage to {} %", coverage_of_a_row),
     Sentence(
         PAGE,
         "To separate {} from {} days takes\none beat, {} years; "
@@ -286,7 +286,7 @@ MEASURED = [
     Sentence(
         PAGE,
         "scatter by {} d, against {} d of Burg's method on the pole alone; "
-        "the errors claimed were {} d",
+        "the claimed errors were {} d",
         with_excitation,
         slow=True,
     ),
@@ -294,7 +294,7 @@ MEASURED = [
 ]
 TOLD = [
     Told(PAGE, "All errors are {} %", ERROR),
-    Told(PAGE, "how many of the {} % intervals hold", ERROR),
+    Told(PAGE, "the percentage of the {} %\nintervals that contain", ERROR),
     Told(PAGE, "| {} year from 1846, {} year from 1890 |", LAYOUT),
     Told(PAGE, '(`"least-squares"`, 200 records of {} years', GIVEN),
     Told(PAGE, "A span of {} years determines $Q$ only", GIVEN),
@@ -310,7 +310,7 @@ TOLD = [
     Told("docs/coverage.md", "$T$ = {} d, $Q$ = 50", GIVEN),
     Told("docs/coverage.md", "excitation with 30 and {} % of", GIVEN),
     Told("docs/coverage.md", "the fitted likelihood has {} d", GIVEN),
-    Told(PAGE, "times the scatter, where {} would do", ERROR),
+    Told(PAGE, "times the scatter, where {} is expected", ERROR),
     Told(PAGE, "For memories outside {} to {} days", GIVEN),
-    Told(PAGE, "down to 62 for a true {}", GIVEN),
+    Told(PAGE, "down to 98 for a true {}", GIVEN),
 ]

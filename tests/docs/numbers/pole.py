@@ -143,18 +143,18 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "It stands {} mas from the angular momentum on average and swings about that by {} and {}"
+        "This figure axis is {} mas from the angular momentum on average and\nvaries by {} and {}"
         " mas rms",
         partial(stand, "figure"),
     ),
     Sentence(
         PAGE,
-        "{} mas from the angular momentum on average and swings by {} and {} mas rms.",
+        "the rotation axis is {} mas from the angular momentum on average and varies by {} and\n{} mas rms.",
         partial(stand, "rotation"),
     ),
     Sentence(
         PAGE,
-        "`direction_error_input` is what the uncertainty of $H$ adds, {} mas after",
+        "`direction_error_input` is due to the uncertainty of $H$, {} mas after",
         input_error_of_the_pole,
     ),
     *(
@@ -198,7 +198,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "over 30 years, 14 nodes are off by {} uas, 12 nodes by {}.",
+        "over 30 years, the error of 14 nodes is {} uas, that of 12 nodes {}.",
         lambda: [windows_of(order) for order in (14, 12)],
         slow=True,
     ),

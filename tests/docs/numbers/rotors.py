@@ -165,7 +165,7 @@ TOPS = {
 }
 
 MEASURED = [
-    Sentence(ROTORS, "$I_1/(I_3-I_1) = {}$ turns, which is\n{} days", rigid_wobble),
+    Sentence(ROTORS, "$I_1/(I_3-I_1) = {}$ rotations, which is\n{} days", rigid_wobble),
     Sentence(ROTORS, "but $(C-A)/A = 1/{}$", lambda: 1 / E),
     Sentence(ROTORS, "flattened: $f = 1/{}$", lambda: 1 / float(EARTH.needed("flattening"))),
     *(
@@ -257,7 +257,7 @@ MEASURED = [
     Sentence(ROTORS, "The observed wobble takes about {} days", chandler_period),
     Sentence(
         ROTORS,
-        "there the spheroid is off by {} of that effect at most",
+        "there the error of the spheroid is {} of that effect at most",
         spheroid_beside_the_input,
         factor=3.0,
         slow=True,
@@ -282,7 +282,7 @@ TOLD = [
     Column(ROTORS, TABLE, "time", "run time: python -m tests.rotor.accuracy, and its like"),
     Column(ROTORS, TABLE, "family", "given: where the cases of a family are drawn from"),
     Told(
-        ROTORS, "Where that of a\ntop is above {}, its ratio", "given: tests/top/accuracy.py, GOOD"
+        ROTORS, "If the error of a\ntop exceeds {}, the table also gives its ratio", "given: tests/top/accuracy.py, GOOD"
     ),
     Told(THEORY, "$J_2$ with $C = {}\\,Ma^2$", "by definition: a homogeneous sphere"),
     Told(THEORY, "a calendar with years of {} days", "by definition: the Julian year"),

@@ -215,7 +215,7 @@ MEASURED = [
         partial(secular, float(earthspin.EARTH.radius)),
     ),
     Sentence(PAGE, "by {} days with a rigid mantle and by {} with an elastic one", core_shortens),
-    Sentence(PAGE, "and {} days. The real ocean has coasts", global_ocean),
+    Sentence(PAGE, "and the period by {} days. The real ocean has coasts", global_ocean),
     Sentence(
         PAGE,
         "the median of the periods is {} days and 95 % of them lie\nbetween {} and {}.",
@@ -229,7 +229,7 @@ MEASURED = [
     Sentence(PAGE, "| $k_2'$, $h_2'$ of a load | {}, {} |", partial(love, "k2_load", "h2_load")),
     Sentence(PAGE, "| $k$ if liquid throughout | {} |", partial(interior, "fluid_love_number")),
     Sentence(PAGE, "by Clairaut's equation) gives {} d", partial(core_nutation, "hydrostatic")),
-    Sentence(PAGE, "we give\n{} d. Since", partial(core_nutation, "observed")),
+    Sentence(PAGE, "the result is\n{} d. Since", partial(core_nutation, "observed")),
     Sentence(PAGE, "(1+k'-h')} = {},$$", partial(interior, "global_ocean_love_number")),
     *(
         Sentence(PAGE, f"\n| {alpha} | {{}} | {{}} | {{}} |", partial(with_exponent, alpha))
@@ -266,7 +266,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "asks for a core that is 5 % flatter (${}$, Mathews",
+        "require a core that is 5 % flatter (${}$, Mathews",
         lambda: observed_core().value,
     ),
     Sentence(
@@ -282,7 +282,7 @@ MEASURED = [
     Sentence(PAGE, "predicted a period of about {} days", lambda: rung("rigid")[1]),
     Sentence(
         PAGE,
-        "One turn lasts {} days of {} s. At {} days the\ntwo units differ by {} days",
+        "One rotation lasts {} days of {} s. At {} days the\ntwo units differ by {} days",
         two_days,
     ),
     Sentence(PAGE, "| sidereal days | days of {} s | factor |", lambda: DAY),
@@ -290,7 +290,7 @@ MEASURED = [
     Sentence(PAGE, "one gets $1/H$ = {}.", lambda: 1 / EARTH.dynamical_flattening),
     Sentence(PAGE, "that of the sphere ({} km)", lambda: PREM.radius / 1e3),
     Sentence(PAGE, "the period of this rung is {} days longer", with_equatorial_radius),
-    Sentence(PAGE, "asks for a core that is {} % flatter", flatter_core),
+    Sentence(PAGE, "require a core that is {} % flatter", flatter_core),
     Sentence(
         PAGE,
         "from {} s to {} s and changes the period by {} days",
@@ -322,7 +322,7 @@ TOLD = [
     Told(PAGE, "$(B-A)/Ma^2 = {}$", "published: the figure of earthspin.EARTH"),
     Told(PAGE, "$k_2$ = {} (Konopliv", KONOPLIV),
     Told(PAGE, "a core of {} km", "published: Le Maistre et al. 2023"),
-    Told(PAGE, "The observed {} d\nasks for", "published: Mathews, Herring & Buffett 2002"),
+    Told(PAGE, "The observed {} d\nrequire", "published: Mathews, Herring & Buffett 2002"),
     Told(PAGE, "| $H$ | {} |", "published: Mathews, Herring & Buffett 2002"),
     Told(PAGE, "$k_{21}$ = {}, IERS Conventions (2010)", "published, as copied in public code"),
     Told(PAGE, "against {} ± {} observed from orbit (Konopliv", "published: Konopliv et al. 2020"),

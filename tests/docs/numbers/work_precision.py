@@ -146,17 +146,17 @@ def last_place_of_the_top() -> float:
 
 
 MEASURED = [
-    Sentence(PAGE, "What takes less than {} ms is repeated", lambda: 1e3 * SHORTEST_SAMPLE),
+    Sentence(PAGE, "Calls that take less than {} ms are repeated", lambda: 1e3 * SHORTEST_SAMPLE),
     Sentence(
         PAGE,
         "the remaining ${}$ is a true variation",
         lambda: row("precession", "sin4", "8 turns, 1 d").error,
     ),
     Sentence(PAGE, "a term of\n${}$ in $3D", slow_term, slow=True),
-    Sentence(PAGE, "Its period is {} years, in which the perigee", period_of_the_slow_term),
+    Sentence(PAGE, "Its period is {} years, longer than any window", period_of_the_slow_term),
     Sentence(PAGE, "its rate varies by\n${}$ (", lambda: MOON.slow_swing),
     Sentence(PAGE, "Skyfield differs by {} µas because", lambda: by_skyfield()[0]),
-    Sentence(PAGE, "and differs by\n{} µas, because", lambda: by_skyfield()[1]),
+    Sentence(PAGE, "and differs by\n{} µas because of", lambda: by_skyfield()[1]),
     Sentence(
         PAGE,
         "milliarcsecond down to rounding, ${}$ µas",
@@ -178,7 +178,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "comes\nwithin ${}$ some {} times faster, and does not say so",
+        "comes\nwithin ${}$ some {} times faster, but gives no error",
         lambda: [
             row("rotation", "solve_ivp LSODA (other)", "rtol 1e-13").error,
             slower_than(
@@ -192,7 +192,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "it is as good as ours\nhere, and {} times faster",
+        "it is as accurate as\nearthspin here, and {} times faster",
         lambda: slower_than(
             "elements",
             "ellipses by their elements",
@@ -211,7 +211,7 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "a plain mean over five turns misses by ${}$.",
+        "of a plain mean over five turns is ${}$.",
         lambda: row("mean-orbit", "plain mean over years (other)", "94.8 years, 1 d").error,
     ),
     Sentence(PAGE, "Moments 1 : {} : {}, a hundred periods", lambda: of_free_rotor.MOMENTS[1:]),
@@ -226,14 +226,14 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "they keep ten digits at {} radii, four at the Moon's",
+        "has ten correct digits at {} radii, four at\nthe Moon's",
         lambda: of_spheroid.DISTANCES[0],
     ),
     Sentence(PAGE, "none at ${}$ radii; long double", lambda: of_spheroid.DISTANCES[4]),
     Sentence(
         PAGE,
-        "Its rounding is ${}$ mas, a\nthousand times below that of ERFA in double precision, "
-        "whose sum it thereby checks (${}$ mas)",
+        "Its rounding error is ${}$ mas, a\nthousand times smaller than that of ERFA in double "
+        "precision, so it checks the sum of ERFA (${}$ mas)",
         lambda: [
             of_torque.ladder(quick=True).reference_error / MAS,
             row("torque", "IAU 2000A at each epoch").error,
@@ -245,35 +245,35 @@ MEASURED = [
         "for no method can it be smaller than\n$T\\sqrt{T/4\\pi QL}$, {} days for {} years",
         lambda: [433 * math.sqrt(433 / (4 * math.pi * 100 * 65 * 365.25)), 65],
     ),
-    Sentence(PAGE, "what is not linear, {} % here", lambda: 100 * not_linear()),
-    Sentence(PAGE, "known to a thousandth would leave ${}$", lambda: not_linear(1e-3)),
+    Sentence(PAGE, "neglects the nonlinear part, {} % here", lambda: 100 * not_linear()),
+    Sentence(PAGE, "known to a thousandth it is ${}$", lambda: not_linear(1e-3)),
     Sentence(
         PAGE,
-        "{} are known to {} %, and to\ndo as well as the linear error takes {} of them",
+        "{} members have an error of {} %, and {} are as accurate as the linear error",
         lambda: [1000, 100 * of_ensemble.expected_scatter(1000), members_for(not_linear())],
     ),
     Sentence(
         PAGE,
-        "are off by ${}/n$ instead",
+        "have an error of ${}/n$ instead",
         lambda: 1000 * row("ensemble", "evenly spaced members", "1,000 members").error,
     ),
     Sentence(
         PAGE,
-        "at Gauss's nodes leaves ${}$, which is not its own",
+        "at Gauss's nodes has an error of ${}$.",
         lambda: row("compliances", "collocation at Gauss's nodes", "settled to 1e-13").error,
     ),
     Sentence(
-        PAGE, "as near need {} to {} times as long", slower_than_collocation, factor=RUN_TIMES
+        PAGE, "same error need {} to {} times as long", slower_than_collocation, factor=RUN_TIMES
     ),
     Sentence(
         PAGE,
-        "answers moves the term of the Moon's node by {} µas",
+        "compliances moves the term of\nthe Moon's node by {} µas",
         millionth_of_the_answers,
         slow=True,
     ),
     Sentence(
         PAGE,
-        "leaves {}″ at a relative $10^{-9}$ and {}″ at $10^{-10}$",
+        "is {}″ at a relative tolerance of $10^{-9}$ and {}″ at $10^{-10}$",
         lambda: [
             row("long-term", "DOP853, fitted equation (other)", f"rtol 1e-{k}").error
             for k in (9, 10)
@@ -283,18 +283,18 @@ MEASURED = [
 #: Measured once, where the ladder was made.
 IN_LADDERS = "earthspin/checks/ladders: what steps or points in between change"
 TOLD: list[Told | Column | Part] = [
-    Told(PAGE, "so that the ends of its central {} % are those of $H$", "given: what is meant"),
-    Told(PAGE, "points finds it to\n${}$ without a window", IN_LADDERS),
+    Told(PAGE, "so the limits of its central {} %\nfollow", "given: what is meant"),
+    Told(PAGE, "points computes it to\n${}$ without a window", IN_LADDERS),
     Told(PAGE, "Steps of six hours change it by ${}$ rad", IN_LADDERS),
     Told(PAGE, "halving those changes it by ${}$ rad", IN_LADDERS),
     Told(
         PAGE, "halving its steps changes it by\n${}$.", "printed by python -m data_tools references"
     ),
-    Told(PAGE, "at a relative ${}$ and", "given: a tolerance"),
-    Told(PAGE, "″ at ${}$. Begun anew", "given: a tolerance"),
+    Told(PAGE, "relative tolerance of ${}$ and", "given: a tolerance"),
+    Told(PAGE, "″ at ${}$. Restarted", "given: a tolerance"),
     Told(
         PAGE,
-        "it\nkeeps {}″ in {} ms, {} times as long as twelve nodes",
+        "it reaches {}″ in {} ms, {} times as long as twelve nodes",
         "run times: python tests/benchmarks/long_term.py",
     ),
 ]

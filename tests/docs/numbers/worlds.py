@@ -93,13 +93,13 @@ def tilt_of_the_moon() -> float:
 
 _ROW = "| {} | {} | {} |\n"
 MEASURED = [
-    Sentence(PAGE, "with theirs, {} times and {} times the $J_2$", shares),
+    Sentence(PAGE, "satellites, with {} times and {} times the $J_2$", shares),
     Sentence(
         PAGE,
-        "Our Moon's comes out {}° too large",
+        "The obliquity of the Moon comes out {}° too large",
         lambda: float(earthspin.cassini_states("moon").obliquity[0]) - OBLIQUITY.value,
     ),
-    Sentence(PAGE, "Moon leans {}° from the ecliptic", tilt_of_the_moon),
+    Sentence(PAGE, "Moon is inclined by {}° to the ecliptic", tilt_of_the_moon),
     Sentence(PAGE, "| Earth | {} | obliquity of IAU", lambda: halves()[0]),
     Sentence(
         PAGE,
@@ -137,7 +137,7 @@ MEASURED = [
         lambda: float(earthspin.precession(body="mars").precession_rate[-1]) - rate_of_mars(),
         within=2e-5,  # the obliquity of the other is that with nutation
     ),
-    Sentence(PAGE, f"| ours {_ROW}", lambda: rms(None, None)),
+    Sentence(PAGE, f"| earthspin {_ROW}", lambda: rms(None, None)),
     Sentence(PAGE, f"| start of La2004, our rate {_ROW}", lambda: rms(LA2004_START, None)),
     Sentence(
         PAGE, "| start of La2004, 7.597 ″/yr | {} | {} | {} |", lambda: rms(LA2004_START, 7.597)
@@ -154,7 +154,7 @@ TOLD = [
     Told(PAGE, "landers gave {}° ± {}° (Yoder", "published: Yoder & Standish 1997"),
     Told(PAGE, "La2004 states {} ″/yr", "published: README of the files of La2004"),
     Told(PAGE, "observed one is {} ± {} ″/yr", "published: Konopliv et al. 2016, 95 %"),
-    Told(PAGE, "less than its own {} ″/yr", "published: README of the files of La2003"),
+    Told(PAGE, "less than its stated {} ″/yr", "published: README of the files of La2003"),
     Told(PAGE, "| {} to {} kyr back | {} to {} kyr back | {} kyr to {} Myr back |", "given"),
     Told(PAGE, "| start of La2004, {} ″/yr |", "given"),
 ]
