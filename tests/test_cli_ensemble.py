@@ -37,7 +37,7 @@ def test_lines_for_programs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--members", "0"], "between 1 and"),
+        (["--members", "0"], "a number from 1 to"),
         (["--members", "nowhere.csv"], "there is no such file"),
         (["--workers", "0"], "give a number of workers"),
         (["--block", "0"], "give a whole number, 1 or more"),

@@ -45,7 +45,7 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
         outside = mjd[(mjd < first) | (mjd >= last)]  # as astropy interpolates
         if outside.size:
             raise UndefinedError(
-                f"{day_of(outside[0])} is outside the table of Earth orientation, which begins on "
+                f"{day_of(outside[0])} is outside the table of orientation, which begins on "
                 f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it"
             )
 

@@ -197,7 +197,7 @@ FIGURES = [
         plot_path,
     ),
     PageFigure(
-        "Measured skill",
+        "Error and coverage by horizon",
         "Mean absolute error of one coordinate and share of 95 % intervals that hold the observed "
         "pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other forecast "
         "from the same origins.",

@@ -64,7 +64,9 @@ def test_a_microsecond_through_a_century_is_refused_with_its_size(tmp_path: Path
     begun = time.perf_counter()
     with pytest.raises(SceneError, match=r"4733596800000001 times take 606 PB and do not fit"):
         earthspin.run(scene)
-    with pytest.raises(OutputError, match=r"4733596800000001 times take .* [PE]B, and .* free"):
+    with pytest.raises(
+        OutputError, match=r"4733596800000001 times take .* [PE]B, but only .* free"
+    ):
         earthspin.write_series(scene, tmp_path / "r.zarr")
     assert list(tmp_path.iterdir()) == []
     assert time.perf_counter() - begun < 10

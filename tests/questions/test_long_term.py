@@ -292,7 +292,7 @@ test_what_cannot_be_answered_is_refused = refused(
     ({"times": ["-1 Myr"], "accuracy": "1 mas"}, EarthspinError, "stay nearer"),
     ({"times": ["-1 kyr"], "orbit": "nowhere.npz"}, EarthspinError, "cannot be read"),
     ({"times": ["-1 kyr"], "orbit": 5}, SceneError, "path of a table"),
-    ({"times": ["-1 kyr"], "orbit": {"name": "x"}}, SceneError, "holds axes, coefficients"),
+    ({"times": ["-1 kyr"], "orbit": {"name": "x"}}, SceneError, "needs axes, coefficients"),
     call=lambda asked: earthspin.run(LongTerm(**asked)),
 )
 

@@ -132,7 +132,7 @@ test_what_is_wrong_is_named = refused(
     ("free-rotor", "rotor", ROTOR | {"omega": ["0 rad/s"] * 3}, "angular"),
     ("free-rotor", "rotor", ROTOR | {"omga": 1}, "did you mean 'omega'"),
     ("free-rotor", "rotor", ROTOR | {"points": 0}, "1 or more"),
-    ("free-rotor", "rotor", {"omega": ROTOR["omega"]}, "rotor.moments = None: give it"),
+    ("free-rotor", "rotor", {"omega": ROTOR["omega"]}, "rotor.moments = None: required"),
     ("free-rotor", "rotor", ROTOR | {"moments": {"A": 1, "B": 2, "C": 3}}, "A, B-A, C-A"),
     ("top", "top", TOP_TABLE | {"theta": "200 deg"}, "theta"),
     ("top", "top", TOP_TABLE | {"axial_moment": "3 kg m2"}, "axial_moment"),

@@ -250,7 +250,9 @@ MEASURED = [
         "gaps up to ten steps and {} days. These",
         lambda: LONGEST_DAYS,
     ),
-    Sentence(PAGE, "a fraction $(\\pi D/T)^2/2$: {} % over ten days, {} % over the tenth", cut_by_bridges),
+    Sentence(
+        PAGE, "a fraction $(\\pi D/T)^2/2$: {} % over ten days, {} % over the tenth", cut_by_bridges
+    ),
     Sentence(PAGE, "All methods accept steps up to {} days", lambda: LONGEST_STEP),
     Sentence(PAGE, "with known parameters: $T$ = {} d, with seasons", lambda: NEAR),
     Sentence(
@@ -309,8 +311,16 @@ TOLD = [
     Told(PAGE, "found {} ± {} d, one", "published: Nastula & Gross 2015"),
     Told("docs/coverage.md", "$T$ = {} d, $Q$ = 50", GIVEN),
     Told("docs/coverage.md", "excitation with 30 and {} % of", GIVEN),
-    Told("docs/coverage.md", "the fitted likelihood has {} d", GIVEN),
     Told(PAGE, "times the scatter, where {} is expected", ERROR),
     Told(PAGE, "For memories outside {} to {} days", GIVEN),
     Told(PAGE, "down to 98 for a true {}", GIVEN),
+    Told(PAGE, "its likelihood takes {} s for {} years in steps", "run times on one machine"),
+    Told(PAGE, "that of block means {} ms, and", "a run time on one machine"),
+    Told(
+        PAGE,
+        "the bias was {} ± {} d with a memory fixed at {} d, and is\n{} ± {} d ({} years, 40",
+        "measured with simulated records when the memory became a parameter",
+    ),
+    Told(PAGE, "the percentage of the {} %\nintervals", "given: the claim"),
+    Told(PAGE, "other records](coverage.md) of 65 and {} years", GIVEN),
 ]
