@@ -128,7 +128,11 @@ MEASURED = [
         )
     ),
     Sentence(PAGE, "by {}″ at −10,000.", lambda: apart(-1e4, of_iau)),
-    Sentence(PAGE, "not verified) beyond; the two solutions differ by {}″", lambda: apart(-1e4, of_series)),
+    Sentence(
+        PAGE,
+        "not verified) beyond; the two solutions differ by {}″",
+        lambda: apart(-1e4, of_series),
+    ),
     Sentence(
         PAGE,
         "without it we would be {}″ from the series at −10,000 and {}″, not {}″, at +10,000",

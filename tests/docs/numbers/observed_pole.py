@@ -250,7 +250,9 @@ MEASURED = [
         "gaps up to ten steps and {} days. These",
         lambda: LONGEST_DAYS,
     ),
-    Sentence(PAGE, "a fraction $(\\pi D/T)^2/2$: {} % over ten days, {} % over the tenth", cut_by_bridges),
+    Sentence(
+        PAGE, "a fraction $(\\pi D/T)^2/2$: {} % over ten days, {} % over the tenth", cut_by_bridges
+    ),
     Sentence(PAGE, "All methods accept steps up to {} days", lambda: LONGEST_STEP),
     Sentence(PAGE, "with known parameters: $T$ = {} d, with seasons", lambda: NEAR),
     Sentence(

@@ -282,7 +282,9 @@ TOLD = [
     Column(ROTORS, TABLE, "time", "run time: python -m tests.rotor.accuracy, and its like"),
     Column(ROTORS, TABLE, "family", "given: where the cases of a family are drawn from"),
     Told(
-        ROTORS, "If the error of a\ntop exceeds {}, the table also gives its ratio", "given: tests/top/accuracy.py, GOOD"
+        ROTORS,
+        "If the error of a\ntop exceeds {}, the table also gives its ratio",
+        "given: tests/top/accuracy.py, GOOD",
     ),
     Told(THEORY, "$J_2$ with $C = {}\\,Ma^2$", "by definition: a homogeneous sphere"),
     Told(THEORY, "a calendar with years of {} days", "by definition: the Julian year"),
