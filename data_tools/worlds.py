@@ -69,7 +69,7 @@ PUBLISHED = {
     ),
     "jupiter": Published(JUPITER_CONSTANT, True, "the published value has two digits"),
     "saturn": Published(
-        SATURN_CONSTANT, True, "Iapetus is left out here and carried in part by the published one"
+        SATURN_CONSTANT, True, "Iapetus is excluded here and partly included in the published rate"
     ),
 }
 

@@ -256,7 +256,7 @@ MEASURED = [
         lambda: [core("core_nutation_period"), core("core_nutation_quality")],
         (0.0, 5.0),
     ),
-    Sentence(PAGE, "20,000), and leaves\n{} uas rms.", partial(core, "apart_rms")),
+    Sentence(PAGE, "20,000), with a residual of {} uas rms.", partial(core, "apart_rms")),
     Sentence(
         PAGE,
         "differ\nby {}, {} and {} uas from REN-2000, neighbours included",

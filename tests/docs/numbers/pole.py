@@ -149,7 +149,8 @@ MEASURED = [
     ),
     Sentence(
         PAGE,
-        "the rotation axis is {} mas from the angular momentum on average and varies by {} and\n{} mas rms.",
+        "the rotation axis is {} mas from the angular momentum on average and varies by {} and\n"
+        "{} mas rms.",
         partial(stand, "rotation"),
     ),
     Sentence(
