@@ -39,7 +39,7 @@ def at_horizons(tree: Result) -> Table:
         f"Observations: {attrs['references']} up to {attrs['origin']}. Parameters: "
         f"{attrs['parameters'].split(':')[0]}. Half-widths are 95 %."
     )
-    headers = ("days ahead", "date", "x, arcsec", "y, arcsec")
+    headers = ("time after the origin (days)", "date", "x, arcsec", "y, arcsec")
     return Table("Forecast of polar motion", headers, rows, words)
 
 
@@ -77,7 +77,7 @@ def offsets(tree: Result) -> Table:
     )
     return Table(
         "Forecast of the celestial pole offsets",
-        ("days ahead", "date", "dX, mas", "dY, mas"),
+        ("time after the origin (days)", "date", "dX, mas", "dY, mas"),
         rows,
         words,
     )
@@ -177,7 +177,7 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
     errors.set(xscale="log", yscale="log", ylabel="mean absolute error (mas)")
     errors.set_yticks([0.1, 1, 10], ["0.1", "1", "10"])
     errors.legend(loc="lower right")
-    shares.set(xlabel="days ahead", ylabel="coverage (%)", ylim=(80, 101))
+    shares.set(xlabel="time after the origin (days)", ylabel="coverage (%)", ylim=(80, 101))
     shares.set_xticks(ROWS, [str(day) for day in ROWS])
     shares.minorticks_off()
     return figure

@@ -21,7 +21,7 @@ from earthspin.views.forecast import plot_coordinates, plot_path, plot_skill
 ahead = earthspin.forecast(365, "1 d", "2018-06-01", file="c04")
 seen = earthspin.polar_motion(span=("2018-06-02", "2019-06-01"))
 
-figure = plot_coordinates(ahead)
+figure = plot_coordinates(ahead, figure=plt.figure(figsize=(7.5, 5.2)))
 for ax, name in zip(figure.axes, ("x", "y"), strict=True):
     ax.plot(seen.time, seen[name] * 1e3, color="black", lw=1, label="observed")
     ax.legend()
@@ -46,4 +46,4 @@ ax.plot(seen.y * 1e3, seen.x * 1e3, color="black", lw=1)
 #
 # *Next:* ``earthspin.run_tree("forecast")["skill"]`` has the numbers.
 
-plot_skill(ahead)
+plot_skill(ahead, figure=plt.figure(figsize=(7, 5.6)))
