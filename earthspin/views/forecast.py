@@ -39,7 +39,7 @@ def at_horizons(tree: Result) -> Table:
         f"Observations: {attrs['references']} up to {attrs['origin']}. Parameters: "
         f"{attrs['parameters'].split(':')[0]}. Half-widths are 95 %."
     )
-    headers = ("time after the origin (days)", "date", "x, arcsec", "y, arcsec")
+    headers = ("days ahead", "date", "x, arcsec", "y, arcsec")
     return Table("Forecast of polar motion", headers, rows, words)
 
 
@@ -77,7 +77,7 @@ def offsets(tree: Result) -> Table:
     )
     return Table(
         "Forecast of the celestial pole offsets",
-        ("time after the origin (days)", "date", "dX, mas", "dY, mas"),
+        ("days ahead", "date", "dX, mas", "dY, mas"),
         rows,
         words,
     )
