@@ -62,6 +62,7 @@ USED = {
     "nutation": KERNEL | LEAST_SQUARES,
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
     "polar-motion": {"scipy.special"},
+    "forecast": {"scipy.linalg"},
     "free-rotor": {"scipy.special"},
     "top": {"scipy.special"},
     "spheroid": {"scipy.special"},
