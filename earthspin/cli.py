@@ -427,7 +427,7 @@ def _print_written(*paths: str | Path, file: Any = None) -> None:
 
 
 def _open(page: Path) -> None:
-    """Open a page in the browser that the system prefers, or say that there is none."""
+    """Open a page in the default browser, or print that there is none."""
     import webbrowser
 
     if not webbrowser.open(page.resolve().as_uri()):

@@ -20,6 +20,7 @@ from typing import Annotated, Any, Self, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import J2000_JD
 from earthspin.errors import SceneError, Where
 from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
 
@@ -160,7 +161,7 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
         with _tables_at_hand(), warnings.catch_warnings():
             warnings.simplefilter("error")
             tdb = time.tdb
-            days_tdb = (tdb.jd1 - 2451545.0) + tdb.jd2
+            days_tdb = (tdb.jd1 - J2000_JD) + tdb.jd2
         # of the last day before it, the library does not warn
         is_known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
     except Exception:  # the library and ERFA have kinds of their own, warnings among them
@@ -176,7 +177,7 @@ def _days_of(time: Any, where: Where) -> Any:
     """Convert a time of astropy or Skyfield to days from J2000.0 TDB."""
     if not is_skyfield_time(time):
         return _days_from_time(time, where)
-    days_tdb = (time.whole - 2451545.0) + time.tdb_fraction
+    days_tdb = (time.whole - J2000_JD) + time.tdb_fraction
     if not np.all(np.isfinite(days_tdb)):
         raise where.error("NaN", "NaN is no date")
     return days_tdb

@@ -27,9 +27,11 @@ from astropy.coordinates import (
 )
 from astropy.time import Time
 
-from earthspin.constants import DAY
+from earthspin.constants import J2000_JD
+from earthspin.dates import datetime64, days
+from earthspin.engine.labels import si
 from earthspin.engine.question import Question
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, Where
 from earthspin.scenes import Scene, load_scene, run, run_tree
 from earthspin.secular.angles import equator_and_equinox
 from earthspin.units import FloatArray
@@ -38,9 +40,6 @@ if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
 __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
-
-#: Julian date of J2000.0.
-_J2000 = 2451545.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,11 +80,10 @@ class Model:
         several = set(answer.dims) - {"time", "epoch", "axis", "component", "perturber"}
         several -= {"quaternion", "effect", "cause"}
         if several:
-            problem = "give the answer for one body; select a member by a question of its own"
+            problem = "give the answer for a single body or member"
             raise SceneError("model", f"an answer along {', '.join(map(str, several))}", problem)
-        first = answer.time.values[0] if "time" in answer.coords else np.datetime64("2000-01-01")
-        days = float((first - np.datetime64("2000-01-01T12")) / np.timedelta64(1, "us")) / 864e8
-        return cls(question, days, answer.attrs["scene"])
+        first = float(days(answer.time, Where("time"))[0]) if "time" in answer.coords else 0.0
+        return cls(question, first, answer.attrs["scene"])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and other.text == self.text
@@ -97,7 +95,7 @@ class Model:
         return f"<answer to '{self.question.word}'>"
 
     def at(self, **times: Any) -> Question:
-        """Give the question other times."""
+        """Build the question with other times."""
         own = {
             name: getattr(self.question, name)
             for name in self.question.given
@@ -108,61 +106,55 @@ class Model:
 
 
 @lru_cache(maxsize=64)
-def _solved(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
     """Matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of pole or attitude, rad."""
-    return {"long-term": _long_term, "pole": _pole, "rotation": _rotation}[model.question.word](
-        model, days
-    )
+    solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
+    return solvers[model.question.word](model, np.array(times))
 
 
-def _long_term(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Mean equator and equinox of date."""
-    times, place = np.unique(days, return_inverse=True)
-    tree = run_tree(model.at(times=times * u.d), sections=["matrices"])
+    different, index = np.unique(times, return_inverse=True)
+    tree = run_tree(model.at(times=different * u.d), sections=["matrices"])
     section = tree["matrices"].to_dataset()
-    error = np.radians(section.matrix_error.values / 3600)
-    return section.matrix.values[place], error[place]
+    return section.matrix.values[index], si(section.matrix_error).values[index]
 
 
-def _pole(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Equator of the figure axis, with nutation, and its node on the ecliptic of date or orbit."""
-    answer = run(model.at(times=_times(days))).sel(axis="figure")
+    answer = run(model.at(times=_tdb(times))).sel(axis="figure")
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
     if body.needed("pole").of_the_iau:
-        normal = erfa.ecm06(_J2000, np.array(days))[:, 2].T
+        normal = erfa.ecm06(J2000_JD, times)[:, 2].T
     else:
         own = body.needed("pole").orbit_normal(body.orbit_pole)
-        normal = np.repeat(own[:, np.newaxis], len(days), axis=1)
-    return equator_and_equinox(axis, normal), answer.direction_error.values * u.uas.to(u.rad)
+        normal = np.repeat(own[:, np.newaxis], times.size, axis=1)
+    return equator_and_equinox(axis, normal), si(answer.direction_error).values
 
 
-def _rotation(model: Model, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Principal axes of the body."""
-    if min(days) < model.first:
-        start = np.datetime_as_string(
-            np.datetime64("2000-01-01T12") + np.timedelta64(round(model.first * DAY), "s")
-        )
+    if times.min() < model.first:
+        start, asked = datetime64(np.array([model.first, times.min()]))
         problem = f"the rotation starts at {start} TDB; take a later time"
-        raise SceneError("obstime", f"{min(days):.3f} d from J2000.0", problem)
-    answer = run(model.at(times=_times((model.first, *days)))).isel(time=slice(1, None))
-    matrix = rotations(answer).inv().as_matrix()
-    error = answer.attitude_error * u.Unit(answer.attitude_error.attrs["units"]).to(u.rad)
-    return matrix, error.values
+        raise SceneError("obstime", str(asked), problem)
+    answer = run(model.at(times=_tdb(np.array([model.first, *times])))).isel(time=slice(1, None))
+    return rotations(answer).inv().as_matrix(), si(answer.attitude_error).values
 
 
-def _times(days: tuple[float, ...]) -> Time:
-    return Time(_J2000, np.array(days), format="jd", scale="tdb")
+def _tdb(times: FloatArray) -> Time:
+    """Convert days from J2000.0 TDB to times of astropy."""
+    return Time(J2000_JD, times, format="jd", scale="tdb")
 
 
 def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
     """Matrices and errors at the times of a frame, of their shape."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
-    time = obstime.tdb
-    days = (time.jd1 - _J2000) + time.jd2
-    matrix, error = _solved(model, tuple(np.ravel(days).tolist()))
-    return matrix.reshape(*np.shape(days), 3, 3), error.reshape(np.shape(days))
+    times = days(obstime.reshape(-1), Where("obstime"))
+    matrix, error = _solved(model, tuple(times.tolist()))
+    return matrix.reshape(*obstime.shape, 3, 3), error.reshape(obstime.shape)
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
@@ -178,7 +170,7 @@ class _ModelAttribute(Attribute):  # type: ignore[misc]
 
 
 class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
-    """Frame whose axes an answer gives."""
+    """Frame with the axes of an answer."""
 
     default_representation = SphericalRepresentation
 
@@ -234,7 +226,7 @@ class EquatorOfDate(_Rotated):
             RepresentationMapping("lat", "dec"),
         ]
     }
-    obstime = TimeAttribute(default=Time(_J2000, format="jd", scale="tdb"))
+    obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute("long-term", "pole")
 
 
@@ -254,7 +246,7 @@ class BodyFixed(_Rotated):
         If `model` is no such answer, or if `obstime` is before its start.
     """
 
-    obstime = TimeAttribute(default=Time(_J2000, format="jd", scale="tdb"))
+    obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute("rotation")
 
 
@@ -290,8 +282,9 @@ class SkyfieldFrame:
 
     def rotation_at(self, t: Any) -> FloatArray:
         """Matrix from the ICRF at a time of Skyfield, shape (3, 3) or (3, 3, n)."""
-        time = Time(np.asarray(t.whole), np.asarray(t.tdb_fraction), format="jd", scale="tdb")
-        return np.moveaxis(_at(self.model, time)[0], (-2, -1), (0, 1))
+        times = days(t, Where("t"))
+        matrix, _ = _solved(self.model, tuple(times.tolist()))
+        return np.moveaxis(matrix.reshape(*t.shape, 3, 3), (-2, -1), (0, 1))
 
 
 def rotations(answer: xr.Dataset) -> Rotation:

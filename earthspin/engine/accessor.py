@@ -149,11 +149,11 @@ class Answer:
         return coordinates
 
     def to_iers_table(self) -> IERS_A:
-        """Give a table of Earth orientation of astropy from an answer of `forecast`.
+        """Return an astropy table of Earth orientation from an answer of `forecast`.
 
         Polar motion and celestial pole offsets are observed up to the origin and forecast after
         it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
-        are refused, also where astropy only warns.
+        are refused, even if astropy would only warn.
 
         Returns
         -------
@@ -162,8 +162,8 @@ class Answer:
         Raises
         ------
         SceneError
-            If it is another answer, if the forecast used polar motion without a table, or if it
-            reaches farther than the UT1 - UTC of finals2000A.
+            If the answer is not a forecast, if the forecast used polar motion without a table, or
+            if it reaches farther than the UT1 - UTC of finals2000A.
 
         Examples
         --------
@@ -177,7 +177,8 @@ class Answer:
         if question.word != "forecast":
             problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
             raise SceneError("to_iers_table", question.word, problem)
-        forecast = import_module("earthspin.questions.forecast")  # which stands above the engine
+        # imported by name, because the engine is below the questions
+        forecast = import_module("earthspin.questions.forecast")
         return forecast.iers_table(question)
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:

@@ -94,9 +94,8 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     if existing is not None and existing != unfinished.digest(request) and not replace:
         raise OutputError(place, "a store of another question exists there", "move it away")
     if existing == unfinished.digest(request):
-        with unfinished.locked_folder(
-            target, request
-        ) as left:  # by a run that was ended when all was done
+        # a run that was stopped after its last block can have left a folder
+        with unfinished.locked_folder(target, request) as left:
             if left is not None:
                 shutil.rmtree(left)
         return verify(place)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, in_a_sentence
-from earthspin.constants import ARCSEC, MAS
+from earthspin.constants import ARCSEC, J2000_JD, MAS
 from earthspin.dates import Span, days
 from earthspin.engine.labels import si
 from earthspin.engine.variables import Labels, Variables, labels
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ComplexArray = NDArray[np.complex128]
 
 #: Modified Julian date of J2000.0.
-MJD = 51544.5
+MJD = J2000_JD - 2400000.5
 #: Smallest plausible value of the largest distance from the conventional pole, mas.
 SMALLEST = 0.1
 #: Name of the daily table C04 of the IERS, which astropy includes.

@@ -30,7 +30,7 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.errors import SceneError, SeriesError, Where
-from earthspin.parts.pole_table import ComplexArray, TableFile, complex_pole
+from earthspin.parts.pole_table import MJD, ComplexArray, TableFile, complex_pole
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
@@ -47,8 +47,6 @@ from earthspin.wobble.forecast import Forecast as Predicted
 if TYPE_CHECKING:
     from earthspin.sky.iers_table import PoleTable
 
-#: Day of the modified Julian date 0 from J2000.0.
-_MJD = 51544.5
 #: How far a date may be from midnight, d.
 _MIDNIGHT = 1e-6
 
@@ -154,7 +152,7 @@ class Record:
     Attributes
     ----------
     time : array, shape (n,)
-        Days from J2000.0, one after the other.
+        Consecutive days from J2000.0.
     p : complex array, shape (n,)
         x - i y, mas.
     name : str
@@ -186,7 +184,7 @@ def record(file: str | Path | GivenPole, origin: float | None) -> Record:
         if "bridged" in table.repairs:
             raise SceneError("file", str(file), f"{table.repairs}; a forecast needs every day")
         p = ((table.x - 1j * table.y) / MAS).astype(complex)
-        whole = Record(table.mjd - _MJD, p, f"IERS {table.name}", table.sha256)
+        whole = Record(table.mjd - MJD, p, f"IERS {table.name}", table.sha256)
     steps = np.diff(whole.time)
     if np.any(abs(steps - 1) > _MIDNIGHT):
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
@@ -196,7 +194,7 @@ def record(file: str | Path | GivenPole, origin: float | None) -> Record:
 
 
 def _until(whole: Record, origin: float | None) -> Record:
-    """Rows up to the origin."""
+    """Select the rows up to the origin."""
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
@@ -312,7 +310,7 @@ class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
 
     mean_absolute_error: Value = number("mas", "mean absolute error of the forecast", short="MAE")
     root_mean_square: Value = number("mas", "root mean square error of the forecast", short="RMS")
-    coverage: Value = number("1", "share of 95 % intervals that hold the observed pole")
+    coverage: Value = number("1", "share of 95 % intervals that contain the observed pole")
     other_mean_absolute_error: Value = number(
         "mas",
         "mean absolute error of Bulletin A on the same releases, or of least squares with "
@@ -349,12 +347,12 @@ def skill() -> Skill:
 class BulletinA(AheadOfOrigin):
     """Prediction of Bulletin A."""
 
-    bulletin_a_x: Pair = measured("arcsec", "x as Bulletin A predicts it")
-    bulletin_a_y: Pair = measured("arcsec", "y as Bulletin A predicts it")
+    bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
+    bulletin_a_y: Pair = measured("arcsec", "y predicted by Bulletin A")
 
 
 def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Leave Bulletin A out where the table has no prediction from the same origin as far ahead."""
+    """Leave Bulletin A out if the table has no prediction from the origin over the horizon."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
@@ -371,7 +369,7 @@ def bulletin_a(file: str | Path | GivenPole, record: Record, days: float, step: 
     assert table is not None
     rows = _shown(days, step)
     return BulletinA(
-        time=datetime64(table.mjd[rows] - _MJD),
+        time=datetime64(table.mjd[rows] - MJD),
         bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
         bulletin_a_y=(table.y[rows], NORMAL_95 * table.y_error[rows]),
     )
@@ -387,7 +385,7 @@ class AheadOffsets(AheadOfOrigin):
 def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
     """Observed celestial pole offsets of a table up to a day from J2000.0, all if None."""
     table = read_pole_offsets(file)
-    return table if last is None else table.between(table.mjd[0], last + _MJD)
+    return table if last is None else table.between(table.mjd[0], last + MJD)
 
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -398,15 +396,15 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 
 
 def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Leave the offsets out where the table holds too few of them up to the origin."""
+    """Leave the offsets out if the table has too few of them up to the origin."""
     from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
     from earthspin.nutation.offset_prediction import too_short
 
     if isinstance(file, GivenPole):
-        return "polar_motion holds no celestial pole offsets; name a table"
+        return "polar motion has no celestial pole offsets; name a table"
     try:
         table = offsets_until(file, origin)
-        newest = read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + _MJD)
+        newest = read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + MJD)
     except SeriesError as error:
         return str(error)
     if "bridged" in table.repairs:
@@ -424,9 +422,9 @@ def pole_offsets(
     """Forecast of the celestial pole offsets, from observed ones up to the origin."""
     assert not isinstance(file, GivenPole)
     table = offsets_until(file, float(record.time[-1]))
-    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + _MJD
+    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
     value, error = (pair.T for pair in predicted_offsets(table, mjd))
-    source = {"references": f"IERS {table.name}", "newest_row": _day(table.mjd[-1] - _MJD)}
+    source = {"references": f"IERS {table.name}", "newest_row": _day(table.mjd[-1] - MJD)}
     return AheadOffsets(
         time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
@@ -472,7 +470,7 @@ def iers_table(question: Forecast) -> PoleTable:
     if isinstance(file, GivenPole):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
     seen: Record = results["record"]
-    mjd, horizon = seen.time + _MJD, int(question.days)
+    mjd, horizon = seen.time + MJD, int(question.days)
     offsets = offsets_until(file, float(seen.time[-1]))
     rapid = file_of(file) if offsets.name == "finals2000A" else finals_path()
     if (reach := last_ut1(rapid) - mjd[-1]) < horizon:

@@ -1,4 +1,4 @@
-"""Tables of Earth orientation for astropy, with a pole of our own."""
+"""Tables of Earth orientation for astropy, with polar motion and pole offsets replaced."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 class PoleTable(iers.IERS_A):  # type: ignore[misc]
     """Table of Earth orientation that refuses dates outside it.
 
-    The tables of astropy warn and take the mean pole, or zero, in some transformations.
+    In some transformations the tables of astropy only warn, and use the mean pole or zero.
     """
 
     iers_table = None
@@ -65,8 +65,8 @@ def with_pole(
     finals : Path
         File of that layout; UT1 - UTC is taken from it, observed or predicted.
     pole, offsets : array, shape (3, n)
-        Modified Julian dates, daily, and x and y or dX and dY, rad. The table ends with the first
-        to end, and rows before they begin stay as they are.
+        Daily modified Julian dates, and x and y or dX and dY, rad. The table ends where the shorter
+        series ends; rows before a series begins are unchanged.
     observed : tuple of float
         Modified Julian dates of the last observed row of each.
     """

@@ -4,8 +4,8 @@ With p = x - i y in mas,
 
     p' = i s (p - chi),   chi = fast + slow,   s = 2 pi / T (1 + i / 2 Q),
 
-where the slow part of the excitation forgets within `SLOW_MEMORY` and the fast part is noise,
-unequal and correlated in the two coordinates, that passes two filters of first order. Circles of
+where the slow part of the excitation has the correlation time `SLOW_MEMORY` and the fast part is
+noise, unequal and correlated in the two coordinates, after two filters of first order. Circles of
 a year and of half a year, forward and backward, change their amplitudes at random, and so do the
 level and the slope of the slow pole. A Kalman filter follows all of it through the last 15 years.
 """

@@ -101,16 +101,16 @@ class Likelihood:
         decay, red, background, white, memory : float
             Logarithms: of the decay, 1/d; of the red noise that drives the wobble over the
             white, at its frequency; of the variances of background and of white noise in a
-            block, over what drives the wobble in a year; of the time in which red excitation and
-            background forget, d.
+            block, over what drives the wobble in a year; of the correlation time of red excitation
+            and background, d.
         """
-        s, forgets = complex(MIDDLE + rate, np.exp(decay)), float(np.exp(memory))
-        flat = abs(1j * s.real + 1 / forgets) ** 2 / abs(s) ** 2
+        s, tau = complex(MIDDLE + rate, np.exp(decay)), float(np.exp(memory))
+        flat = abs(1j * s.real + 1 / tau) ** 2 / abs(s) ** 2
         oscillator = DrivenOscillator(
             s,
-            forgets,
+            tau,
             white=1 / YEAR,
-            red=float(np.exp(red)) * flat * forgets / (2 * YEAR),
+            red=float(np.exp(red)) * flat * tau / (2 * YEAR),
             background=float(np.exp(background)),
         )
         factors, lags = oscillator.of_means(self.size, MIDDLE)

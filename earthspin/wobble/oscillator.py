@@ -1,7 +1,7 @@
 """Damped oscillator driven by white and red noise: its modes and its covariance.
 
-Polar motion obeys p' = i s (p - chi). An excitation chi that forgets within a time tau adds a
-second mode of rate -1/tau to the free one of rate i s. With z the amplitudes of the two modes,
+Polar motion obeys p' = i s (p - chi). An excitation chi with the correlation time tau adds
+a second mode of rate -1/tau to the free one of rate i s. With z the amplitudes of the two modes,
 
     z' = L z + n,   p = z1 + z2,   cov(n) = N,   cov(z) = P_ij = -N_ij/(l_i + conj l_j),
 
@@ -28,7 +28,7 @@ class DrivenOscillator:
     s : complex
         Frequency of the free mode and, as its imaginary part, its decay; rad/d.
     memory : float
-        Time in which red excitation and background forget, d.
+        Correlation time of red excitation and background, d.
     white : float
         Variance that white noise adds to p in a day.
     red : float

@@ -1,4 +1,4 @@
-"""Forecast of the pole: our model with several lengths of record, and the usual ways."""
+"""Error against run time for a forecast of the pole, by this package and by common methods."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from earthspin.wobble.forecast import OBSERVATION, PERIOD, SHIPPED, FastExcitati
 from earthspin.wobble.record import YEAR
 
 Complex = NDArray[np.complex128]
-#: Forecast of so many days from so many years of a record in mas, both x - i y.
-Way = Callable[[Complex, int, float], Complex]
+#: Function that returns a forecast, of a record (x - i y, mas), the days ahead and the years used.
+Predictor = Callable[[Complex, int, float], Complex]
 
-#: Days ahead, and bounds on the mean absolute error of our last setting, mas: 1.5 times those
-#: measured for 2014 to 2025 with many origins.
+#: Days ahead, and bounds on the mean absolute error of the last setting of this package, mas: 1.5
+#: times the errors measured for 2014 to 2025 with many origins.
 BOUNDS = {30: 7.3, 90: 15.0}
-#: Modified Julian date of the first origin, 2014-01-01, days between origins, how many, and every
-#: which of them a quick ladder has.
+#: Modified Julian date of the first origin (2014-01-01), days between origins, number of origins,
+#: and interval of the origins that a quick ladder uses.
 FIRST, EVERY, ORIGINS, QUICK = 56658, 61, 70, 10
-QUICK_EXCESS = 2.0  # few origins tell a mean error to a third
+QUICK_EXCESS = 2.0  # a few origins determine a mean error to a third
 YEARS, USUAL_YEARS = (5.0, 10.0, 15.0), (5.0, 8.0, 15.0)
-#: Order of the autoregression of the usual way.
+#: Order of the autoregression after least squares.
 USUAL_ORDER = 40
 
 
@@ -106,27 +106,31 @@ def _observed() -> tuple[FloatArray, Complex]:
 
 
 def origins() -> NDArray[np.intp]:
-    """Numbers of the first rows after each origin."""
+    """Index of the first row after each origin."""
     return np.searchsorted(_observed()[0], FIRST + EVERY * np.arange(ORIGINS)) + 1
 
 
 @cache
 def _fitted_once() -> FastExcitation:
-    """Parameters fitted before the first origin, for all of them."""
+    """Parameters fitted before the first origin and used for all origins."""
     return fit(_observed()[1][: origins()[0]])
 
 
 def _setting(
-    way: Way, years: float, days: int, ends: NDArray[np.intp], scored: Way | None = None
+    predictor: Predictor,
+    years: float,
+    days: int,
+    ends: NDArray[np.intp],
+    scored: Predictor | None = None,
 ) -> Setting:
     p = _observed()[1]
 
-    def error(way: Way, end: int) -> FloatArray:
-        off = complex(way(p[:end], days, years)[-1] - p[end + days - 1])
+    def error(predictor: Predictor, end: int) -> FloatArray:
+        off = complex(predictor(p[:end], days, years)[-1] - p[end + days - 1])
         return np.array([off.real, off.imag])
 
     return Setting(
         f"{years:g} years" if years else "",
-        lambda: (error(way, int(ends[0])), max(1, round(years * YEAR))),
-        error_values=lambda: np.array([error(scored or way, int(end)) for end in ends]),
+        lambda: (error(predictor, int(ends[0])), max(1, round(years * YEAR))),
+        error_values=lambda: np.array([error(scored or predictor, int(end)) for end in ends]),
     )
