@@ -116,8 +116,9 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of what the scene says; ``"body.j2"`` reaches into a table. Plain
-        numbers are in SI units here; those in a scene file carry their units.
+        Keys to set instead of those of the scene; ``"body.j2"`` reaches into a table. Keys that
+        exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain numbers
+        are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
@@ -200,6 +201,10 @@ def _changed(
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)
+    for group in question.exclusive:  # `times` replace the scene's `span` and `step`
+        if not changes.keys().isdisjoint(group):
+            others = {key for other in question.exclusive if other != group for key in other}
+            table = {key: table[key] for key in table if key not in others - changes.keys()}
     return question.from_table(table, source=source, title=title, typed=typed)
 
 

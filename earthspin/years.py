@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import J2000, Listed, days, first_and_last, microseconds
-from earthspin.errors import Where
+from earthspin.errors import UnitsError, Where
 from earthspin.units import FloatArray, Number, Plain, quantity
 
 #: How far from J2000.0 a time may lie, and how short a step may be, s.
@@ -36,7 +36,7 @@ def seconds(value: Any, where: Where) -> float:
 
     Raises
     ------
-    SceneError, UnitsError
+    SceneError
         If it is neither.
     """
     if isinstance(value, str):
@@ -56,7 +56,11 @@ def seconds(value: Any, where: Where) -> float:
         or isinstance(value, np.timedelta64)
     ):
         return microseconds(value, where) * 1e-6
-    duration = quantity(value, "s", where, EXAMPLE)
+    try:
+        duration = quantity(value, "s", where, EXAMPLE)
+    except UnitsError:
+        problem = f"give a time from J2000.0 like '{EXAMPLE}', or a date like '-3000-01-01'"
+        raise where.error(value, problem) from None
     if np.ndim(duration) != 0:
         raise where.error(value, f"give one time, like '{EXAMPLE}'")
     if abs(duration) > FARTHEST:

@@ -73,8 +73,9 @@ def test_every_date_is_that_of_the_calendar_of_python(date: dt.date) -> None:
 
 test_what_is_no_time_is_refused = refused(
     (-65.0, "give it with its unit, like '-65 kyr'"),
-    ("-65", "is not a value in units of s"),
-    ("-65 km", "is not a value in units of s"),
+    ("-65", "like '-65 kyr', or a date"),
+    ("-65 km", "like '-65 kyr', or a date"),
+    ("3000 BD", "like '-65 kyr', or a date"),
     ("2 Gyr", "at most 1 Gyr"),
     ("-3000-02-30", "there is no such date"),
     ("2001-13-01", "no such date"),

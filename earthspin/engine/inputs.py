@@ -23,6 +23,9 @@ from earthspin.units import Number, by_name
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Names of the numbers that users know by their symbols.
+_SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", "GM": "body.gm"}
+
 
 @dataclass(frozen=True)
 class Input:
@@ -103,7 +106,10 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
         short = name.removeprefix(f"{question.table}.") if question.table else name
         known = every.get(name) or every.get(short)
         if known is None:
-            raise where.error(name, nearest(name, every))
+            symbol = _SYMBOLS.get(name)
+            raise where.error(
+                name, f"write '{symbol}'" if symbol in every else nearest(name, every)
+            )
         inputs[name] = replace(known, name=name)
     chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
     for entry in inputs.values():

@@ -12,7 +12,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
-from earthspin.dates import Step, datetime64
+from earthspin.dates import Spacing, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
@@ -123,7 +123,9 @@ class Forecast(
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
         365.0, doc="horizon, 730 days at most"
     )
-    step: Step = key("1 d", doc="time between two epochs, a whole number of days")
+    step: Annotated[float, Spacing(example="1 d")] = key(
+        "1 d", doc="time between two epochs, a whole number of days"
+    )
     origin: Annotated[float, Epoch()] | None = key(
         None, doc="last day whose observation is used; the newest observed day if not given"
     )

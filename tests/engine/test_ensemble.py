@@ -433,6 +433,7 @@ test_bad_members_are_refused = refused(
     (NAN.fillna(1e-3).astype(str), "give finite numbers"),
     ({"n": 3}, "no input of this question"),
     ({"n": 3, "body.j": {"normal": [1, 2]}}, "did you mean 'body.j"),
+    ({"n": 3, "H": {"normal": [1, 2]}}, "write 'body.dynamical_flattening'"),
     ({"n": 3, "body.name": {"choice": [1, 2]}}, "allowed"),
     ({"n": 3, "body.j2": 5}, "a table like normal"),
     ({"n": 3, "body.j2": {"gauss": [1, 2]}}, "give one of normal, uniform, choice, grid"),

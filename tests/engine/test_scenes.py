@@ -91,6 +91,16 @@ def test_changes_reach_into_tables() -> None:
         load_scene("torque", {"step.size": 1})
 
 
+def test_a_key_replaces_the_keys_that_it_excludes() -> None:
+    times = ["2020-01-01", "2021-01-01"]
+    question = load_scene("pole", {"times": times})
+    assert question.given == {"title", "times"}
+    again = load_scene(question, {"span": times, "step": "1 d"})
+    assert again.given == {"title", "span", "step"}
+    with pytest.raises(earthspin.SceneError, match="either times, or span and step"):
+        earthspin.load_scene("pole", {"times": times, "step": "1 d"})
+
+
 def test_a_scene_in_python_takes_bodies_and_words() -> None:
     scene = Scene(compute="torque", body=EARTH, perturbers=["sun", MOON])
     assert scene.perturbers[1] is MOON
