@@ -97,8 +97,8 @@ def test_a_key_replaces_the_keys_that_it_excludes() -> None:
     assert question.given == {"title", "times"}
     again = load_scene(question, {"span": times, "step": "1 d"})
     assert again.given == {"title", "span", "step"}
-    with pytest.raises(earthspin.SceneError, match="either times, or span and step"):
-        earthspin.load_scene("pole", {"times": times, "step": "1 d"})
+    with pytest.raises(SceneError, match="either times, or span and step"):
+        load_scene("pole", {"times": times, "step": "1 d"})
 
 
 def test_a_scene_in_python_takes_bodies_and_words() -> None:
